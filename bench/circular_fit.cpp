@@ -194,9 +194,9 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
 // ---- tables -----------------------------------------------------------------------------------------------------
 
 struct Ripple {
-    double insideMost = 0;  // largest |K − 1|, r < 0.9
-    double insideRms = 0;   // root mean square of K − 1, r < 0.9
-    double highest = 0;     // of K, r > 1.1 within the square
+    double insideMax = 0;  // largest |K − 1|, r < 0.9
+    double insideRms = 0;  // root mean square of K − 1, r < 0.9
+    double highest = 0;    // of K, r > 1.1 within the square
     double lowest = 0;
 };
 
@@ -211,7 +211,7 @@ Ripple rippleOf(const Kernel& kernel, double extent) {
         const double value = circularProfile(kernel, u);
         if (u < inside) {
             squares += (value - 1) * (value - 1) * step / inside;
-            ripple.insideMost = std::max(ripple.insideMost, std::abs(value - 1));
+            ripple.insideMax = std::max(ripple.insideMax, std::abs(value - 1));
         } else if (u > outside) {
             ripple.highest = std::max(ripple.highest, value);
             ripple.lowest = std::min(ripple.lowest, value);
@@ -279,7 +279,7 @@ void printRow(const Kernel& kernel, double extent) {
     const Ripple ripple = rippleOf(kernel, extent);
     fmt::print("{:>2} {:>6.3f} {:>7.5f} {:>8.2f}{:>8.2f} {:>7.3f} {:>8.3f} {:>8.3f} {:>8.3f}\n", kernel.size(), extent,
                diskProfileError(kernel, extent, 1), roundingAmplification(kernel, extent, 1), weightSum(kernel),
-               ripple.insideMost, ripple.insideRms, ripple.highest, ripple.lowest);
+               ripple.insideMax, ripple.insideRms, ripple.highest, ripple.lowest);
 }
 
 void printTables(const std::vector<Kernel>& kernels) {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -80,12 +80,12 @@ FramePlan drawnWhole(const World& world, FramePlan plan) {
 
 std::string differences(const Image& a, const Image& b) {
     std::size_t count = 0;
-    float most = 0;
+    float max = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         count += a.pixels[i] != b.pixels[i] ? 1 : 0;
-        most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+        max = std::max(max, std::abs(a.pixels[i] - b.pixels[i]));
     }
-    return count == 0 ? "same image" : fmt::format("{} VALUES DIFFER, by up to {:.3g}", count, most);
+    return count == 0 ? "same image" : fmt::format("{} VALUES DIFFER, by up to {:.3g}", count, max);
 }
 
 double millions(std::uint64_t count) {

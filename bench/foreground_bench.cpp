@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
-#include "plan/swept_work.h"
+#include "plan/lens_cells/swept_work.h"
 #include "render/aov/work.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -70,7 +70,7 @@ void print(const PreparedFrame& frame, const Row& row, const Row& unlimited) {
                lodModeName(row.lod), std::isinf(row.limit) ? "none" : fmt::format("{:.0f}", row.limit),
                row.milliseconds, unlimited.milliseconds / row.milliseconds, row.cpuMilliseconds,
                unlimited.cpuMilliseconds / row.cpuMilliseconds, static_cast<double>(row.plan.trianglesDrawn) / 1e6,
-               work.mean, work.most, swept, ofUnlimited / swept);
+               work.mean, work.max, swept, ofUnlimited / swept);
 }
 
 void measure(const Figure& figure) {

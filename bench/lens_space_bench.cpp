@@ -25,7 +25,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "eval/spread.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"

@@ -17,7 +17,7 @@
 
 #include "core/error.h"
 #include "eval/spread.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "gl/read_back.h"
 #include "image/metrics.h"
@@ -161,7 +161,7 @@ void disks() {
         std::vector<double> times;
         for (int i = 0; i < runs; ++i) times.push_back(milliseconds(blur, field, radius));
         const Image image = readBack(blur.result(), 4);
-        double energy = 0, moment = 0, ripple = 0, most = 0, inside = 0, below = 0;
+        double energy = 0, moment = 0, ripple = 0, max = 0, inside = 0, below = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const double value = *image.at(x, y);
@@ -172,7 +172,7 @@ void disks() {
                 if (r > 0.9 * radiusAsked) continue;
                 const double deviation = value / level - 1;
                 ripple += deviation * deviation;
-                most = std::max(most, std::abs(deviation));
+                max = std::max(max, std::abs(deviation));
                 inside += 1;
             }
         // The width of the edge: from nine tenths of the level to one tenth, along the row of the centre.
@@ -183,7 +183,7 @@ void disks() {
             if (value < 0.1 && low == size) low = x - centre;
         }
         fmt::print("{:>10} {:>10.2f} {:>10.4f} {:>12.4f} {:>12.4f} {:>12.1f} {:>10.4f} {:>10.2f}\n", components,
-                   std::sqrt(2 * moment / energy), energy, std::sqrt(ripple / inside), most, low - high, below,
+                   std::sqrt(2 * moment / energy), energy, std::sqrt(ripple / inside), max, low - high, below,
                    spreadOf(times).median);
     }
     fmt::print("\n");

@@ -63,7 +63,7 @@ using namespace defocus;
 using namespace defocus::engine;
 using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
-constexpr std::size_t leastTriangles = 64;
+constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
 constexpr std::size_t distancePoints = 40'000;  // on each surface
 
@@ -74,13 +74,13 @@ double secondsOf(int runs, const std::function<void()>& work) {
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     };
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (int run = 0; run < runs; ++run) {
         const double start = now();
         work();
-        least = std::min(least, now() - start);
+        min = std::min(min, now() - start);
     }
-    return least;
+    return min;
 }
 
 // A line of /proc/self/status in bytes; 0 where the system has none.
@@ -127,9 +127,9 @@ std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
 // Triangles that are left.
 std::size_t meshoptimizerChain(const JoinedSurface& surface) {
     std::vector<std::uint32_t> indices = surface.indices;
-    while (indices.size() / 3 > leastTriangles) {
+    while (indices.size() / 3 > minTriangles) {
         std::vector<std::uint32_t> next =
-            simplified(surface.positions, indices, std::max(leastTriangles, indices.size() / 6));
+            simplified(surface.positions, indices, std::max(minTriangles, indices.size() / 6));
         if (next.size() > indices.size() * 3 / 4) break;
         indices = std::move(next);
     }
@@ -147,7 +147,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     decimater.add(quadric);
     decimater.module(quadric).unset_max_err();
     decimater.initialize();
-    for (std::size_t target = mesh.n_faces() / 2; target > leastTriangles; target /= 2) {
+    for (std::size_t target = mesh.n_faces() / 2; target > minTriangles; target /= 2) {
         if (decimater.decimate_to_faces(0, target) == 0) break;
         mesh.garbage_collection();
     }
@@ -165,8 +165,8 @@ std::size_t levelsAlone(const Mesh& mesh) {
     const VertexGroups smoothing = smoothingGroups(mesh.vertices.normals, positions);
     std::size_t left = triangles.count();
     Tasks tasks(0);
-    simplify(mesh.vertices, positions, smoothing, triangles, {.leastTriangles = leastTriangles, .anchors = false},
-             tasks, [&](std::uint32_t, const SimplifiedLevel& level) { left = level.mesh.triangles.count(); });
+    simplify(mesh.vertices, positions, smoothing, triangles, {.minTriangles = minTriangles, .anchors = false}, tasks,
+             [&](std::uint32_t, const SimplifiedLevel& level) { left = level.mesh.triangles.count(); });
     tasks.wait();
     return left;
 }

@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "frame/prepared_frame.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "render/methods.h"

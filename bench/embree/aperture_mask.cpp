@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double leastLight = 1.0 / 500;
+constexpr double minLight = 1.0 / 500;
 
 double luminance(const Image& image, int x, int y) {
     const float* pixel = image.at(x, y);
@@ -42,8 +42,8 @@ ApertureMask::ApertureMask(const Lens& lens) : lens_(lens) {
             const glm::dvec2 point(2 * (x + 0.5) / size - 1, 2 * (y + 0.5) / size - 1);
             if (glm::dot(point, point) <= 1) light += at(point) / (size * size * std::numbers::pi / 4);
         }
-    if (!(light >= leastLight))
-        fail("method embree: the aperture lets {:.2g} of the light through; its rays need {}", light, leastLight);
+    if (!(light >= minLight))
+        fail("method embree: the aperture lets {:.2g} of the light through; its rays need {}", light, minLight);
 }
 
 double ApertureMask::imageAt(const glm::dvec2& point) const {

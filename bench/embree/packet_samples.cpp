@@ -83,7 +83,7 @@ ApertureMap::ApertureMap(const Lens& lens)
     : scaleX(static_cast<float>(1 / std::max(lens.anamorphicRatio, 1.0))),
       scaleY(static_cast<float>(std::min(lens.anamorphicRatio, 1.0))) {
     if (lens.bladeCount < 3) return;
-    bladeCount = std::min(lens.bladeCount, mostBlades);
+    bladeCount = std::min(lens.bladeCount, maxBlades);
     for (int i = 0; i <= bladeCount; ++i) {
         const double angle = lens.bladeRotation + 2 * std::numbers::pi * i / bladeCount;
         cornerX[static_cast<std::size_t>(i)] = static_cast<float>(std::cos(angle));

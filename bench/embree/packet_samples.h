@@ -28,12 +28,12 @@ void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, Flo
 struct ApertureMap {
     explicit ApertureMap(const Lens& lens);
 
-    static constexpr int mostBlades = 64;
+    static constexpr int maxBlades = 64;
     int bladeCount = 0;  // 0: a disk
     float scaleX = 1;    // anamorphic
     float scaleY = 1;
-    std::array<float, mostBlades + 1> cornerX{};  // of the polygon, the first one again at the end
-    std::array<float, mostBlades + 1> cornerY{};
+    std::array<float, maxBlades + 1> cornerX{};  // of the polygon, the first one again at the end
+    std::array<float, maxBlades + 1> cornerY{};
 };
 
 // (r, s) ∈ [0, 1)² → the aperture, in place.

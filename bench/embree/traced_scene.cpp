@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "plan/object_pose.h"
+#include "plan/motion/object_pose.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus::engine {

@@ -28,8 +28,8 @@ layout(location = 1) out vec4 ownBlurOut;
 #endif
 
 #ifdef LEVEL_COLOR_RANGE
-layout(location = 0) uniform vec4 leastOfLevel;   // what the level's vertices have
-layout(location = 1) uniform vec4 mostOfLevel;
+layout(location = 0) uniform vec4 levelMin;   // what the level's vertices have
+layout(location = 1) uniform vec4 levelMax;
 #endif
 
 // Rasterisers round corners to a fraction of a pixel, so a triangle that is narrower than that can cover a pixel far outside its own
@@ -37,9 +37,9 @@ layout(location = 1) uniform vec4 mostOfLevel;
 // counts, and texture coordinates that run as fast pick the smallest mipmap.
 vec4 surfaceColor() {
 #if defined(VERTEX_COLOR_RANGES)
-    return clamp(surface.color, surface.leastColor, surface.mostColor);
+    return clamp(surface.color, surface.minColor, surface.maxColor);
 #elif defined(LEVEL_COLOR_RANGE)
-    return clamp(surface.color, material.baseColor * leastOfLevel, material.baseColor * mostOfLevel);
+    return clamp(surface.color, material.baseColor * levelMin, material.baseColor * levelMax);
 #else
     return surface.color;
 #endif

@@ -101,9 +101,9 @@ void main() {
     STAGE_OUT.color = material.baseColor;
 #endif
 #ifdef VERTEX_COLOR_RANGES
-    vec4 most = floor(colorRangeIn / 256.0);
-    STAGE_OUT.leastColor = material.baseColor * ((colorRangeIn - 256.0 * most) / 255.0);
-    STAGE_OUT.mostColor = material.baseColor * (most / 255.0);
+    vec4 maximum = floor(colorRangeIn / 256.0);
+    STAGE_OUT.minColor = material.baseColor * ((colorRangeIn - 256.0 * maximum) / 255.0);
+    STAGE_OUT.maxColor = material.baseColor * (maximum / 255.0);
 #endif
 #ifndef UNLIT
 #ifdef COARSE_LEVEL

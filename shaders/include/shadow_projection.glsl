@@ -1,4 +1,4 @@
-// How the shadow maps of a lens sample are drawn and read: src/plan/shadows.h. SHADOW_MAPS: of one point on each light;
+// How the shadow maps of a lens sample are drawn and read: src/plan/visible/shadows.h. SHADOW_MAPS: of one point on each light;
 // SHADOW_POINTS: of those.
 
 layout(binding = 19) uniform samplerBuffer shadowProjections;

@@ -2,8 +2,8 @@
 
     vec4 color;
 #ifdef VERTEX_COLOR_RANGES
-    flat vec4 leastColor; // what the corners around have
-    flat vec4 mostColor;
+    flat vec4 minColor; // what the corners around have
+    flat vec4 maxColor;
 #endif
 #ifndef UNLIT
     vec3 normal;          // along the world's axes, as all directions here

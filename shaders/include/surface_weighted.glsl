@@ -7,8 +7,8 @@
 void writeSurface(vec3 weights) {
     SURFACE_OUT.color = SURFACE_WEIGHTED(color);
 #ifdef VERTEX_COLOR_RANGES
-    SURFACE_OUT.leastColor = SURFACE_CORNERS[0].leastColor;
-    SURFACE_OUT.mostColor = SURFACE_CORNERS[0].mostColor;
+    SURFACE_OUT.minColor = SURFACE_CORNERS[0].minColor;
+    SURFACE_OUT.maxColor = SURFACE_CORNERS[0].maxColor;
 #endif
 #ifndef UNLIT
     SURFACE_OUT.normal = SURFACE_WEIGHTED(normal);

@@ -44,8 +44,8 @@ vec3 neutralEncoded(vec3 v) {
     const float mirrored = 0.04;
     const float kept = 0.8 - mirrored;
     const float left = 1.0 - kept;
-    float least = min(v.r, min(v.g, v.b));
-    v -= least < 2.0 * mirrored ? least - least * least / (4.0 * mirrored) : mirrored;
+    float minimum = min(v.r, min(v.g, v.b));
+    v -= minimum < 2.0 * mirrored ? minimum - minimum * minimum / (4.0 * mirrored) : mirrored;
     float peak = max(v.r, max(v.g, v.b));
     if (peak <= kept) return srgbEncoded(v);
     float compressed = 1.0 - left * left / (peak + left - kept);

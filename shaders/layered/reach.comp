@@ -9,7 +9,7 @@ layout(location = 0) uniform int border;        // px that the layers show beyon
 layout(location = 1) uniform float farthest;    // px from a pixel at which a ray can meet anything
 layout(location = 2) uniform float chromatic;   // px that a wavelength adds to the blur or takes from it
 
-const int mostRounds = 5;
+const int maxRounds = 5;
 
 vec2 extentAround(vec2 centre, float radius, int layer) {
     int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, LEVELS - 1);
@@ -32,7 +32,7 @@ void main() {
     vec2 centre = vec2(at.xy + border) + 0.5;
     float radius = farthest;
     vec2 reach = vec2(0.0);
-    for (int i = 0; i < mostRounds; ++i) {
+    for (int i = 0; i < maxRounds; ++i) {
         reach = extentAround(centre, radius, at.z);
         if (reach.x > reach.y) break;
         float smaller = 0.5 * (max(abs(reach.x), abs(reach.y)) + chromatic) + 1.0;

@@ -25,9 +25,9 @@ layout(location = 0) out vec4 layerOut;
 const float rounded = 0.05;   // px of blur by which a ray may miss a plane
 const float oneSurface = 1.0; // px of blur, as the umbra in layered/peel.glsl
 #ifdef BLENDED
-const int mostSurfaces = 16;
+const int maxSurfaces = 16;
 #else
-const int mostSurfaces = 1;
+const int maxSurfaces = 1;
 #endif
 
 struct Hit {
@@ -106,7 +106,7 @@ void main() {
 
     vec4 light = vec4(0.0);
     float limit = 2.0;
-    for (int n = 0; n < mostSurfaces; ++n) {
+    for (int n = 0; n < maxSurfaces; ++n) {
         Hit hit = Hit(-1.0, 1e30, ivec3(0));
         for (int layer = 0; layer < layerCount; ++layer) traceLayer(ray, layer, limit, hit);
         if (hit.depth < 0.0) break;

@@ -18,15 +18,15 @@ layout(location = 2) uniform uint firstTile;   // of those that are filled, in r
 layout(location = 3) uniform uint endTile;
 
 struct Area {
-    vec2 least;   // normalised device coordinates
-    vec2 most;
+    vec2 minimum;   // normalised device coordinates
+    vec2 maximum;
 };
 
 void add(inout Area area, vec4 clip, float aspect) {
     vec2 place = clip.xy / clip.z;
     vec2 reach = abs(clip.w / clip.z) * vec2(1.0, aspect);
-    area.least = min(area.least, place - reach);
-    area.most = max(area.most, place + reach);
+    area.minimum = min(area.minimum, place - reach);
+    area.maximum = max(area.maximum, place + reach);
 }
 
 // Of the part beyond the near plane: C/w and the place are monotonic along an edge, so that the corners of the part bound it.
@@ -70,19 +70,19 @@ void main() {
     // near plane, or goes there, nothing bounds what lies between.
     vec4 later[3] = vec4[3](clipsAtEnd[triangle.x], clipsAtEnd[triangle.y], clipsAtEnd[triangle.z]);
     float near = frame.projection.z;
-    float least = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
-    float most = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
-    if (most < near) return;
+    float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
+    float maximum = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
+    if (maximum < near) return;
     add(area, later, aspect);
-    if (least < near) area = Area(vec2(-1.0), vec2(1.0));
+    if (minimum < near) area = Area(vec2(-1.0), vec2(1.0));
 #else
-    if (area.least.x > area.most.x) return;
+    if (area.minimum.x > area.maximum.x) return;
     if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
 #endif
     // A thousandth of a pixel covers what rounding loses.
     vec2 size = vec2(imageSize);
-    vec2 first = floor(clamp((area.least * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(TILE));
-    vec2 last = floor(clamp((area.most * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(TILE));
+    vec2 first = floor(clamp((area.minimum * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(TILE));
+    vec2 last = floor(clamp((area.maximum * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(TILE));
     ivec2 from = max(ivec2(first), ivec2(0));
     ivec2 to = ivec2(last);
     int across = (imageSize.x + TILE - 1) / TILE;

@@ -13,9 +13,9 @@ void main() {
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (index >= triangleCount) return;
     uvec4 triangle = triangles[index];
-    float least = min(min(clips[triangle.x].z, clips[triangle.y].z), clips[triangle.z].z);
+    float minimum = min(min(clips[triangle.x].z, clips[triangle.y].z), clips[triangle.z].z);
 #ifdef MOVING
-    least = min(least, min(min(clipsAtEnd[triangle.x].z, clipsAtEnd[triangle.y].z), clipsAtEnd[triangle.z].z));
+    minimum = min(minimum, min(min(clipsAtEnd[triangle.x].z, clipsAtEnd[triangle.y].z), clipsAtEnd[triangle.z].z));
 #endif
-    depths[index] = least < frame.projection.z ? 0u : floatBitsToUint(least);
+    depths[index] = minimum < frame.projection.z ? 0u : floatBitsToUint(minimum);
 }

@@ -19,7 +19,7 @@ vec2 lineSides;
 float lost = 0.0;                 // light of pieces that found no room
 uint lostPieces = 0u;
 float hidden = 0.0;               // the least 1/w that is visible, if all of the line is covered
-float nextLeast = 1e30;           // of the new list
+float nextMin = 1e30;           // of the new list
 bool nextHasGaps = false;
 
 void beginLine(vec2 sides) { lineSides = sides; }
@@ -28,7 +28,7 @@ float pieceInverseDepth(vec4 depth, float p) { return (depth.x + p * depth.y) / 
 
 void emitPiece(float first, float last, uint triangle, vec4 depth) {
     if (!(last > first)) return;
-    nextLeast = min(nextLeast, min(pieceInverseDepth(depth, first), pieceInverseDepth(depth, last)));
+    nextMin = min(nextMin, min(pieceInverseDepth(depth, first), pieceInverseDepth(depth, last)));
     if (nextCount > 0u) {
         uint previous = nextList + nextCount - 1u;
         if (pieceTriangles[previous] == triangle && pieceEnds[previous].y == first && pieceDepths[previous] == depth) {
@@ -103,7 +103,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     if (!(interval.last > interval.first) || !changes(interval, triangle, depth)) return;
     nextList = uint(SEGMENTS) - current;
     nextCount = 0u;
-    nextLeast = 1e30;
+    nextMin = 1e30;
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
@@ -143,7 +143,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     emitPiece(cursor, interval.last, triangle, depth);
     current = nextList;
     pieceCount = nextCount;
-    hidden = nextHasGaps || pieceEnds[current + pieceCount - 1u].y != 1.0 ? 0.0 : nextLeast;
+    hidden = nextHasGaps || pieceEnds[current + pieceCount - 1u].y != 1.0 ? 0.0 : nextMin;
 }
 
 // The piece at p, or the gap up to the next one.

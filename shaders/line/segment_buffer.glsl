@@ -11,7 +11,7 @@ struct Piece {
     uint nextTriangle;
 };
 
-const float leastLight = 1.0 / 4096.0;       // of the line
+const float minLight = 1.0 / 4096.0;       // of the line
 const float continuation = 1e-3;             // of the line: as near as this, one segment continues another
 const float sameDepth = 0.02;                // of the inverse depth
 
@@ -67,7 +67,7 @@ bool mayChange(Interval interval, OnLine line) {
 void addSegment(Interval interval, uint triangle, OnLine line) {
     if (!(interval.last > interval.first)) return;
     vec4 segment = vec4(interval.first, interval.last, inverseDepth(line, interval.first), inverseDepth(line, interval.last));
-    if (lightBetween(segment.x, segment.y, lineSides) < leastLight) {
+    if (lightBetween(segment.x, segment.y, lineSides) < minLight) {
         drop(segment);
         return;
     }
@@ -85,24 +85,24 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
         segmentTriangles[slotOf(i)] = segmentTriangles[slotOf(segmentCount)];
     }
     if (segmentCount == uint(SEGMENTS)) {
-        uint least = 0u;
-        float leastShare = 2.0;
+        uint minimum = 0u;
+        float minShare = 2.0;
         for (uint i = 0u; i < segmentCount; ++i) {
             vec4 other = segments[slotOf(i)];
             if (mergedInto(i, segment, triangle)) return;
             float share = lightBetween(other.x, other.y, lineSides);
-            if (share < leastShare) {
-                leastShare = share;
-                least = i;
+            if (share < minShare) {
+                minShare = share;
+                minimum = i;
             }
         }
-        if (lightBetween(segment.x, segment.y, lineSides) <= leastShare) {
+        if (lightBetween(segment.x, segment.y, lineSides) <= minShare) {
             drop(segment);
             return;
         }
-        drop(segments[slotOf(least)]);
-        segments[slotOf(least)] = segment;
-        segmentTriangles[slotOf(least)] = triangle;
+        drop(segments[slotOf(minimum)]);
+        segments[slotOf(minimum)] = segment;
+        segmentTriangles[slotOf(minimum)] = triangle;
         return;
     }
     segments[slotOf(segmentCount)] = segment;

@@ -37,15 +37,15 @@ layout(location = 3) uniform uint recordCapacity;
 layout(location = 5) uniform float shadingStep;    // px that a surface moves under one shading point; 0: one for each segment
 // A job is what a group of threads does: a tile and a line of each of its pixels. Mesa's software driver ends the loops of a thread
 // after 65,535 rounds in all. There jobs that need more are put off, and go on from dispatch to dispatch.
-layout(location = 6) uniform uint mostRounds;      // of the loops in a dispatch, about; 0: any number
+layout(location = 6) uniform uint maxRounds;      // of the loops in a dispatch, about; 0: any number
 layout(location = 7) uniform uvec4 jobs;           // x: 1 for jobs that were put off, 0 for all tiles and rays; y: the first of the dispatch
                                                    // and z: where the states begin, both among the ranges; w: where jobs are put off to
 
 const uint threads = uint(TILE * TILE);
-const uint mostKept = 64u;
-const uint mostScans = 1024u;   // of as many entries as there are threads, before the segments of what was kept are added
-shared vec4 keptCorners[mostKept * 3u];
-shared uvec2 kept[mostKept];    // triangle, double-sided
+const uint maxKept = 64u;
+const uint maxScans = 1024u;   // of as many entries as there are threads, before the segments of what was kept are added
+shared vec4 keptCorners[maxKept * 3u];
+shared uvec2 kept[maxKept];    // triangle, double-sided
 shared uint keptHere[2];        // a bit for each thread whose candidate is kept
 shared uint keptCount;
 shared uint nextBase;
@@ -65,7 +65,7 @@ const uint widestVector = 16u;
 uint commonRounds = 0u;         // of loops that all threads walk alike
 uint ownRounds = 0u;
 
-bool hasRoundsFor(uint more, uint most) { return mostRounds == 0u || commonRounds + widestVector * ownRounds + more < most; }
+bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }
 
 #ifdef EXACT
 #include "line/envelope.glsl"
@@ -73,9 +73,9 @@ bool hasRoundsFor(uint more, uint most) { return mostRounds == 0u || commonRound
 #include "line/segment_buffer.glsl"
 #endif
 
-bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileLeast, vec2 tileMost) {
-    vec2 least = vec2(1e30);
-    vec2 most = vec2(-1e30);
+bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
+    vec2 minimum = vec2(1e30);
+    vec2 maximum = vec2(-1e30);
     float aspect = float(imageSize.x) / float(imageSize.y);
     vec2 across = bounds.strip.xy * vec2(1.0, 1.0 / aspect);
     vec2 range = vec2(1e30, -1e30);
@@ -85,14 +85,14 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileLeast, vec2 tileMost) {
         vec2 place = corners[i].xy / corners[i].z;
         vec2 a = place + blur * bounds.box.xy;
         vec2 b = place + blur * bounds.box.zw;
-        least = min(least, min(a, b));
-        most = max(most, max(a, b));
+        minimum = min(minimum, min(a, b));
+        maximum = max(maximum, max(a, b));
         float leaves = abs(blur) * bounds.strip.z;
         range = vec2(min(range.x, dot(place, across) - leaves), max(range.y, dot(place, across) + leaves));
     }
-    if (any(greaterThan(least, tileMost)) || any(lessThan(most, tileLeast))) return false;
-    vec2 middle = 0.5 * (tileLeast + tileMost);
-    float reach = dot(0.5 * (tileMost - tileLeast), abs(across));
+    if (any(greaterThan(minimum, tileMax)) || any(lessThan(maximum, tileMin))) return false;
+    vec2 middle = 0.5 * (tileMin + tileMax);
+    float reach = dot(0.5 * (tileMax - tileMin), abs(across));
     return range.x <= dot(middle, across) + reach && range.y >= dot(middle, across) - reach;
 }
 
@@ -132,11 +132,11 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
 
 // Keeps the next triangles of the tile that its lines may see, until they are enough or there was much to scan; all threads call it. They are in
 // the order of the list, whatever the threads' order: which segments a full buffer drops depends on it.
-void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost) {
+void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
     uint bit = 1u << (gl_LocalInvocationIndex & 31u);
-    for (uint scans = 0u; scans < mostScans && base < end && count < mostKept; ++scans) {
+    for (uint scans = 0u; scans < maxScans && base < end && count < maxKept; ++scans) {
         ++commonRounds;
         if (gl_LocalInvocationIndex == 0u) {
             keptHere[0] = 0u;
@@ -152,7 +152,7 @@ void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost
             Draw draw = draws[vertices.w];
             for (int i = 0; i < 3; ++i) corners[i] = clips[vertices[i]];
             if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
-                mayCover(corners, lensBounds[ray], tileLeast, tileMost)) {
+                mayCover(corners, lensBounds[ray], tileMin, tileMax)) {
                 candidate = uvec2(entries[at], draw.doubleSided);
                 atomicOr(keptHere[word], bit);
             }
@@ -161,7 +161,7 @@ void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost
         uint slot = count + bitCount(keptHere[word] & (bit - 1u)) + (word == 1u ? bitCount(keptHere[0]) : 0u);
         count += bitCount(keptHere[0]) + bitCount(keptHere[1]);
         if (candidate.x != noTriangle) {
-            if (slot < mostKept) {
+            if (slot < maxKept) {
                 kept[slot] = candidate;
                 for (uint i = 0u; i < 3u; ++i) keptCorners[slot * 3u + i] = corners[i];
             } else {
@@ -173,7 +173,7 @@ void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost
         barrier();
     }
     if (gl_LocalInvocationIndex == 0u) {
-        keptCount = min(count, mostKept);
+        keptCount = min(count, maxKept);
         halted = 0u;
         open = 0u;
     }
@@ -182,8 +182,8 @@ void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost
 
 bool isOpen() {
     if (keptCount == 0u) return true;
-    float least = min(min(keptCorners[0].z, keptCorners[1].z), keptCorners[2].z);
-    return least < frame.projection.z || maySee(1.0 / least);
+    float minimum = min(min(keptCorners[0].z, keptCorners[1].z), keptCorners[2].z);
+    return minimum < frame.projection.z || maySee(1.0 / minimum);
 }
 
 OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
@@ -210,7 +210,7 @@ uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
 
 // Adds the segments of what is seen, as long as there are rounds; the rest stays in `sides`.
 void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
-    while (sides != uvec4(0u) && hasRoundsFor(0u, mostRounds)) {
+    while (sides != uvec4(0u) && hasRoundsFor(0u, maxRounds)) {
         ++ownRounds;
         uvec2 either = sides.xy | sides.zw;
         uint i = either.x != 0u ? uint(findLSB(either.x)) : 32u + uint(findLSB(either.y));
@@ -245,8 +245,8 @@ void main() {
     vec2 direction = mine.lensAndPixel.xy;
     Interval whole = Interval(-mine.values.x, 1.0);
     vec2 margin = vec2(2e-3) / vec2(imageSize);   // a thousandth of a pixel
-    vec2 tileLeast = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
-    vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
+    vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
+    vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
     beginLine(mine.values.xy);
     uint end = tileEnds[tile];
@@ -261,7 +261,7 @@ void main() {
     bool finished = false;
     while (!finished) {
         uint first = base;
-        keepMore(base, end, ray, tileLeast, tileMost);
+        keepMore(base, end, ray, tileMin, tileMax);
         // The list goes from front to back: where all lines are covered by what is nearer, they are done.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
@@ -274,9 +274,9 @@ void main() {
         addSeen(sides, direction, place, whole);
         finished = base >= end;
         status = jobGoesOn;
-        if (mostRounds == 0u) continue;
+        if (maxRounds == 0u) continue;
         if (sides != uvec4(0u)) atomicOr(halted, hasSegments);
-        else if (finished ? !hasRoundsFor(walkRounds(), 2u * mostRounds) : !hasRoundsFor(0u, mostRounds)) atomicOr(halted, hasNoRounds);
+        else if (finished ? !hasRoundsFor(walkRounds(), 2u * maxRounds) : !hasRoundsFor(0u, maxRounds)) atomicOr(halted, hasNoRounds);
         barrier();
         if ((halted & hasSegments) != 0u) {
             base = first;

@@ -31,32 +31,32 @@ shared uint keptCount;
 shared uint open;             // whether some ray may still meet what comes next
 
 // May the vertex move the triangle into the tile? Bounds of its places in px.
-void addPlaces(inout vec2 least, inout vec2 most, vec4 clip, vec4 lens) {
+void addPlaces(inout vec2 minimum, inout vec2 maximum, vec4 clip, vec4 lens) {
     vec2 shear = vec2(clip.w) / clip.z;
     vec2 place = clip.xy / clip.z;
     vec2 a = place + shear * lens.xy;
     vec2 b = place + shear * lens.zw;
-    least = min(least, min(a, b));
-    most = max(most, max(a, b));
+    minimum = min(minimum, min(a, b));
+    maximum = max(maximum, max(a, b));
 }
 
-bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileLeast, vec2 tileMost) {
-    vec2 least = vec2(1e30);
-    vec2 most = vec2(-1e30);
+bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileMin, vec2 tileMax) {
+    vec2 minimum = vec2(1e30);
+    vec2 maximum = vec2(-1e30);
     for (uint i = 0u; i < stride; ++i) {
         if (corners[i].z < frame.projection.z) return true;
-        addPlaces(least, most, corners[i], lens);
+        addPlaces(minimum, maximum, corners[i], lens);
     }
-    return all(lessThanEqual(least, tileMost)) && all(greaterThanEqual(most, tileLeast));
+    return all(lessThanEqual(minimum, tileMax)) && all(greaterThanEqual(maximum, tileMin));
 }
 
-float leastDepth(uint triangle) {
+float minDepth(uint triangle) {
     uvec4 vertices = triangles[triangle];
-    float least = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
+    float minimum = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
 #ifdef MOVING
-    least = min(least, min(min(clipsAtEnd[vertices.x].z, clipsAtEnd[vertices.y].z), clipsAtEnd[vertices.z].z));
+    minimum = min(minimum, min(min(clipsAtEnd[vertices.x].z, clipsAtEnd[vertices.y].z), clipsAtEnd[vertices.z].z));
 #endif
-    return least;
+    return minimum;
 }
 
 void main() {
@@ -69,8 +69,8 @@ void main() {
     vec2 place = placeOf(mine, pixel);
     vec2 lens = mine.lensAndPixel.xy;
     vec2 margin = vec2(2e-3) / vec2(imageSize);   // a thousandth of a pixel
-    vec2 tileLeast = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
-    vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
+    vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
+    vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
     uint end = tileEnds[tile];
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
@@ -92,7 +92,7 @@ void main() {
         }
         barrier();
         // The list goes from front to back.
-        if (inside && nearest * (1.0 + 1e-5) >= leastDepth(entries[base])) atomicOr(open, 1u);
+        if (inside && nearest * (1.0 + 1e-5) >= minDepth(entries[base])) atomicOr(open, 1u);
         barrier();
         if (open == 0u) break;
         uint at = base + gl_LocalInvocationIndex;
@@ -106,7 +106,7 @@ void main() {
             for (int i = 0; i < 3; ++i) corners[i + 3] = clipsAtEnd[vertices[i]];
 #endif
             if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
-                mayCover(corners, lensBounds[ray], tileLeast, tileMost)) {
+                mayCover(corners, lensBounds[ray], tileMin, tileMax)) {
                 uint slot = atomicAdd(keptCount, 1u);
                 kept[slot] = uvec2(candidate, draw.doubleSided);
                 for (uint i = 0u; i < stride; ++i) keptCorners[slot * stride + i] = corners[i];

@@ -147,7 +147,7 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const FrameMoment& frame
     for (const auto& [name, track] : shot.lens) {
         const LensField& field = *lensFieldNamed(name);
         const double value = lensValueAt(track, field, frame.frame);
-        setLensField(lens, field, std::clamp(value, field.least, field.most));  // rounding beyond an end
+        setLensField(lens, field, std::clamp(value, field.min, field.max));  // rounding beyond an end
     }
     if (shot.focus) lens.focusDistance = focusAt(*shot.focus, *base.scene, frame, lens);
     checkLens(lens);

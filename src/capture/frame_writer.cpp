@@ -4,7 +4,7 @@
 
 namespace defocus::engine {
 
-FrameWriter::FrameWriter(std::size_t waiting) : most_(waiting), thread_([this] { run(); }) {}
+FrameWriter::FrameWriter(std::size_t waiting) : max_(waiting), thread_([this] { run(); }) {}
 
 FrameWriter::~FrameWriter() {
     {
@@ -17,7 +17,7 @@ FrameWriter::~FrameWriter() {
 
 void FrameWriter::add(std::function<void()> job) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return fault_ || jobs_.size() < most_; });
+    changed_.wait(lock, [this] { return fault_ || jobs_.size() < max_; });
     if (fault_) std::rethrow_exception(fault_);
     jobs_.push_back(std::move(job));
     changed_.notify_all();

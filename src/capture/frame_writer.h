@@ -30,7 +30,7 @@ public:
 private:
     void run();
 
-    std::size_t most_;
+    std::size_t max_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::function<void()>> jobs_;

@@ -78,23 +78,23 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
     return result;
 }
 
-std::vector<JsonReader> JsonReader::elements(std::size_t least, const std::string& what) const {
-    if (!value_->is_array() || value_->size() < least) failExpecting(what);
+std::vector<JsonReader> JsonReader::elements(std::size_t min, const std::string& what) const {
+    if (!value_->is_array() || value_->size() < min) failExpecting(what);
     std::vector<JsonReader> result;
     for (auto& [index, reader] : members()) result.push_back(std::move(reader));
     return result;
 }
 
-double JsonReader::number(double least, double most) const {
+double JsonReader::number(double min, double max) const {
     const double number = isFiniteNumber(*value_) ? value_->get<double>() : std::nan("");
-    if (!(number >= least && number <= most)) failExpecting(fmt::format("a number from {} to {}", least, most));
+    if (!(number >= min && number <= max)) failExpecting(fmt::format("a number from {} to {}", min, max));
     return number;
 }
 
-std::int64_t JsonReader::integer(std::int64_t least, std::int64_t most) const {
+std::int64_t JsonReader::integer(std::int64_t min, std::int64_t max) const {
     const double number = isFiniteNumber(*value_) ? value_->get<double>() : std::nan("");
-    const bool inside = number >= static_cast<double>(least) && number <= static_cast<double>(most);
-    if (!inside || number != std::floor(number)) failExpecting(fmt::format("an integer from {} to {}", least, most));
+    const bool inside = number >= static_cast<double>(min) && number <= static_cast<double>(max);
+    if (!inside || number != std::floor(number)) failExpecting(fmt::format("an integer from {} to {}", min, max));
     return static_cast<std::int64_t>(number);
 }
 

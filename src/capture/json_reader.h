@@ -32,10 +32,10 @@ public:
     // The members of an object by name, or of an array in order.
     [[nodiscard]] std::vector<std::pair<std::string, JsonReader>> members() const;
     // Elements of an array of `least` or more.
-    [[nodiscard]] std::vector<JsonReader> elements(std::size_t least, const std::string& what) const;
+    [[nodiscard]] std::vector<JsonReader> elements(std::size_t min, const std::string& what) const;
 
-    [[nodiscard]] double number(double least, double most) const;
-    [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
+    [[nodiscard]] double number(double min, double max) const;
+    [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;  // not empty
     // The place of the text in `choices`.

@@ -22,8 +22,8 @@ double slopeAt(const std::vector<Key<double>>& keys, std::size_t i) {
     const double widthAfter = keys[i + 1].frame - keys[i].frame;
     const double parabola = (before * widthAfter + after * widthBefore) / (widthBefore + widthAfter);
     if (before * after <= 0) return 0;
-    const double least = std::min({std::abs(before), std::abs(after), 0.5 * std::abs(parabola)});
-    return std::copysign(2 * least, before);
+    const double min = std::min({std::abs(before), std::abs(after), 0.5 * std::abs(parabola)});
+    return std::copysign(2 * min, before);
 }
 
 }  // namespace

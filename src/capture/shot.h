@@ -22,7 +22,7 @@ struct FrameRange {
     int last = 0;  // included
 };
 
-inline constexpr int mostFrame = 9'999'999;
+inline constexpr int maxFrame = 9'999'999;
 
 // A point of the world, or the centre of a node, which may move.
 using Place = std::variant<glm::dvec3, std::string>;

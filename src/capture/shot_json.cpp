@@ -52,8 +52,8 @@ FrameRange rangeOf(const JsonReader& reader) {
     const char* what = "two frames, the first and the last";
     const std::vector<JsonReader> ends = reader.elements(2, what);
     if (ends.size() != 2) reader.failExpecting(what);
-    const FrameRange range{static_cast<int>(ends[0].integer(0, mostFrame)),
-                           static_cast<int>(ends[1].integer(0, mostFrame))};
+    const FrameRange range{static_cast<int>(ends[0].integer(0, maxFrame)),
+                           static_cast<int>(ends[1].integer(0, maxFrame))};
     if (range.last < range.first) reader.failExpecting("a last frame that isn't before the first");
     return range;
 }
@@ -72,7 +72,7 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
         key.requireObject(known);
-        const double frame = key.at("frame").number(0, mostFrame);
+        const double frame = key.at("frame").number(0, maxFrame);
         if (!keys.empty() && !(frame > keys.back().first))
             key.at("frame").failExpecting(fmt::format("a frame after the key before it, {}", keys.back().first));
         keys.emplace_back(frame, key);
@@ -146,7 +146,7 @@ FocusTarget focusTargetOf(const JsonReader& reader) {
         return FocusAuto{};
     }
     const LensField& field = *lensFieldNamed("focusDistance");
-    return FocusDistance{reader.at("distance").number(field.least, field.most)};
+    return FocusDistance{reader.at("distance").number(field.min, field.max)};
 }
 
 FocusTrack focusOf(const JsonReader& reader) {
@@ -168,9 +168,9 @@ FocusTrack focusOf(const JsonReader& reader) {
 double lensNumberOf(const JsonReader& reader, const LensField& field) {
     if (std::holds_alternative<bool Lens::*>(field.member)) return reader.boolean() ? 1 : 0;
     const bool whole = std::holds_alternative<int Lens::*>(field.member);
-    const double value = whole ? static_cast<double>(reader.integer(static_cast<std::int64_t>(field.least),
-                                                                    static_cast<std::int64_t>(field.most)))
-                               : reader.number(field.least, field.most);
+    const double value = whole ? static_cast<double>(reader.integer(static_cast<std::int64_t>(field.min),
+                                                                    static_cast<std::int64_t>(field.max)))
+                               : reader.number(field.min, field.max);
     try {
         Lens scratch;
         setLensField(scratch, field, value);
@@ -215,11 +215,11 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
 
 // Zero means none, so that nothing lies between it and a value.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
-    constexpr double least = 1e-6;
+    constexpr double min = 1e-6;
     LensTrack track;
     reader.requireObject({"keys", "interpolation"});
     for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "value"}))
-        track.keys.push_back({frame, key.at("value").number(least, setting.most)});
+        track.keys.push_back({frame, key.at("value").number(min, setting.max)});
     track.easing = easingOf(reader);
     return track;
 }
@@ -423,8 +423,8 @@ FrameRange parseFrameRange(std::string_view text) {
     const auto frame = [&](std::string_view part) {
         int value = -1;
         const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > mostFrame)
-            fail("'{}' is not FIRST:LAST, whole frames from 0 to {}, such as 0:240", text, mostFrame);
+        if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > maxFrame)
+            fail("'{}' is not FIRST:LAST, whole frames from 0 to {}, such as 0:240", text, maxFrame);
         return value;
     };
     const std::size_t colon = text.find(':');

@@ -66,7 +66,7 @@ namespace {
 
 // What the process's control group leaves, and those that it is in.
 std::uint64_t leftByControlGroups() {
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
     std::ifstream file("/proc/self/cgroup");
     for (std::string line; std::getline(file, line);) {
         const std::size_t colon = line.rfind(':');
@@ -75,11 +75,11 @@ std::uint64_t leftByControlGroups() {
         if (!unified && line.find(":memory:") == std::string::npos) continue;
         const std::string root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
         for (std::string group = line.substr(colon + 1);; group.erase(group.rfind('/'))) {
-            if (const auto left = leftByControlGroup(root + group, unified)) least = std::min(least, *left);
+            if (const auto left = leftByControlGroup(root + group, unified)) min = std::min(min, *left);
             if (group.empty() || group.rfind('/') == std::string::npos) break;
         }
     }
-    return least;
+    return min;
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace {
 
 // The rule in words: "a number above 0 and at most 100", "a number from 0 to 100".
 std::string inWords(const Range& range) {
-    if (range.aboveLeast) return fmt::format("a number above {:g} and at most {:g}", range.least, range.most);
-    return fmt::format("a number from {:g} to {:g}", range.least, range.most);
+    if (range.aboveMin) return fmt::format("a number above {:g} and at most {:g}", range.min, range.max);
+    return fmt::format("a number from {:g} to {:g}", range.min, range.max);
 }
 
 template <typename Number>
@@ -33,8 +33,8 @@ std::optional<Number> wholeText(std::string_view text) {
 }
 
 bool inside(double number, const Range& range) {
-    const bool low = range.aboveLeast ? number > range.least : number >= range.least;
-    return std::isfinite(number) && low && number <= range.most;
+    const bool low = range.aboveMin ? number > range.min : number >= range.min;
+    return std::isfinite(number) && low && number <= range.max;
 }
 
 }  // namespace
@@ -59,9 +59,9 @@ double parseSeconds(const std::string& text) {
     return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
 }
 
-std::uint64_t parseInteger(const std::string& text, std::uint64_t least, std::uint64_t most) {
+std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint64_t max) {
     const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
-    if (!number || *number < least || *number > most) fail("'{}' is not an integer from {} to {}", text, least, most);
+    if (!number || *number < min || *number > max) fail("'{}' is not an integer from {} to {}", text, min, max);
     return *number;
 }
 

@@ -9,14 +9,14 @@
 namespace defocus::engine {
 
 struct Range {
-    double least = 0;
-    double most = 0;
-    bool aboveLeast = false;  // `least` itself is not allowed
+    double min = 0;
+    double max = 0;
+    bool aboveMin = false;  // `least` itself is not allowed
 };
 
 // The whole text as a finite number in `range`. Throws Error saying what is allowed.
 double parseNumber(const std::string& text, const Range& range);
-std::uint64_t parseInteger(const std::string& text, std::uint64_t least, std::uint64_t most);
+std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint64_t max);
 // Seconds, as 0.02 or as photographers have them: 1/48.
 double parseSeconds(const std::string& text);
 // Exactly `count` finite numbers in `range`, parted by commas.

@@ -38,11 +38,11 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& k
     if (word.size() > longestWord) return {};
     const std::string small = inSmallLetters(word);
     std::string nearest;
-    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::size_t min = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = editDistance(small, inSmallLetters(candidate));
-        if (distance < least) {
-            least = distance;
+        if (distance < min) {
+            min = distance;
             nearest = candidate;
         }
     }

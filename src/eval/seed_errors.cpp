@@ -15,8 +15,8 @@ struct Ends {
 };
 
 Ends endsOf(std::span<const SeedError> errors, double SeedError::*measure) {
-    const auto [least, most] = std::ranges::minmax(errors, {}, measure);
-    return {least.*measure, most.*measure};
+    const auto [min, max] = std::ranges::minmax(errors, {}, measure);
+    return {min.*measure, max.*measure};
 }
 
 nlohmann::ordered_json endsJson(const Ends& ends) {

@@ -18,7 +18,7 @@ public:
     SubmissionPacer& operator=(const SubmissionPacer&) = delete;
 
     // Most triangles that one draw call should hold; 0: any number.
-    [[nodiscard]] std::uint64_t mostTriangles() const { return batch_; }
+    [[nodiscard]] std::uint64_t maxTriangles() const { return batch_; }
     // To be called after a draw call; waits for earlier ones where too many are open.
     void submitted(std::uint64_t triangles);
 

@@ -47,10 +47,10 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (info.width > limit || info.height > limit)
         fail("{} x {} px is beyond this driver's largest texture of {} px a side", info.width, info.height, limit);
-    GLint mostLayers = 0;
-    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &mostLayers);
-    if (info.layers > mostLayers)
-        fail("{} layers are beyond this driver's {} of one texture; choose a smaller wave", info.layers, mostLayers);
+    GLint maxLayers = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
+    if (info.layers > maxLayers)
+        fail("{} layers are beyond this driver's {} of one texture; choose a smaller wave", info.layers, maxLayers);
     GLuint name = 0;
     glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
     handle_ = GlHandle<destroyTexture>(name);

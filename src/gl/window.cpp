@@ -40,7 +40,7 @@ GLFWmonitor* screenOf(const glm::ivec2& position, const glm::ivec2& size) {
     int count = 0;
     GLFWmonitor* const* const screens = glfwGetMonitors(&count);
     GLFWmonitor* best = nullptr;
-    int most = -1;
+    int max = -1;
     for (int i = 0; i < count; ++i) {
         const GLFWvidmode* const mode = glfwGetVideoMode(screens[i]);
         glm::ivec2 begin(0);
@@ -48,8 +48,8 @@ GLFWmonitor* screenOf(const glm::ivec2& position, const glm::ivec2& size) {
         if (mode == nullptr) continue;
         const glm::ivec2 end = glm::min(position + size, begin + glm::ivec2(mode->width, mode->height));
         const glm::ivec2 common = glm::max(end - glm::max(position, begin), glm::ivec2(0));
-        if (common.x * common.y > most) {
-            most = common.x * common.y;
+        if (common.x * common.y > max) {
+            max = common.x * common.y;
             best = screens[i];
         }
     }
@@ -191,7 +191,7 @@ void Window::setFullscreen(bool on) {
 }
 
 void Window::readSizes() {
-    constexpr int mostTries = 8;
+    constexpr int maxTries = 8;
     const auto windowSize = [&] {
         glm::ivec2 result(0);
         glfwGetWindowSize(window_, &result.x, &result.y);
@@ -203,7 +203,7 @@ void Window::readSizes() {
         before = windowSize();
         glfwGetFramebufferSize(window_, &framebufferSize_.x, &framebufferSize_.y);
         size_ = windowSize();
-    } while (size_ != before && ++tries < mostTries);
+    } while (size_ != before && ++tries < maxTries);
 }
 
 double Window::contentScale() const {

@@ -30,7 +30,7 @@ namespace {
 constexpr std::uint64_t maximumPixels = 1ull << 28;
 // A byte of a JPEG file: each block of 8 × 8 has a code of a bit or more. What a short file claims beyond that, libjpeg
 // would make up, for as long as it takes.
-constexpr std::uint64_t mostJpegPixels = 2 * 8 * 8 * 8;
+constexpr std::uint64_t maxJpegPixels = 2 * 8 * 8 * 8;
 
 struct Format {
     std::string_view magic;
@@ -108,8 +108,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > maximumPixels)
         fail("{}: {}x{} pixels are more than the {} million that can be read", name, spec.width, spec.height,
              maximumPixels / 1000000);
-    if (format == "jpeg" &&
-        std::uint64_t(spec.width) * std::uint64_t(spec.height) > mostJpegPixels * image.bytes.size())
+    if (format == "jpeg" && std::uint64_t(spec.width) * std::uint64_t(spec.height) > maxJpegPixels * image.bytes.size())
         fail("{}: cannot be read: its {} bytes are too few for {}x{} pixels", name, image.bytes.size(), spec.width,
              spec.height);
     return image;

@@ -75,8 +75,8 @@ glm::vec3 neutralEncoded(glm::vec3 v) {
     constexpr float mirrored = 0.04f;
     constexpr float kept = 0.8f - mirrored;  // what lies below is not compressed
     constexpr float desaturation = 0.15f;
-    const float least = std::min({v.r, v.g, v.b});
-    v -= least < 2 * mirrored ? least - least * least / (4 * mirrored) : mirrored;
+    const float min = std::min({v.r, v.g, v.b});
+    v -= min < 2 * mirrored ? min - min * min / (4 * mirrored) : mirrored;
     const float peak = std::max({v.r, v.g, v.b});
     if (peak <= kept) return srgbEncoded(v);
     constexpr float left = 1 - kept;

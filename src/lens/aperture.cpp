@@ -18,7 +18,7 @@ constexpr double pi = std::numbers::pi;
 
 // Cells along the longer side of an image: enough for the disk's rim to be round, and no more than pays.
 constexpr int fewestCells = 256;
-constexpr int mostCells = 1024;
+constexpr int maxCells = 1024;
 
 // ---- blades ---------------------------------------------------------------------------------------------------------
 
@@ -105,8 +105,8 @@ glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
 // Each cell's light, 0 where its middle lies outside the unit disk.
 std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
     const int longer = std::max(image.width, image.height);
-    const int parts = (fewestCells + longer - 1) / longer;   // of a pixel, each way
-    const int group = (longer + mostCells - 1) / mostCells;  // of pixels, each way
+    const int parts = (fewestCells + longer - 1) / longer;  // of a pixel, each way
+    const int group = (longer + maxCells - 1) / maxCells;   // of pixels, each way
     cells.columns = (image.width * parts + group - 1) / group;
     cells.rows = (image.height * parts + group - 1) / group;
     std::vector<double> values(static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows));

@@ -14,26 +14,26 @@ namespace defocus::engine {
 namespace {
 
 struct Interval {
-    double least = 0;
-    double most = 0;
+    double min = 0;
+    double max = 0;
 };
 
 Interval sum(const Interval& p, const Interval& q) {
-    return {p.least + q.least, p.most + q.most};
+    return {p.min + q.min, p.max + q.max};
 }
 
 Interval times(const Interval& p, double factor) {
-    return factor >= 0 ? Interval{p.least * factor, p.most * factor} : Interval{p.most * factor, p.least * factor};
+    return factor >= 0 ? Interval{p.min * factor, p.max * factor} : Interval{p.max * factor, p.min * factor};
 }
 
 // Of a value and a factor ≥ 0.
 Interval times(const Interval& p, const Interval& factor) {
-    return {p.least * (p.least < 0 ? factor.most : factor.least), p.most * (p.most < 0 ? factor.least : factor.most)};
+    return {p.min * (p.min < 0 ? factor.max : factor.min), p.max * (p.max < 0 ? factor.min : factor.max)};
 }
 
 Interval squared(const Interval& p) {
-    const double far = std::max(std::abs(p.least), std::abs(p.most));
-    const double near = p.least <= 0 && p.most >= 0 ? 0 : std::min(std::abs(p.least), std::abs(p.most));
+    const double far = std::max(std::abs(p.min), std::abs(p.max));
+    const double near = p.min <= 0 && p.max >= 0 ? 0 : std::min(std::abs(p.min), std::abs(p.max));
     return {near * near, far * far};
 }
 
@@ -46,8 +46,8 @@ struct Parts {
 };
 
 Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
-    const Interval x{box.ndcLeast.x, box.ndcMost.x};
-    const Interval y{box.ndcLeast.y, box.ndcMost.y};
+    const Interval x{box.ndcMin.x, box.ndcMax.x};
+    const Interval y{box.ndcMin.y, box.ndcMax.y};
     const Interval inverseDepth{1 / box.zFar, 1 / box.zNear};
     Parts parts;
     if (coc.varies()) parts.radius2 = sum(squared(x), times(squared(y), 1 / (coc.aspect * coc.aspect)));
@@ -56,11 +56,11 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     if (coc.tilt.x != 0) focus = sum(focus, times(x, coc.tilt.x));
     if (coc.tilt.y != 0) focus = sum(focus, times(y, coc.tilt.y));
     parts.factor = sum({1, 1}, times(parts.radius2, coc.gain));
-    parts.factor = {parts.factor.least * box.own.factorLeast, parts.factor.most * box.own.factorMost};
+    parts.factor = {parts.factor.min * box.own.factorMin, parts.factor.max * box.own.factorMax};
     parts.front = sum(times(inverseDepth, coc.a), times(focus, coc.front));
     parts.behind = sum(times(inverseDepth, coc.aBehind), times(focus, coc.behind));
     if (coc.chromatic > 0) {
-        const double spread = coc.chromatic * std::max(std::abs(focus.least), std::abs(focus.most));
+        const double spread = coc.chromatic * std::max(std::abs(focus.min), std::abs(focus.max));
         parts.front = sum(parts.front, {-spread, spread});
         parts.behind = sum(parts.behind, {-spread, spread});
     }
@@ -69,14 +69,14 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
 
 // C/w before its limits, as a share of the image's width.
 Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
-    const Interval ofLens = times({std::min(0.0, parts.front.least) + std::max(0.0, parts.behind.least),
-                                   std::min(0.0, parts.front.most) + std::max(0.0, parts.behind.most)},
+    const Interval ofLens = times({std::min(0.0, parts.front.min) + std::max(0.0, parts.behind.min),
+                                   std::min(0.0, parts.front.max) + std::max(0.0, parts.behind.max)},
                                   parts.factor);
-    return sum(ofLens, {own.addedLeast, own.addedMost});
+    return sum(ofLens, {own.addedMin, own.addedMax});
 }
 
 bool strictlyInside(const Interval& p, double value) {
-    return p.least < value && value < p.most;
+    return p.min < value && value < p.max;
 }
 
 }  // namespace
@@ -123,17 +123,17 @@ double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, 
 
 OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices) {
     const double share = factor * coc.shareOfMillimetre;
-    return {factor * vertices.factorLeast, factor * vertices.factorMost, share * vertices.addedLeast,
-            share * vertices.addedMost};
+    return {factor * vertices.factorMin, factor * vertices.factorMax, share * vertices.addedMin,
+            share * vertices.addedMax};
 }
 
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width) {
     const Parts parts = partsOver(coc, box);
     const Interval blur = unlimitedBlur(parts, box.own);
-    const double aberration = aberrationReach(coc, std::sqrt(parts.radius2.most));
+    const double aberration = aberrationReach(coc, std::sqrt(parts.radius2.max));
     CocRange range;
-    range.nearest = (std::clamp(blur.least, -coc.foregroundLimit, coc.backgroundLimit) - aberration) * width;
-    range.farthest = (std::clamp(blur.most, -coc.foregroundLimit, coc.backgroundLimit) + aberration) * width;
+    range.nearest = (std::clamp(blur.min, -coc.foregroundLimit, coc.backgroundLimit) - aberration) * width;
+    range.farthest = (std::clamp(blur.max, -coc.foregroundLimit, coc.backgroundLimit) + aberration) * width;
     const bool straddles = range.nearest <= 0 && range.farthest >= 0;
     range.smallest = straddles ? 0 : std::min(std::abs(range.nearest), std::abs(range.farthest));
     range.largest = std::max(std::abs(range.nearest), std::abs(range.farthest));
@@ -151,46 +151,46 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     if (coc.thinLens() && !box.own.varies()) return deviation;
     const Parts parts = partsOver(coc, box);
     const double pixels = width / box.zNear;
-    const double factor = parts.factor.most;
+    const double factor = parts.factor.max;
 
     // Two linear pieces that meet at a kink differ by at most the change of slope times the distance from it; an edge
     // of length L across it deviates most if it lies in the middle: slope·L/4.
-    const Interval added{box.own.addedLeast, box.own.addedMost};
-    const double mostAdded = std::max(std::abs(added.least), std::abs(added.most));
+    const Interval added{box.own.addedMin, box.own.addedMax};
+    const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
         coc.front * (1 + std::abs(coc.tilt.x) / tanHalf.x + std::abs(coc.tilt.y) / tanHalf.y +
-                     std::abs(coc.curvature) * parts.radius2.most * (1 + 2 / std::min(tanHalf.x, tanHalf.y)));
+                     std::abs(coc.curvature) * parts.radius2.max * (1 + 2 / std::min(tanHalf.x, tanHalf.y)));
     const double slope = factor * unscaled;
     double change = 0;
     const auto kinkAt = [&](double limit) {
         if (strictlyInside(unlimitedBlur(parts, box.own), limit))
-            change = std::max(change, slope + mostAdded + std::abs(limit));
+            change = std::max(change, slope + maxAdded + std::abs(limit));
     };
     kinkAt(-coc.foregroundLimit);
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
     // Along an edge, what vertices have themselves changes the pieces besides.
-    const double base = std::max(std::abs(parts.front.least), std::abs(parts.behind.most));
-    const double gained = 1 + coc.gain * parts.radius2.most;
-    const double factors = box.own.factorMost - box.own.factorLeast;
-    const double ownChange = factors * gained * base + added.most - added.least;
+    const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
+    const double gained = 1 + coc.gain * parts.radius2.max;
+    const double factors = box.own.factorMax - box.own.factorMin;
+    const double ownChange = factors * gained * base + added.max - added.min;
     deviation.kinks = change * longestEdge / 4 * pixels;
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
     // A function with second derivatives of at most H deviates from its chord by at most H·L²/8. Lengths here are those
     // of clip positions, divided by the nearest depth: then r²·w has second derivatives of at most 2·(1 + r)².
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
-    const double reach = 1 + std::sqrt(parts.radius2.most);
+    const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *
-                          (box.own.factorMost * coc.front * std::abs(coc.curvature) * gained +
-                           3 * box.own.factorMost * coc.gain * (base + coc.front * reach) + std::abs(coc.astigmatism));
+                          (box.own.factorMax * coc.front * std::abs(coc.curvature) * gained +
+                           3 * box.own.factorMax * coc.gain * (base + coc.front * reach) + std::abs(coc.astigmatism));
     deviation.curved = second * length * length / 8 * width;
 
     // A product of two linear functions deviates from its chord by a quarter of the product of their changes. What
     // vertices have is linear on the surface, as are w and the pieces of C that it is multiplied with.
     const double ofGain = 2 * coc.gain * reach * base * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
-    const double products = factors * (gained * unscaled + ofGain) + added.most - added.least;
+    const double products = factors * (gained * unscaled + ofGain) + added.max - added.min;
     deviation.curved += products * longestEdge / 4 * pixels;
     return deviation;
 }

@@ -71,12 +71,12 @@ struct CocRange {
 
 // What surfaces make of the lens's blur: bounds of their factor and of what they add, as a share of the image's width.
 struct OwnBlur {
-    double factorLeast = 1;
-    double factorMost = 1;
-    double addedLeast = 0;
-    double addedMost = 0;
-    [[nodiscard]] bool varies() const { return factorLeast != factorMost || addedLeast != addedMost; }
-    [[nodiscard]] bool none() const { return !varies() && factorLeast == 1 && addedLeast == 0; }
+    double factorMin = 1;
+    double factorMax = 1;
+    double addedMin = 0;
+    double addedMax = 0;
+    [[nodiscard]] bool varies() const { return factorMin != factorMax || addedMin != addedMax; }
+    [[nodiscard]] bool none() const { return !varies() && factorMin == 1 && addedMin == 0; }
 };
 
 // Of an object whose blur is scaled by `factor` ≥ 0 and whose vertices have a blur of their own within `vertices`.
@@ -87,8 +87,8 @@ OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlu
 struct CocBox {
     double zNear = 0;
     double zFar = 0;
-    glm::dvec2 ndcLeast{0};
-    glm::dvec2 ndcMost{0};
+    glm::dvec2 ndcMin{0};
+    glm::dvec2 ndcMax{0};
     OwnBlur own{};
 };
 

@@ -15,11 +15,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double mostTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
-constexpr double mostAberration = 100;                       // mm
+constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
+constexpr double maxAberration = 100;                       // mm
 
-void requireWithin(double value, double least, double most, const char* name) {
-    if (!(value >= least && value <= most)) fail("lens: {} must be from {} to {}, not {}", name, least, most, value);
+void requireWithin(double value, double min, double max, const char* name) {
+    if (!(value >= min && value <= max)) fail("lens: {} must be from {} to {}, not {}", name, min, max, value);
 }
 
 void requirePositive(double value, const char* name, const char* unit) {
@@ -54,14 +54,14 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.sphericalAberration, -1, 1, "the spherical aberration");
     requireWithin(lens.catEye, 0, 1, "the cat's eye");
     requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
-    requireWithin(lens.astigmatism, -mostAberration, mostAberration, "the astigmatism (mm)");
-    requireWithin(lens.coma, -mostAberration, mostAberration, "the coma (mm)");
+    requireWithin(lens.astigmatism, -maxAberration, maxAberration, "the astigmatism (mm)");
+    requireWithin(lens.coma, -maxAberration, maxAberration, "the coma (mm)");
     requireWithin(lens.foregroundLimit, 0, infinity, "the limit of the foreground's blur (px)");
     requireWithin(lens.backgroundLimit, 0, infinity, "the limit of the background's blur (px)");
     requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front (m)");
     requireWithin(lens.focusRangeBehind, 0, infinity, "the focus range behind (m)");
-    requireWithin(lens.focusTilt, -mostTilt, mostTilt, "the focus tilt (radians)");
-    requireWithin(lens.focusSwing, -mostTilt, mostTilt, "the focus swing (radians)");
+    requireWithin(lens.focusTilt, -maxTilt, maxTilt, "the focus tilt (radians)");
+    requireWithin(lens.focusSwing, -maxTilt, maxTilt, "the focus swing (radians)");
     requireWithin(lens.fieldCurvature, -1e3, 1e3, "the field curvature");
     requireWithin(lens.radialBlurGain, 0, 1e3, "the radial blur gain");
     if (lens.focusRangeFront >= lens.focusDistance)

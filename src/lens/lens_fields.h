@@ -29,8 +29,8 @@ struct LensField {
     const char* name;    // as in glTF extras and shot files: "bladeRotation"
     const char* option;  // on the command line: "--blade-rotation"
     const char* unit;  // "MM", "M", "DEG", "PX", "D" (dioptres), "N" (a count), "R" (a ratio), "S", "" (true or false)
-    double least = 0;  // range of the value, in `unit`
-    double most = 0;
+    double min = 0;    // range of the value, in `unit`
+    double max = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>

@@ -218,7 +218,7 @@ double largestBlur(const FramePlan& plan, const World& world) {
 void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     const double blur = plan.largestBlur;
-    if (plan.settings.keepAll || blur >= leastBlur) return;
+    if (plan.settings.keepAll || blur >= minBlur) return;
     const bool still = plan.moments.empty() && plan.shadows.maps.empty();
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;

@@ -152,7 +152,7 @@ struct FramePlan {
 // The number of samples that remain if nothing is blurred. They only smooth edges.
 inline constexpr std::uint32_t antialiasingSamples = 16;
 // If no blur is wider than this diameter, the lens is left out (unless keepAll is set).
-inline constexpr double leastBlur = 0.5;  // px
+inline constexpr double minBlur = 0.5;  // px
 
 // Returns the part of `level` that is drawn, or null if all of it is drawn.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);

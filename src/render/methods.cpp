@@ -40,7 +40,7 @@ std::vector<Method>& table() {
 
 std::string accepted(const MethodSetting& setting) {
     if (!setting.choices.empty()) return fmt::format("one of {}", fmt::join(setting.choices, ", "));
-    return fmt::format("{} from {:g} to {:g}", setting.whole ? "an integer" : "a number", setting.least, setting.most);
+    return fmt::format("{} from {:g} to {:g}", setting.whole ? "an integer" : "a number", setting.min, setting.max);
 }
 
 bool takes(const MethodSetting& setting, const std::string& value) {
@@ -49,8 +49,7 @@ bool takes(const MethodSetting& setting, const std::string& value) {
     double number = 0;
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
     const bool parsed = fault == std::errc() && end == value.data() + value.size() && std::isfinite(number);
-    return parsed && number >= setting.least && number <= setting.most &&
-           (!setting.whole || number == std::floor(number));
+    return parsed && number >= setting.min && number <= setting.max && (!setting.whole || number == std::floor(number));
 }
 
 const MethodSetting& settingNamed(std::string_view method, const std::vector<MethodSetting>& known,

@@ -22,8 +22,8 @@ struct MethodSetting {
     std::string standard;              // its value when nothing is said
     std::string description;           // for --help
     std::vector<std::string> choices;  // one of these, or, when empty, a number:
-    double least = 0;
-    double most = 0;
+    double min = 0;
+    double max = 0;
     bool whole = true;          // an integer
     std::string onlyWith = {};  // "resolve=published": the setting without which a method refuses this one
     bool ofTheScene = false;    // no value suits all scenes: benches over all settings leave it out

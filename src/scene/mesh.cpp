@@ -36,13 +36,13 @@ std::vector<std::uint32_t> weldedIndices(const std::vector<glm::vec3>& positions
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs) {
     VertexBlurBounds bounds;
     if (blurs.empty()) return bounds;
-    bounds.factorLeast = bounds.factorMost = blurs.front().factor;
-    bounds.addedLeast = bounds.addedMost = blurs.front().opening;
+    bounds.factorMin = bounds.factorMax = blurs.front().factor;
+    bounds.addedMin = bounds.addedMax = blurs.front().opening;
     for (const VertexBlur& blur : blurs) {
-        bounds.factorLeast = std::min(bounds.factorLeast, blur.factor);
-        bounds.factorMost = std::max(bounds.factorMost, blur.factor);
-        bounds.addedLeast = std::min({bounds.addedLeast, blur.opening, blur.closing});
-        bounds.addedMost = std::max({bounds.addedMost, blur.opening, blur.closing});
+        bounds.factorMin = std::min(bounds.factorMin, blur.factor);
+        bounds.factorMax = std::max(bounds.factorMax, blur.factor);
+        bounds.addedMin = std::min({bounds.addedMin, blur.opening, blur.closing});
+        bounds.addedMax = std::max({bounds.addedMax, blur.opening, blur.closing});
         bounds.moves |= blur.opening != blur.closing;
     }
     return bounds;

@@ -25,10 +25,10 @@ struct VertexBlur {
 
 // Of all vertices of a mesh.
 struct VertexBlurBounds {
-    float factorLeast = 1;
-    float factorMost = 1;
-    float addedLeast = 0;  // mm, at any time
-    float addedMost = 0;
+    float factorMin = 1;
+    float factorMax = 1;
+    float addedMin = 0;  // mm, at any time
+    float addedMax = 0;
     bool moves = false;  // some vertex's changes while the shutter is open
     bool operator==(const VertexBlurBounds&) const = default;
 };

@@ -58,10 +58,10 @@ void animateNode(const AnimationChannel& channel, double time, NodeState& node) 
 
 // A spline may overshoot: values that no camera or light can have are brought back to the nearest that they can.
 void animateCamera(const AnimationChannel& channel, double time, Camera& camera) {
-    constexpr double leastAngle = 1e-4;
+    constexpr double minAngle = 1e-4;
     const double value = sampleValues(channel, 1, time)[0];
     if (channel.path == ChannelPath::cameraYfov)
-        camera.yfov = std::clamp(value, leastAngle, std::numbers::pi - leastAngle);
+        camera.yfov = std::clamp(value, minAngle, std::numbers::pi - minAngle);
     else if (channel.path == ChannelPath::cameraZnear)
         camera.znear = std::max(value, 1e-6);
     else

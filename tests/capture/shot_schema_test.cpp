@@ -265,7 +265,7 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
     for (const LensField& field : lensFields()) {
         const bool truth = std::holds_alternative<bool Lens::*>(field.member);
         std::vector<json> values = {true, "a"};
-        for (const double value : {field.least, field.most, field.least - 1, field.most * 2 + 1, 0.5, 2.0})
+        for (const double value : {field.min, field.max, field.min - 1, field.max * 2 + 1, 0.5, 2.0})
             values.emplace_back(value);
         for (const json& value : values) {
             const json shot = {{"lens", {{field.name, value}}}};
@@ -273,8 +273,8 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
             expectAgreement(schema, shot, shot.dump());
             expectAgreement(schema, keyed, keyed.dump());
         }
-        const json least = truth ? json(false) : json(field.least);
-        EXPECT_TRUE(schema.accepts({{"lens", {{field.name, least}}}})) << field.name;
+        const json min = truth ? json(false) : json(field.min);
+        EXPECT_TRUE(schema.accepts({{"lens", {{field.name, min}}}})) << field.name;
     }
 }
 

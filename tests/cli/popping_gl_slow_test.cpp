@@ -20,8 +20,8 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double mostOfALevel = 0.25;
-constexpr double mostPop = 1.5 / 255;  // display values, root mean square over the objects' pixels
+constexpr double levelShareMax = 0.25;
+constexpr double maxPop = 1.5 / 255;  // display values, root mean square over the objects' pixels
 
 class NoPopping : public testing::Test {
 protected:
@@ -63,8 +63,8 @@ protected:
         RecordProperty("fractional", std::to_string(fractional));
         ASSERT_GT(nearest, 0.003) << "no level changes: the movement shows nothing";
         EXPECT_GT(fractional, 0);
-        EXPECT_LT(fractional, mostOfALevel * nearest);
-        EXPECT_LT(fractional, mostPop);
+        EXPECT_LT(fractional, levelShareMax * nearest);
+        EXPECT_LT(fractional, maxPop);
     }
 
     // The busiest part of a movement that takes twenty seconds.

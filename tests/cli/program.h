@@ -55,14 +55,14 @@ protected:
     }
 
     // `mostFileBytes`: writes beyond it fail, as on a full disk; 0: no limit.
-    Outcome run(const std::vector<std::string>& arguments, std::size_t mostFileBytes = 0) const {
+    Outcome run(const std::vector<std::string>& arguments, std::size_t maxFileBytes = 0) const {
         const std::filesystem::path out = root_ / "stdout";
         const std::filesystem::path err = root_ / "stderr";
         const int status = ProgramCopies::run({.folder = folder(),
                                                .out = out,
                                                .err = err,
                                                .cacheHome = cacheFolder().parent_path(),
-                                               .mostFileBytes = mostFileBytes,
+                                               .maxFileBytes = maxFileBytes,
                                                .arguments = arguments});
         return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(out),
                 withoutProgress(textOf(err))};

@@ -26,7 +26,7 @@ struct ProgramRun {
     std::filesystem::path out;        // of its standard output
     std::filesystem::path err;        // of its standard error
     std::filesystem::path cacheHome;  // $XDG_CACHE_HOME
-    std::size_t mostFileBytes = 0;    // writes beyond it fail, as on a full disk; 0: no limit
+    std::size_t maxFileBytes = 0;     // writes beyond it fail, as on a full disk; 0: no limit
     std::vector<std::string> arguments;
 };
 
@@ -37,7 +37,7 @@ public:
         std::string words;  // each with a NUL after it
         const auto add = [&words](const std::string& word) { words += word + '\0'; };
         for (const auto& path : {program.folder, program.out, program.err}) add(path.string());
-        add(std::to_string(program.mostFileBytes));
+        add(std::to_string(program.maxFileBytes));
         for (char** variable = environ; *variable != nullptr; ++variable) add(*variable);
         add("XDG_CACHE_HOME=" + program.cacheHome.string());
         add("");
@@ -99,8 +99,8 @@ private:
         const int out = ::open(next().c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         const int err = ::open(next().c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (::chdir(folder.c_str()) != 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0) ::_exit(99);
-        if (const rlim_t most = std::stoull(next()); most > 0) {
-            const rlimit limit{most, most};
+        if (const rlim_t max = std::stoull(next()); max > 0) {
+            const rlimit limit{max, max};
             ::setrlimit(RLIMIT_FSIZE, &limit);
         }
         ::clearenv();

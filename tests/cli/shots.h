@@ -30,9 +30,9 @@ protected:
 
     void writeShot(const nlohmann::json& document) const { std::ofstream(folder() / "shot.json") << document.dump(2); }
 
-    Outcome capture(std::vector<std::string> arguments, std::size_t mostFileBytes = 0) const {
+    Outcome capture(std::vector<std::string> arguments, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"capture", "shot.json", "--quiet"});
-        return run(arguments, mostFileBytes);
+        return run(arguments, maxFileBytes);
     }
 
     [[nodiscard]] std::string bytesOf(const std::filesystem::path& name) const { return textOf(folder() / name); }

@@ -259,13 +259,13 @@ TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
     static thread_local int inside = 0;
     std::vector<std::atomic<int>> visits(64 * 64);
     std::atomic<unsigned> working = 0;
-    std::atomic<unsigned> most = 0;
+    std::atomic<unsigned> max = 0;
     std::atomic<bool> mixed = false;
     parallelFor(64, [&](std::size_t i) {
         if (++inside != 1) mixed = true;
         parallelFor(64, [&](std::size_t k) {
             const unsigned now = ++working;
-            for (unsigned seen = most; seen < now && !most.compare_exchange_weak(seen, now);) continue;
+            for (unsigned seen = max; seen < now && !max.compare_exchange_weak(seen, now);) continue;
             ++visits[64 * i + k];
             --working;
         });
@@ -273,7 +273,7 @@ TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
     });
     for (const auto& count : visits) EXPECT_EQ(count, 1);
     EXPECT_FALSE(mixed);
-    EXPECT_LE(most, std::max(1u, std::thread::hardware_concurrency()));
+    EXPECT_LE(max, std::max(1u, std::thread::hardware_concurrency()));
 }
 
 TEST(ParallelFor, passesOnAFailureOfAnInnerLoop) {

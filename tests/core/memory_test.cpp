@@ -17,8 +17,8 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
         std::uint32_t number = 0;
     };
     LargeVector<Line> lines;
-    constexpr std::size_t most = 4 * PageAllocator<Line>::fewestBytes / sizeof(Line);
-    for (std::uint32_t i = 0; i < most; ++i) lines.push_back({i});
+    constexpr std::size_t max = 4 * PageAllocator<Line>::fewestBytes / sizeof(Line);
+    for (std::uint32_t i = 0; i < max; ++i) lines.push_back({i});
     const auto expectNumbers = [&] {
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
             ASSERT_EQ(lines[i].number, i);
@@ -26,7 +26,7 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
         }
     };
     expectNumbers();
-    for (const std::size_t count : {most / 2, most / 64}) {
+    for (const std::size_t count : {max / 2, max / 64}) {
         lines.resize(count);
         lines.shrink_to_fit();
         EXPECT_EQ(lines.size(), count);
@@ -37,28 +37,28 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
 // Gives back three quarters of a vector. Returns how many of its pages are there by the system's own count, as a share.
 double shareLeftOfAQuarter() {
     constexpr std::size_t page = 4096;
-    constexpr std::size_t most = 4 * PageAllocator<std::uint32_t>::fewestBytes / sizeof(std::uint32_t);
-    LargeVector<std::uint32_t> numbers(most);
+    constexpr std::size_t max = 4 * PageAllocator<std::uint32_t>::fewestBytes / sizeof(std::uint32_t);
+    LargeVector<std::uint32_t> numbers(max);
     std::iota(numbers.begin(), numbers.end(), 0u);
     const std::uint32_t* const place = numbers.data();
-    numbers.resize(most / 4);
+    numbers.resize(max / 4);
     giveBackRoom(numbers);
     EXPECT_EQ(numbers.data(), place);
-    for (std::uint32_t i = 0; i < most / 4; ++i)
+    for (std::uint32_t i = 0; i < max / 4; ++i)
         if (numbers[i] != i) ADD_FAILURE() << "value " << i;
-    std::vector<unsigned char> present(most * sizeof(std::uint32_t) / page);
+    std::vector<unsigned char> present(max * sizeof(std::uint32_t) / page);
     EXPECT_EQ(mincore(numbers.data(), present.size() * page, present.data()), 0);
     const auto count = std::count_if(present.begin(), present.end(), [](unsigned char p) { return (p & 1) != 0; });
-    numbers.resize(most, 7);
+    numbers.resize(max, 7);
     EXPECT_EQ(numbers.back(), 7u);
     return static_cast<double>(count) / static_cast<double>(present.size());
 }
 
 TEST(Memory, roomIsGivenBackAndValuesStay) {
     // Where the system joins pages to a huge one just then, those that were given back are there again.
-    double least = 1;
-    for (int attempt = 0; attempt < 20 && least > 0.26; ++attempt) least = std::min(least, shareLeftOfAQuarter());
-    EXPECT_LE(least, 0.26);
+    double min = 1;
+    for (int attempt = 0; attempt < 20 && min > 0.26; ++attempt) min = std::min(min, shareLeftOfAQuarter());
+    EXPECT_LE(min, 0.26);
 }
 
 TEST(Memory, whatNoMachineHasIsRefused) {

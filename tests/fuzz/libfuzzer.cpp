@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
         std::exit(2);
     }
     // libFuzzer would make up nothing longer than the longest seed.
-    static std::string length = "-max_len=" + std::to_string(target->mostBytes);
+    static std::string length = "-max_len=" + std::to_string(target->maxBytes);
     static std::vector<char*> words(*arguments, *arguments + *count);
     words.insert(words.begin() + 1, length.data());
     words.push_back(nullptr);
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
         std::filesystem::create_directories(folder);
         std::size_t number = 0;
         for (const auto& seed : target->seeds()) {
-            if (seed.size() > target->mostBytes) continue;
+            if (seed.size() > target->maxBytes) continue;
             std::ofstream(std::filesystem::path(folder) / ("seed-" + std::to_string(number++)), std::ios::binary)
                 .write(reinterpret_cast<const char*>(seed.data()), static_cast<std::streamsize>(seed.size()));
         }
@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    if (size > target->mostBytes) return 0;
+    if (size > target->maxBytes) return 0;
     const std::clock_t begin = std::clock();
     target->run(std::as_bytes(std::span(data, size)));
     if (const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC; seconds > longestRun) {

@@ -70,14 +70,14 @@ std::vector<Bytes> filesIn(const std::filesystem::path& folder) {
 
 // ---- scenes
 
-constexpr std::uint64_t mostPlannedTriangles = 5'000;
-constexpr std::size_t mostPlannedNodes = 1'000;
+constexpr std::uint64_t maxPlannedTriangles = 5'000;
+constexpr std::size_t maxPlannedNodes = 1'000;
 
 void runGltf(std::span<const std::byte> bytes) {
     const bool binary = textOf(bytes).starts_with("glTF");
     try {
         const auto scene = std::make_shared<Scene>(loadGltf(written(binary ? "scene.glb" : "scene.gltf", bytes)));
-        if (trianglesOf(scene->meshes) > mostPlannedTriangles || scene->nodes.size() > mostPlannedNodes) return;
+        if (trianglesOf(scene->meshes) > maxPlannedTriangles || scene->nodes.size() > maxPlannedNodes) return;
         Request request;
         request.size.width = 64;
         request.size.height = 48;
@@ -201,8 +201,8 @@ void runCache(std::span<const std::byte> bytes) {
     header.magic = expected.magic;
     header.version = expected.version;
     header.mesh = key.mesh;
-    header.leastTriangles = key.options.leastTriangles;
-    header.mostLevels = key.options.mostLevels;
+    header.minTriangles = key.options.minTriangles;
+    header.maxLevels = key.options.maxLevels;
     header.vertices = static_cast<std::uint32_t>(key.options.vertices);
     std::memcpy(file.data(), &header, sizeof(header));
     header.checksum = hashBytes(std::span(file).subspan(offsetof(PyramidFileHeader, version)));
@@ -225,14 +225,14 @@ std::vector<Bytes> cacheSeeds() {
 // ---- images
 
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
-constexpr std::size_t mostImagePixels = 1 << 14;
+constexpr std::size_t maxImagePixels = 1 << 14;
 
 // As a tile of a frame: its rows, and the frame that it makes up.
 void runRows(const std::filesystem::path& path) {
     static_cast<void>(isRowFile(path));
     try {
         ImageRowReader reader(path);
-        if (std::size_t(reader.width()) * std::size_t(reader.height()) > mostImagePixels) return;
+        if (std::size_t(reader.width()) * std::size_t(reader.height()) > maxImagePixels) return;
         static_cast<void>(reader.read(0, reader.height()));
     } catch (const Error&) {
     }
@@ -250,7 +250,7 @@ void runImage(std::span<const std::byte> bytes) {
     const std::filesystem::path path = written(imageNames[format], bytes.subspan(1));
     try {
         const Image image = readImage(path);
-        if (image.pixels.size() <= mostImagePixels) static_cast<void>(compareImages(image, image));
+        if (image.pixels.size() <= maxImagePixels) static_cast<void>(compareImages(image, image));
         Lens lens;
         lens.apertureImage = std::make_shared<const Image>(image);
         static_cast<void>(makeAperture(lens));

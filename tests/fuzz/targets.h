@@ -14,7 +14,7 @@ struct FuzzTarget {
     const char* name = "";
     void (*run)(std::span<const std::byte> bytes) = nullptr;
     std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // to begin from
-    std::size_t mostBytes = 0;                                 // more than that finds nothing new
+    std::size_t maxBytes = 0;                                  // more than that finds nothing new
 };
 
 //   gltf      a scene's file, placed and planned for a small frame, without and with a ground and shadows

@@ -145,9 +145,9 @@ TEST_F(GlTexelBuffer, isReadTexelByTexel) {
 }
 
 TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    const std::size_t count = static_cast<std::size_t>(most) + 1;
+    GLint max = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
+    const std::size_t count = static_cast<std::size_t>(max) + 1;
     // Pages that nobody touches take no memory.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }

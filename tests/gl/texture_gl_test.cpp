@@ -170,14 +170,14 @@ TEST_F(GlTextureTest, beyondTheDriversLimitNamesTheSize) {
 }
 
 TEST_F(GlTextureTest, beyondTheDriversLayersNamesTheirNumber) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
-    EXPECT_NO_THROW(GlTexture({.width = 1, .height = 1, .layers = most}));
+    GLint max = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max);
+    EXPECT_NO_THROW(GlTexture({.width = 1, .height = 1, .layers = max}));
     try {
-        const GlTexture texture({.width = 1, .height = 1, .layers = most + 1});
+        const GlTexture texture({.width = 1, .height = 1, .layers = max + 1});
         FAIL() << "one layer too many";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(std::to_string(most + 1) + " layers"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find(std::to_string(max + 1) + " layers"), std::string::npos)
             << error.what();
     }
 }

@@ -81,7 +81,7 @@ TEST(Aberrations, reachHoldsEveryRayAndIsReached) {
 // The range of blurs holds how far any ray misses: culling, levels and rates rely on it.
 TEST(Aberrations, widenTheRangeOfTheBlur) {
     const ClipCircleOfConfusion coc = aberratedLens(0.8, 0.6);
-    const CocBox box{.zNear = 1.5, .zFar = 3, .ndcLeast = {-0.2, 0.1}, .ndcMost = {0.9, 0.8}};
+    const CocBox box{.zNear = 1.5, .zFar = 3, .ndcMin = {-0.2, 0.1}, .ndcMax = {0.9, 0.8}};
     const double largest = circleOfConfusionRange(coc, box, 1200).largest;
     std::mt19937 source(5);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -36,8 +36,8 @@ Lens anyLens(std::mt19937& random) {
     return lens;
 }
 
-double random(std::mt19937& source, double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(source);
+double random(std::mt19937& source, double min, double max) {
+    return std::uniform_real_distribution<double>(min, max)(source);
 }
 
 // Munkberg et al. 2012, Eq. 1 and 2 with our signs: the kink lies at w = −a/(b + R), and nothing changes behind it.
@@ -125,19 +125,19 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
         CocBox box;
         box.zNear = random(source, 0.1, 5);
         box.zFar = box.zNear + random(source, 0, 5);
-        box.ndcLeast = {random(source, -1.2, 1), random(source, -1.2, 1)};
-        box.ndcMost = box.ndcLeast + glm::dvec2(random(source, 0, 1), random(source, 0, 1));
-        box.own.factorLeast = random(source, 0, 1);
-        box.own.factorMost = box.own.factorLeast + random(source, 0, 1);
-        box.own.addedLeast = random(source, -0.05, 0.05);
-        box.own.addedMost = box.own.addedLeast + random(source, 0, 0.05);
+        box.ndcMin = {random(source, -1.2, 1), random(source, -1.2, 1)};
+        box.ndcMax = box.ndcMin + glm::dvec2(random(source, 0, 1), random(source, 0, 1));
+        box.own.factorMin = random(source, 0, 1);
+        box.own.factorMax = box.own.factorMin + random(source, 0, 1);
+        box.own.addedMin = random(source, -0.05, 0.05);
+        box.own.addedMax = box.own.addedMin + random(source, 0, 0.05);
         const CocRange range = circleOfConfusionRange(coc, box, 1000);
         for (int i = 0; i < 50; ++i) {
-            const glm::dvec2 ndc(random(source, box.ndcLeast.x, box.ndcMost.x),
-                                 random(source, box.ndcLeast.y, box.ndcMost.y));
+            const glm::dvec2 ndc(random(source, box.ndcMin.x, box.ndcMax.x),
+                                 random(source, box.ndcMin.y, box.ndcMax.y));
             const double c = circleOfConfusion(coc, random(source, box.zNear, box.zFar), 1000, ndc,
-                                               random(source, box.own.factorLeast, box.own.factorMost),
-                                               random(source, box.own.addedLeast, box.own.addedMost));
+                                               random(source, box.own.factorMin, box.own.factorMax),
+                                               random(source, box.own.addedMin, box.own.addedMax));
             const double slack = 1e-9 * (1 + range.largest);
             EXPECT_GE(c, range.nearest - slack);
             EXPECT_LE(c, range.farthest + slack);
@@ -199,8 +199,8 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
             return p.z * circleOfConfusion(coc, p.z, width, ndcOf(p), factor, vary ? at(added, t) : added.x);
         };
         CocBox box{std::min(ends[0].z, ends[1].z), std::max(ends[0].z, ends[1].z)};
-        box.ndcLeast = glm::min(ndcOf(ends[0]), ndcOf(ends[1]));
-        box.ndcMost = glm::max(ndcOf(ends[0]), ndcOf(ends[1]));
+        box.ndcMin = glm::min(ndcOf(ends[0]), ndcOf(ends[1]));
+        box.ndcMax = glm::max(ndcOf(ends[0]), ndcOf(ends[1]));
         box.own = {factors.x, factors.x, added.x, added.x};
         if (vary)
             box.own = {std::min(factors.x, factors.y), std::max(factors.x, factors.y), std::min(added.x, added.y),

@@ -98,14 +98,14 @@ std::vector<glm::dvec2> pointsOf(Sequence sequence, std::uint32_t count, std::ui
 
 // Low discrepancy means an error of at most c·log²n/n for n points (Niederreiter 1992); independent ones err by about
 // n^(−1/2) and leave any such bound behind.
-constexpr double mostError = 0.5;
+constexpr double maxError = 0.5;
 
 TEST(Sequences, everyPrefixAndSuffixCoversTheLens) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : allSequences)
         for (const std::uint32_t seed : {0u, 1u, 2u})
             for (const std::uint32_t count : {64u, 128u, 200u, 1024u})
-                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, true), regions), mostError)
+                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, true), regions), maxError)
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
@@ -114,7 +114,7 @@ TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
     for (const Sequence sequence : allSequences)
         for (const std::uint32_t seed : {0u, 1u, 2u})
             for (const std::uint32_t count : {64u, 128u, 200u, 1024u})
-                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, false), regions), mostError)
+                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, false), regions), maxError)
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
@@ -124,7 +124,7 @@ TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {
         std::vector<glm::dvec2> even;
         for (std::uint32_t i = 0; i < 128; i += 2) even.push_back(sequencePoint(sequence, i, 0).lens);
-        EXPECT_GT(worstPrefixOrSuffix(even, regions), 2 * mostError) << sequenceName(sequence);
+        EXPECT_GT(worstPrefixOrSuffix(even, regions), 2 * maxError) << sequenceName(sequence);
     }
     std::vector<glm::dvec2> independent;
     std::uint64_t state = 1;
@@ -133,7 +133,7 @@ TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
         return static_cast<double>(state >> 11) * 0x1p-53;
     };
     for (int i = 0; i < 1024; ++i) independent.emplace_back(next(), next());
-    EXPECT_GT(worstPrefixOrSuffix(independent, regions), 1.2 * mostError);
+    EXPECT_GT(worstPrefixOrSuffix(independent, regions), 1.2 * maxError);
 }
 
 double rootMeanSquare(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
@@ -169,8 +169,8 @@ std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int column
     for (const glm::dvec2& p : points)
         ++counts[static_cast<std::size_t>(p.y * rows) * static_cast<std::size_t>(columns) +
                  static_cast<std::size_t>(p.x * columns)];
-    const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
-    return {*least, *most};
+    const auto [min, max] = std::minmax_element(counts.begin(), counts.end());
+    return {*min, *max};
 }
 
 // 2ᵏ points from a multiple of 2ᵏ on: one in each elementary interval of the lens, whichever its sides (a net;

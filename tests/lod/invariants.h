@@ -23,7 +23,7 @@ inline void expectClustersHold(const Pyramid& pyramid) {
             for (std::uint32_t next = primitive.first; next < primitive.first + primitive.count; ++cluster) {
                 ASSERT_NE(cluster, level.clusters.end());
                 ASSERT_EQ(cluster->indices.first, next);
-                ASSERT_LE(cluster->indices.count, 3 * mostClusterTriangles);
+                ASSERT_LE(cluster->indices.count, 3 * maxClusterTriangles);
                 next += cluster->indices.count;
             }
         EXPECT_EQ(cluster, level.clusters.end());
@@ -36,10 +36,10 @@ inline void expectClustersHold(const Pyramid& pyramid) {
                 const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
                 const double longest =
                     std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-                ASSERT_GE(glm::length(cross) / longest, c.leastAltitude);
+                ASSERT_GE(glm::length(cross) / longest, c.minAltitude);
                 if (!(glm::length(cross) > 0)) continue;
                 const glm::dvec3 normal = glm::normalize(cross);
-                ASSERT_GE(glm::dot(normal, glm::dvec3(c.axis)), c.leastCosine);
+                ASSERT_GE(glm::dot(normal, glm::dvec3(c.axis)), c.minCosine);
                 ASSERT_GE(glm::dot(normal, p[0] - glm::dvec3(c.centre)), c.planes);
             }
     }
@@ -54,14 +54,14 @@ inline void expectContinuousLevels(const Pyramid& pyramid) {
         const auto stored = [&](const PyramidLevel& level) {
             return metric == LodMetric::size ? level.meanEdge : level.error;
         };
-        const double most = metric == LodMetric::size ? std::log(step) / std::log(1.05) : (step - 1) / (1 - 1 / 1.25);
+        const double max = metric == LodMetric::size ? std::log(step) / std::log(1.05) : (step - 1) / (1 - 1 / 1.25);
         const double pixelsPerUnit = 10 / stored(pyramid.levels[1]);
         const double end = 1.1 * pixelsPerUnit * stored(pyramid.levels.back());
         double last = 0;
         for (double target = 1e-3; target < end; target *= step) {
             const double lambda = levelOfDetail(pyramid, {pixelsPerUnit, 0}, metric, {0, target});
             ASSERT_GE(lambda, last) << "at " << target;
-            ASSERT_LE(lambda - last, 1.001 * most) << "at " << target;
+            ASSERT_LE(lambda - last, 1.001 * max) << "at " << target;
             last = lambda;
         }
         EXPECT_EQ(last, static_cast<double>(pyramid.levels.size() - 1));
@@ -137,9 +137,9 @@ inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
         const auto coarse = partIndices(l);
         ASSERT_TRUE(coarse.contains(main)) << "level " << l;
         const std::vector<std::uint32_t>& own = coarse.at(main);
-        const bool most = std::all_of(coarse.begin(), coarse.end(),
-                                      [&](const auto& part) { return part.second.size() <= own.size(); });
-        if (most) continue;
+        const bool max = std::all_of(coarse.begin(), coarse.end(),
+                                     [&](const auto& part) { return part.second.size() <= own.size(); });
+        if (max) continue;
         const Surface left = prepareSurface(pyramid.levels[l].positions, own);
         EXPECT_LT(surfaceDistance(surface, left, 4096).both.mean, 0.03 * glm::length(bounds.size()))
             << "level " << l << ": " << own.size() / 3 << " triangles";

@@ -11,13 +11,13 @@ int main(int count, char** words) try {
     defocus::Image first;
     for (int i = 4; i < count; ++i) {
         const defocus::Image image = defocus::readImage(words[i]);
-        const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+        const auto [min, max] = std::minmax_element(image.pixels.begin(), image.pixels.end());
         const bool sized = image.width == std::atoi(words[1]) && image.height == std::atoi(words[2]) &&
                            image.channels == std::atoi(words[3]);
         const bool same = first.empty() || image.pixels == first.pixels;
-        if (!sized || !same || !(*least < *most)) {
+        if (!sized || !same || !(*min < *max)) {
             std::cerr << words[i] << ": " << image.width << "x" << image.height << "x" << image.channels << ", from "
-                      << *least << " to " << *most << (same ? "" : ", other pixels than the first") << '\n';
+                      << *min << " to " << *max << (same ? "" : ", other pixels than the first") << '\n';
             return 1;
         }
         if (first.empty()) first = image;

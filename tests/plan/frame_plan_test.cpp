@@ -201,8 +201,8 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
         const double before = steps[i - 1].distance - reach;
         const double after = steps[i].distance - reach;
         const double target = settings.thresholds.blur.value() * blur * (1 / before - 1 / after);
-        const double most = (std::log(after / before) + target / settings.thresholds.size.value()) / std::log(growth);
-        EXPECT_NEAR(steps[i].lambda, steps[i - 1].lambda, most) << steps[i].distance;
+        const double max = (std::log(after / before) + target / settings.thresholds.size.value()) / std::log(growth);
+        EXPECT_NEAR(steps[i].lambda, steps[i - 1].lambda, max) << steps[i].distance;
     }
 }
 

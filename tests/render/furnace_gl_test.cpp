@@ -19,8 +19,8 @@ std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine)
 }
 
 struct Extremes {
-    double least = 1e9;
-    double most = -1e9;
+    double min = 1e9;
+    double max = -1e9;
 };
 
 Extremes furnaceRadiance(const Material& material, double cosine) {
@@ -29,8 +29,8 @@ Extremes furnaceRadiance(const Material& material, double cosine) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c) {
-                extremes.least = std::min<double>(extremes.least, image.at(x, y)[c]);
-                extremes.most = std::max<double>(extremes.most, image.at(x, y)[c]);
+                extremes.min = std::min<double>(extremes.min, image.at(x, y)[c]);
+                extremes.max = std::max<double>(extremes.max, image.at(x, y)[c]);
             }
     return extremes;
 }
@@ -52,8 +52,8 @@ TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {
             const Extremes radiance = furnaceRadiance(furnaceMaterial(1, 0, roughness), cosine);
-            EXPECT_NEAR(radiance.least, 1, rounding) << roughness << ' ' << cosine;
-            EXPECT_NEAR(radiance.most, 1, rounding) << roughness << ' ' << cosine;
+            EXPECT_NEAR(radiance.min, 1, rounding) << roughness << ' ' << cosine;
+            EXPECT_NEAR(radiance.max, 1, rounding) << roughness << ' ' << cosine;
         }
 }
 
@@ -63,8 +63,8 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
             for (const float roughness : roughnesses)
                 for (const double cosine : cosines) {
                     const Extremes radiance = furnaceRadiance(furnaceMaterial(base, metallic, roughness), cosine);
-                    EXPECT_GE(radiance.least, 0) << base << ' ' << metallic << ' ' << roughness << ' ' << cosine;
-                    EXPECT_LE(radiance.most, 1 + rounding)
+                    EXPECT_GE(radiance.min, 0) << base << ' ' << metallic << ' ' << roughness << ' ' << cosine;
+                    EXPECT_LE(radiance.max, 1 + rounding)
                         << base << ' ' << metallic << ' ' << roughness << ' ' << cosine;
                 }
 }
@@ -73,11 +73,11 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {
-        const double radiance = furnaceRadiance(furnaceMaterial(1, 1, roughness), 1).least;
+        const double radiance = furnaceRadiance(furnaceMaterial(1, 1, roughness), 1).min;
         EXPECT_LE(radiance, before + rounding) << roughness;
         before = radiance;
     }
-    EXPECT_NEAR(furnaceRadiance(furnaceMaterial(1, 1, 0), 0.5).least, 1, 1e-3);
+    EXPECT_NEAR(furnaceRadiance(furnaceMaterial(1, 1, 0), 0.5).min, 1, 1e-3);
 }
 
 }  // namespace

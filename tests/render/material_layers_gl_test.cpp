@@ -41,11 +41,11 @@ Image furnace(const Material& material, double cosine) {
 
 // By how much the pixels of a channel differ from `expected` at most.
 double farthestFrom(const Image& image, double expected) {
-    double most = 0;
+    double max = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.at(x, y)[c] - expected));
-    return most;
+            for (int c = 0; c < 3; ++c) max = std::max(max, std::abs(image.at(x, y)[c] - expected));
+    return max;
 }
 
 void expectWall(const Material& material, const GltfSurface& surface, double share = 1) {

@@ -8,9 +8,9 @@ namespace defocus::engine {
 namespace {
 
 const std::vector<MethodSetting> known = {
-    {.name = "taps", .standard = "8", .description = "", .choices = {}, .least = 8, .most = 64},
+    {.name = "taps", .standard = "8", .description = "", .choices = {}, .min = 8, .max = 64},
     {.name = "coc", .standard = "published", .description = "", .choices = {"published", "thin-lens"}},
-    {.name = "bias", .standard = "1", .description = "", .choices = {}, .least = 0, .most = 4, .whole = false},
+    {.name = "bias", .standard = "1", .description = "", .choices = {}, .min = 0, .max = 4, .whole = false},
 };
 
 std::string faultOf(const MethodSettings& given) {

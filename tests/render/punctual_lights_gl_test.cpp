@@ -24,14 +24,14 @@ glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point,
     if (currentIsSoftware()) return glm::dvec3(0);
     const double step = 0.72 * wallDepth / small.view.width / 512;
     const glm::dvec3 expected = litRadiance(surface, point, point.normal, lights);
-    glm::dvec3 most(0);
+    glm::dvec3 max(0);
     for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}) {
         WallPoint beside = point;
         beside.position += step * fromWall(small, way);
         beside.toEye = glm::normalize(glm::dvec3(small.view.worldFromCamera[3]) - beside.position);
-        most = glm::max(most, glm::abs(litRadiance(surface, beside, point.normal, lights) - expected));
+        max = glm::max(max, glm::abs(litRadiance(surface, beside, point.normal, lights) - expected));
     }
-    return most;
+    return max;
 }
 
 void expectClosedForm(const GltfSurface& surface, const std::vector<PlacedLight>& lights, const SmallWorld& small) {

@@ -202,11 +202,11 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     finish(*small);
     const Image shadowed = shadowImage(*small, settingsFor(32, Shadows::on));
     const Image lit = shadowImage(*small, settingsFor(32, Shadows::off));
-    double most = 0;
+    double max = 0;
     for (int y = 18; y < 54; ++y)
         for (int x = 30; x < 66; ++x)
-            most = std::max(most, static_cast<double>(lit.at(x, y)[0] - shadowed.at(x, y)[0]) / lit.at(x, y)[0]);
-    EXPECT_LT(most, 0.02);
+            max = std::max(max, static_cast<double>(lit.at(x, y)[0] - shadowed.at(x, y)[0]) / lit.at(x, y)[0]);
+    EXPECT_LT(max, 0.02);
 }
 
 // A lamp 1 m before a board of 0.4 m and 2 m before the wall: the shadow measures 0.8 m. With one map, and with six
@@ -302,14 +302,14 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     addEdge(*edge, 1, 1);
     finish(*edge);
     const std::vector<double> shares = litShares(*edge, settingsFor(64, Shadows::on), "scheuermann");
-    double most = 0;
+    double max = 0;
     for (int x = 0; x < edge->view.width; ++x) {
         const double place = wallX(edge->view, x);
         if (std::abs(place) > 0.7) continue;
-        most = std::max(most, std::abs(shares[static_cast<std::size_t>(x)] -
-                                       litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
+        max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
+                                     litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(most, 0.12);  // of 16 points on the sun for each of 4 pinholes
+    EXPECT_LT(max, 0.12);  // of 16 points on the sun for each of 4 pinholes
 }
 
 }  // namespace

@@ -32,11 +32,11 @@ void light(SmallWorld& small) {
 }
 
 double farthestFrom(const Image& image, const glm::dvec3& expected) {
-    double most = 0;
+    double max = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.at(x, y)[c] - expected[c]));
-    return most;
+            for (int c = 0; c < 3; ++c) max = std::max(max, std::abs(image.at(x, y)[c] - expected[c]));
+    return max;
 }
 
 TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
@@ -165,12 +165,12 @@ TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
         finish(*with);
         const Image expected = drawnBy(method, *without, 64);
         const Image image = drawnBy(method, *with, 64);
-        double most = 0;
+        double max = 0;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x)
                 for (int c = 0; c < 3; ++c)
-                    most = std::max<double>(most, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
-        EXPECT_LT(most, 2e-5) << method;
+                    max = std::max<double>(max, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
+        EXPECT_LT(max, 2e-5) << method;
     }
 }
 

@@ -38,15 +38,15 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
         const PlacedCamera placed = chooseCamera(scene, pose, {}, aspect);
         const glm::dmat4 cameraFromWorld = glm::inverse(placed.worldFromCamera);
         const double tanY = std::tan(placed.camera.yfov / 2);
-        glm::dvec2 least(1e9), most(-1e9);
+        glm::dvec2 min(1e9), max(-1e9);
         for (const glm::dvec3& corner : pose.bounds.corners()) {
             const glm::dvec3 c(cameraFromWorld * glm::dvec4(corner, 1));
             ASSERT_GT(-c.z, placed.camera.znear);
             const glm::dvec2 ndc(c.x / (-c.z * tanY * aspect), c.y / (-c.z * tanY));
-            least = glm::min(least, ndc);
-            most = glm::max(most, ndc);
+            min = glm::min(min, ndc);
+            max = glm::max(max, ndc);
         }
-        const double fill = std::max({-least.x, most.x, -least.y, most.y});
+        const double fill = std::max({-min.x, max.x, -min.y, max.y});
         EXPECT_LE(fill, 0.95);
         EXPECT_GE(fill, 0.85);
     }

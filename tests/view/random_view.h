@@ -19,8 +19,8 @@ class Dice {
 public:
     explicit Dice(std::uint32_t seed) : engine_(seed) {}
     bool coin() { return whole(0, 1) == 1; }
-    int whole(int least, int most) { return std::uniform_int_distribution<int>(least, most)(engine_); }
-    double number(double least, double most) { return std::uniform_real_distribution<double>(least, most)(engine_); }
+    int whole(int min, int max) { return std::uniform_int_distribution<int>(min, max)(engine_); }
+    double number(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
     std::string name() {
         static const char* const names[] = {"plain",           "two words", "it's \"quoted\"",
                                             "$HOME `ls` \\ *", "-dash",     "a=b;c"};
@@ -76,9 +76,9 @@ inline Request randomOptions(Dice& dice) {
 inline void changeFields(Lens& lens, Dice& dice) {
     for (const LensField& field : lensFields()) {
         if (dice.coin()) continue;
-        const double least = std::max(field.least, -50.0);
-        const double most = std::min(field.most, 60.0);
-        double value = dice.number(least, most);
+        const double min = std::max(field.min, -50.0);
+        const double max = std::min(field.max, 60.0);
+        double value = dice.number(min, max);
         if (!std::holds_alternative<double Lens::*>(field.member)) value = std::round(value);
         if (field.name == std::string_view("bladeCount")) value = dice.whole(3, 9);
         if (field.name == std::string_view("exposureTime") && dice.coin()) value = 0;

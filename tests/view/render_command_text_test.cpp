@@ -109,7 +109,7 @@ TEST(RenderCommandText, everyLensFieldArrives) {
         const bool count = std::holds_alternative<int Lens::*>(field.member);
         const double value = flag    ? 1 - before
                              : count ? 6
-                                     : std::min(field.most, std::isfinite(before) ? before + 0.25 : 9.5);
+                                     : std::min(field.max, std::isfinite(before) ? before + 0.25 : 9.5);
         setLensField(shot.view.lens, field, value);
         SCOPED_TRACE(field.name);
         expectSameView(placedBy(shot.command()).view, shot.view);

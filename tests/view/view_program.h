@@ -136,8 +136,8 @@ protected:
     // Whether the state comes to satisfy `condition`, which is given up when the program has ended or after minutes:
     // software drivers on busy machines are slow. reached() is the state that did.
     bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
-        constexpr double mostSeconds = 180;
-        for (double waited = 0; waited < mostSeconds; waited += 0.05) {
+        constexpr double maxSeconds = 180;
+        for (double waited = 0; waited < maxSeconds; waited += 0.05) {
             const bool ending = !alive();  // whose last state is read all the same
             nlohmann::json now = state();
             if (!now.empty() && condition(now)) {

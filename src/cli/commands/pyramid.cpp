@@ -99,7 +99,7 @@ void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
 // As cachedPyramids does it, mesh by mesh. Returns why one couldn't be stored; empty where nothing went wrong.
 std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
                         MeshReport& report) {
-    if (folder.empty() || mesh.triangleCount() <= options.leastTriangles) {
+    if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
         buildOne(mesh, options, helpers, report);
         return {};
     }
@@ -234,8 +234,8 @@ struct EndText {
 
 EndText endText(const Pyramid& pyramid) {
     switch (pyramid.end) {
-        case PyramidEnd::leastTriangles:
-            return {"leastTriangles", "this is as small as levels get"};
+        case PyramidEnd::minTriangles:
+            return {"minTriangles", "this is as small as levels get"};
         case PyramidEnd::smallSaving:
             return {"smallSaving", "it would save less than a quarter of the triangles"};
         case PyramidEnd::topology:
@@ -244,8 +244,8 @@ EndText endText(const Pyramid& pyramid) {
             return {"largestParts", "it would be at the cost of the largest parts"};
         case PyramidEnd::noSurface:
             return {"noSurface", "no triangle has corners apart from each other"};
-        case PyramidEnd::mostLevels:
-            return {"mostLevels", "there are as many as a pyramid may have"};
+        case PyramidEnd::maxLevels:
+            return {"maxLevels", "there are as many as a pyramid may have"};
     }
     fail("unknown end of a pyramid");
 }

@@ -143,7 +143,7 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
     writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
     const WorkSummary summary = workSummary(work, samples);
     if (!quiet)
-        printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.most);
+        printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.max);
 }
 
 void writeSweptWork(const RenderArguments& arguments, const Image& work, const Metadata& metadata, bool quiet) {
@@ -151,7 +151,7 @@ void writeSweptWork(const RenderArguments& arguments, const Image& work, const M
     writeImage(derivedPath(output, "swept-work.exr"), work, metadata);
     writeImage(derivedPath(output, "swept-work.png"), sweptWorkColourMap(work));
     const WorkSummary summary = workSummary(work, 1);
-    if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.most);
+    if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.max);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {

@@ -26,8 +26,8 @@ namespace {
 constexpr double viewElevation = glm::radians(14.0);
 constexpr double viewTangent = 18.0 / 85;  // half the cell's width: an 85 mm lens before a 36 mm sensor
 constexpr double viewFill = 0.9;           // share of the cell that the object may fill
-constexpr double leastAspect = 0.75;
-constexpr double mostAspect = 1.6;
+constexpr double minAspect = 0.75;
+constexpr double maxAspect = 1.6;
 constexpr int cellArea = 320 * 240;  // px
 
 // The sheet, px.
@@ -137,7 +137,7 @@ TurntableView turntableView(const Mesh& mesh, const Object& object) {
     });
 
     // A cell in the object's proportions, and the distance from which all of it is in there.
-    const double aspect = std::clamp(aside / up, leastAspect, mostAspect);
+    const double aspect = std::clamp(aside / up, minAspect, maxAspect);
     TurntableView result;
     View& view = result.view;
     view.width = static_cast<int>(std::lround(std::sqrt(cellArea * aspect)));

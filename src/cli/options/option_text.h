@@ -39,11 +39,11 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
                        const std::string& type, const std::string& description);
 
 template <typename Whole>
-CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& target, std::uint64_t least,
-                        std::uint64_t most, const std::string& description) {
+CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& target, std::uint64_t min,
+                        std::uint64_t max, const std::string& description) {
     return addParsed(command, names, "N", description,
-                     [&target, least, most](const std::string& text) {
-                         target = static_cast<Whole>(parseInteger(text, least, most));
+                     [&target, min, max](const std::string& text) {
+                         target = static_cast<Whole>(parseInteger(text, min, max));
                      })
         ->default_str(std::to_string(target));
 }
@@ -66,11 +66,10 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector
                         const std::string& type, const std::string& description);
 
 template <typename Whole>
-CLI::Option* addIntegers(CLI::App& command, const std::string& names, std::vector<Whole>& target, std::uint64_t least,
-                         std::uint64_t most, const std::string& description) {
-    return addList(
-               command, names, "N,N,…", target, description,
-               [least, most](const std::string& part) { return static_cast<Whole>(parseInteger(part, least, most)); })
+CLI::Option* addIntegers(CLI::App& command, const std::string& names, std::vector<Whole>& target, std::uint64_t min,
+                         std::uint64_t max, const std::string& description) {
+    return addList(command, names, "N,N,…", target, description,
+                   [min, max](const std::string& part) { return static_cast<Whole>(parseInteger(part, min, max)); })
         ->default_str(fmt::format("{}", fmt::join(target, ",")));
 }
 

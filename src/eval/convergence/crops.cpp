@@ -75,12 +75,12 @@ Image blurOfGeometry(const World& world, const View& view, const RendererOptions
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other) {
     const SummedArea area(values);
     std::optional<Crop> best;
-    double most = -1;
+    double max = -1;
     for (int y = 0; y + size <= values.height; ++y)
         for (int x = 0; x + size <= values.width; ++x) {
             const double sum = area.of(x, y, size);
-            if (!(sum > most) || (other && overlap(*other, x, y, size))) continue;
-            most = sum;
+            if (!(sum > max) || (other && overlap(*other, x, y, size))) continue;
+            max = sum;
             best = Crop{"", x, y, size, size};
         }
     return best;

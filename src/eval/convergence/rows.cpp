@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 // Frames of one case whose MSE differs by more than this share are not one image.
-constexpr double mostDifference = 0.01;
+constexpr double maxDifference = 0.01;
 
 bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
     return row.method == run.method && row.setting == run.setting && row.asked == run.asked;
@@ -22,9 +22,8 @@ std::string faultOf(const std::vector<const ConvergenceRun*>& runs, int seeds) {
     for (const ConvergenceRun* run : runs) {
         const auto other = std::ranges::find_if(
             runs, [&](const ConvergenceRun* each) { return each->run % seeds == run->run % seeds; });
-        const auto [least, most] = std::minmax(run->error.mse, (*other)->error.mse);
-        if (most - least > mostDifference * least)
-            return fmt::format("not one image: MSE {:.3g} to {:.3g}", least, most);
+        const auto [min, max] = std::minmax(run->error.mse, (*other)->error.mse);
+        if (max - min > maxDifference * min) return fmt::format("not one image: MSE {:.3g} to {:.3g}", min, max);
     }
     return {};
 }

@@ -128,11 +128,11 @@ std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& fram
 
     const auto count = static_cast<std::size_t>(length);
     std::size_t best = 0;
-    int most = -1;
+    int max = -1;
     for (std::size_t first = 0; first + count <= frames.size(); ++first) {
         const int within = changes[first + count - 1] - changes[first];
-        if (within <= most) continue;
-        most = within;
+        if (within <= max) continue;
+        max = within;
         best = first;
     }
     const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(best);

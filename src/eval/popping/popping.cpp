@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float mostBlur = 256;  // px: blur that is grown around an object
+constexpr float maxBlur = 256;  // px: blur that is grown around an object
 
 Image rendered(Renderer& renderer, const FramePlan& plan) {
     renderer.start(plan);
@@ -110,13 +110,13 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     Image pixels(objects.width, objects.height, 1);
     const auto bounded = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
     for (const ObjectPlan* object : changed) {
-        CocBox box{.ndcLeast = glm::dvec2(-1), .ndcMost = glm::dvec2(1)};
+        CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
         const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel beside a pixel's middle
-        const int left = bounded(0.5 * (1 + box.ndcLeast.x) * objects.width - reach, objects.width);
-        const int right = bounded(0.5 * (1 + box.ndcMost.x) * objects.width + reach + 1, objects.width);
-        const int top = bounded(0.5 * (1 - box.ndcMost.y) * objects.height - reach, objects.height);
-        const int bottom = bounded(0.5 * (1 - box.ndcLeast.y) * objects.height + reach + 1, objects.height);
+        const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
+        const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);
+        const int top = bounded(0.5 * (1 - box.ndcMax.y) * objects.height - reach, objects.height);
+        const int bottom = bounded(0.5 * (1 - box.ndcMin.y) * objects.height + reach + 1, objects.height);
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) *pixels.at(x, y) = *objects.at(x, y);
     }
@@ -255,7 +255,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
 // ---- one sample's step ----------------------------------------------------------------------------------------------
 
 // The object that is blurred most, of those with a coarser level to go to.
-ObjectPlan* mostBlurred(FramePlan& plan, const World& world) {
+ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {
     ObjectPlan* found = nullptr;
     for (ObjectPlan& object : plan.objects) {
         const std::size_t levels = world.pyramids[static_cast<std::size_t>(object.mesh)].levels.size();
@@ -287,7 +287,7 @@ double squaredDifference(const Image& a, const Image& b) {
 std::optional<SampleStep> measureSampleStep(const World& world, Renderer& renderer, const View& view,
                                             const PoppingOptions& options, std::uint32_t samples) {
     FramePlan plan = planOf(world, view, options, samples, LodMode::fractional);
-    ObjectPlan* object = plan.usesLens ? mostBlurred(plan, world) : nullptr;
+    ObjectPlan* object = plan.usesLens ? maxBlurred(plan, world) : nullptr;
     if (object == nullptr) return {};
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object->mesh)];
     SampleStep step;
@@ -328,7 +328,7 @@ Image objectPixels(const Image& level, const Image& coc) {
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < width; ++x) {
             if (*level.at(x, y) < 0) continue;
-            const float radius = 0.5f * std::min(std::abs(*coc.at(x, y)), mostBlur);
+            const float radius = 0.5f * std::min(std::abs(*coc.at(x, y)), maxBlur);
             const int rows = static_cast<int>(radius);
             for (int row = std::max(y - rows, 0); row <= std::min(y + rows, level.height - 1); ++row) {
                 const auto away = static_cast<float>(row - y);

@@ -140,15 +140,15 @@ std::string sampleStepLine(const SampleStep& step) {
 }
 
 std::string poppingSummary(std::span<const PoppingRow> rows) {
-    std::uint32_t most = 0;
-    for (const PoppingRow& row : rows) most = std::max(most, row.samples);
+    std::uint32_t max = 0;
+    for (const PoppingRow& row : rows) max = std::max(max, row.samples);
     std::string text =
-        fmt::format("\nlargest pop at {} samples, of the nearest level's (pop alone, RMSE / FLIP):\n", most);
+        fmt::format("\nlargest pop at {} samples, of the nearest level's (pop alone, RMSE / FLIP):\n", max);
     for (const PoppingMode mode : poppingModes) {
         if (mode == PoppingMode::nearest) continue;
         text += fmt::format("  {:<10}", poppingModeName(mode));
         for (const PoppingRow& row : rows)
-            if (row.samples == most && row.mode == mode)
+            if (row.samples == max && row.mode == mode)
                 text += fmt::format("  {} {} / {}", movementName(row.movement), fraction(row.stepRmse.ofNearest),
                                     fraction(row.stepFlip.ofNearest));
         text += '\n';

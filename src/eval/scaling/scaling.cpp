@@ -19,8 +19,8 @@ constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // of an instance
 constexpr int smallFactor = 40;           // by which the image shrinks for the work of vertices alone
 constexpr double bytesPerTriangle = 600;  // mesh, pyramid while it is made, and what the driver keeps
-constexpr double mostOfMemory = 0.8;
-constexpr double leastMargin = 0.05;  // of the frame, between parts that are told apart
+constexpr double memoryShareMax = 0.8;
+constexpr double minMargin = 0.05;  // of the frame, between parts that are told apart
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -122,8 +122,8 @@ bool sameWorld(const ScalingPoint& a, const ScalingPoint& b) {
 // Why this machine can't hold the point; empty where it can.
 std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     const double needed = bytesPerTriangle * static_cast<double>(point.triangles);
-    const double most = mostOfMemory * static_cast<double>(machine.memoryBytes);
-    if (machine.memoryBytes == 0 || point.instances > 0 || needed <= most) return {};
+    const double max = memoryShareMax * static_cast<double>(machine.memoryBytes);
+    if (machine.memoryBytes == 0 || point.instances > 0 || needed <= max) return {};
     return fmt::format("{:.0f} GB of main memory needed, about", needed / 1e9);
 }
 
@@ -230,7 +230,7 @@ std::vector<ScalingPart> ScalingRow::largestParts() const {
     std::vector<ScalingPart> found;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const bool touches = times[i]->high >= largest.low;
-        const bool close = largest.median - times[i]->median < leastMargin * milliseconds.median;
+        const bool close = largest.median - times[i]->median < minMargin * milliseconds.median;
         if (touches || close) found.push_back(parts[i]);
     }
     return found;
@@ -262,8 +262,8 @@ void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor
 
 std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>> points) {
     if (points.empty()) return {};
-    const auto [least, largest] = std::ranges::minmax(points | std::views::keys);
-    const double from = std::sqrt(least * largest) * (1 - 1e-9);
+    const auto [min, largest] = std::ranges::minmax(points | std::views::keys);
+    const double from = std::sqrt(min * largest) * (1 - 1e-9);
     double n = 0, sumX = 0, sumY = 0, sumXx = 0, sumXy = 0;
     for (const auto& [x, y] : points) {
         if (x < from) continue;

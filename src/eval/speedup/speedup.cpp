@@ -50,10 +50,10 @@ bool sameLens(const Setting& a, const Setting& b) {
 std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setting>& all,
                                  const SpeedupOptions& options) {
     if (options.referenceSamples) return *options.referenceSamples;
-    std::uint32_t most = 0;
+    std::uint32_t max = 0;
     for (const Setting& other : all)
-        if (sameLens(other, setting)) most = std::max(most, other.samples);
-    return std::clamp(referenceFactor * most, 2u, maxSamples);
+        if (sameLens(other, setting)) max = std::max(max, other.samples);
+    return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
 // Of the setting's lens; that of the setting before where it has the same.

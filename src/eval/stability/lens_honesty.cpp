@@ -69,9 +69,9 @@ std::vector<std::string> honestyMethods() {
         list.push_back(method.name);
         for (const MethodSetting& setting : method.settings) {
             if (setting.ofTheScene) continue;
-            const std::vector<std::string> most = {fmt::format("{:g}", setting.most)};
+            const std::vector<std::string> max = {fmt::format("{:g}", setting.max)};
             const std::string also = setting.onlyWith.empty() ? "" : setting.onlyWith + ",";
-            for (const std::string& choice : setting.choices.empty() ? most : setting.choices)
+            for (const std::string& choice : setting.choices.empty() ? max : setting.choices)
                 if (choice != setting.standard)
                     list.push_back(fmt::format("{}:{}{}={}", method.name, also, setting.name, choice));
         }

@@ -15,9 +15,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double sharedBlur = wholeShareBlur - 0.5;                           // px; all groups share
-constexpr double partlySharedBlur = 0.5 * (wholeShareBlur + leastShareBlur);  // px; half of them do
-constexpr double diameterLimit = 0.5;                                         // px
+constexpr double sharedBlur = wholeShareBlur - 0.5;                         // px; all groups share
+constexpr double partlySharedBlur = 0.5 * (wholeShareBlur + minShareBlur);  // px; half of them do
+constexpr double diameterLimit = 0.5;                                       // px
 constexpr double energyLimit = 5e-3;
 
 // A light behind the focus, blurred by so many px.

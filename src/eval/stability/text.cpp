@@ -69,10 +69,10 @@ std::string honestySummary(std::span<const HonestyRow> rows) {
         }
         const auto& worst = *std::ranges::max_element(
             use, {}, [](const HonestyRow& row) { return std::abs(row.measured - row.expected); });
-        const auto [least, most] = std::ranges::minmax(use | std::views::transform(&HonestyRow::energy));
+        const auto [min, max] = std::ranges::minmax(use | std::views::transform(&HonestyRow::energy));
         const auto following = std::ranges::count_if(use, &HonestyRow::followsLens);
         text += fmt::format("{:<30} {:>11.2f} {:>15} {:>15}  {} of {}\n", worst.method, worst.measured - worst.expected,
-                            worst.varied, fmt::format("{:.3f} to {:.3f}", least, most), following, use.size());
+                            worst.varied, fmt::format("{:.3f} to {:.3f}", min, max), following, use.size());
     }
     return text;
 }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr float white = 254.5f / 255;  // display-encoded
 constexpr float black = 0.5f / 255;
-constexpr double mostWhite = 0.5;  // of the pixels
-constexpr double mostBlack = 0.95;
+constexpr double maxWhite = 0.5;  // of the pixels
+constexpr double maxBlack = 0.95;
 constexpr double wantedMedian = 0.18;  // middle grey
-constexpr double leastLuminance = 1e-6;
+constexpr double minLuminance = 1e-6;
 
 // In which the median luminance of what isn't empty is middle grey.
 double helpfulExposure(const ImageView& image) {
@@ -26,7 +26,7 @@ double helpfulExposure(const ImageView& image) {
         for (int x = 0; x < image.width; ++x) {
             const float* pixel = image.at(x, y);
             const double luminance = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
-            if (luminance > leastLuminance && std::isfinite(luminance)) luminances.push_back(luminance);
+            if (luminance > minLuminance && std::isfinite(luminance)) luminances.push_back(luminance);
         }
     if (luminances.empty()) return 0;
     const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
@@ -44,10 +44,10 @@ std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOpt
         for (int x = 0; x < display.width; ++x) {
             const float* pixel = display.at(x, y);
             if (display.channels > 3 && !(pixel[3] > 0)) continue;
-            const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
+            const auto [min, max] = std::minmax({pixel[0], pixel[1], pixel[2]});
             ++shown;
-            whites += least >= white ? 1 : 0;
-            blacks += most <= black ? 1 : 0;
+            whites += min >= white ? 1 : 0;
+            blacks += max <= black ? 1 : 0;
         }
     const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(shown); };
     const auto line = [&](std::size_t count, const char* what) {
@@ -56,8 +56,8 @@ std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOpt
                         "--exposure {:.2g}",
                         100 * share(count), what, write.exposure, helpfulExposure(image))};
     };
-    if (shown > 0 && share(whites) > mostWhite) return line(whites, "white");
-    if (shown > 0 && share(blacks) > mostBlack && helpfulExposure(image) > write.exposure) return line(blacks, "black");
+    if (shown > 0 && share(whites) > maxWhite) return line(whites, "white");
+    if (shown > 0 && share(blacks) > maxBlack && helpfulExposure(image) > write.exposure) return line(blacks, "black");
     return {};
 }
 

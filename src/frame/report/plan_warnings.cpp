@@ -18,8 +18,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double visibleShare = 0.02;    // of the image's width: a blur that shows at a glance
-constexpr std::size_t mostIgnored = 20;  // lines
+constexpr double visibleShare = 0.02;   // of the image's width: a blur that shows at a glance
+constexpr std::size_t maxIgnored = 20;  // lines
 
 // 1, 2 or 5 times a power of ten, near `value`.
 double roundNumber(double value) {
@@ -32,7 +32,7 @@ std::string nothingBlurred(const FramePlan& plan) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const ObjectPlan& object : plan.objects) nearest = std::min(nearest, object.nearestDepth);
     const double scale = roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur);
-    const std::string help = scale <= lensFieldNamed("blurScale")->most
+    const std::string help = scale <= lensFieldNamed("blurScale")->max
                                  ? fmt::format("try --blur-scale {:g}, or a wider aperture", scale)
                                  : "are the scene's units metres?";
     return fmt::format(
@@ -49,13 +49,13 @@ bool blursCells(const MethodUse& use) {
 // How far apart the images of a point lie, px; of lens cells, the σ that fills it.
 struct Gaps {
     double size = 0;
-    double most = 16;  // that a disk may show
+    double max = 16;  // that a disk may show
     double good = 8;
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
     if (const LensCells cells = blursCells(use) ? lensCells(plan) : LensCells{}; cells.blur > 0) {
-        const double widest = std::sqrt(cellClassVariance(mostCellClasses - 1));  // σ, px
+        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
     return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};
@@ -85,10 +85,10 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& us
     if (!plan.shadows.maps.empty() && !method.drawsShadows)
         lines.push_back(fmt::format("method {}: nothing casts a shadow; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
-    if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
+    if (plan.largestBlur > 0 && plan.largestBlur < minBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
     if (!method.usesLensSamples || !std::isfinite(blur)) return lines;
-    if (const Gaps gaps = gapsOf(plan, use, blur, samples); gaps.size > gaps.most)
+    if (const Gaps gaps = gapsOf(plan, use, blur, samples); gaps.size > gaps.max)
         lines.push_back(copiesShow(plan, blur, gaps, samples));
     return lines;
 }
@@ -98,7 +98,7 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
     std::uint64_t more = 0;
     for (const Ignored& ignored : scene.ignored) {
         if (ignored.damage) continue;
-        if (lines.size() == mostIgnored)
+        if (lines.size() == maxIgnored)
             ++more;
         else
             lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",

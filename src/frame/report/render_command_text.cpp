@@ -65,7 +65,7 @@ LensSettings lensOf(const RenderCommandText& text) {
         if (brightness && !(lens.exposureTime > 0)) continue;
         if (name == "focusDistance") continue;
         if (name == "focalLength" || value != lensFieldValue(text.frame.cameraLens, field))
-            giveLensValue(given, field, std::min(value, field.most));
+            giveLensValue(given, field, std::min(value, field.max));
     }
     return given;
 }
@@ -76,7 +76,7 @@ Request requestOf(const RenderCommandText& text) {
     request.size = {text.view.width, text.view.height};
     placeCameraOf(text, request);
     request.lens = lensOf(text);
-    request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->most)};
+    request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->max)};
     const double metresPerUnit = text.frame.scene->metresPerUnit;
     if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess comes out otherwise for a placed camera
     request.toneMap = text.write.toneMap;

@@ -245,7 +245,7 @@ Row lensRow(const LensField& field) {
                                                                                  : SettingKind::number;
     Row row = Row(kind, field.name, field.option, field.unit, field.description)
                   .unit(unitOf(field.unit))
-                  .range(field.least, field.most)
+                  .range(field.min, field.max)
                   .everyday(field.everyday)
                   .example(field.example)
                   .inShot(fmt::format("/lens/{}", field.name))

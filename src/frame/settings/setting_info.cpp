@@ -39,8 +39,8 @@ SettingInfo infoOf(const engine::MethodSetting& setting) {
                 : setting.whole          ? SettingKind::integer
                                          : SettingKind::number;
     info.metavar.assign(1, setting.whole ? 'N' : 'R');
-    info.min = setting.least;
-    info.max = setting.most;
+    info.min = setting.min;
+    info.max = setting.max;
     info.choices = setting.choices;
     info.help = setting.description;
     info.defaultValue = setting.standard;

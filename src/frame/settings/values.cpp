@@ -100,16 +100,16 @@ double parseLensValue(const LensField& field, const std::string& text) {
     if (std::holds_alternative<bool Lens::*>(field.member)) return parseBoolean(text) ? 1 : 0;
     if (std::holds_alternative<int Lens::*>(field.member))
         return static_cast<double>(
-            parseInteger(text, static_cast<std::uint64_t>(field.least), static_cast<std::uint64_t>(field.most)));
+            parseInteger(text, static_cast<std::uint64_t>(field.min), static_cast<std::uint64_t>(field.max)));
     if (std::string_view(field.unit) == "S") return parseSeconds(text);
-    return parseNumber(text, {field.least, field.most});
+    return parseNumber(text, {field.min, field.max});
 }
 
 std::optional<std::string> lensText(const LensSettings& lens, const LensField& field) {
     const std::optional<double> value = givenLensValue(lens, field);
     if (!value) return std::nullopt;
     if (std::holds_alternative<bool Lens::*>(field.member)) return *value != 0 ? "true" : "false";
-    return fmt::format("{}", std::min(*value, field.most));
+    return fmt::format("{}", std::min(*value, field.max));
 }
 
 void setFocusDistance(Request& request, const std::string& text) {

@@ -18,14 +18,14 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t viewCount = 4;
-constexpr int leastResolution = 128;
-constexpr int mostResolution = 512;  // its patches of 2, 4, … 512 cells fill a table
-static_assert(mostResolution == 1 << (blurSizes - 1));
-constexpr double leastBlurredGrowth = 1.1;  // from level to level
-constexpr double leastError = 1e-6;         // of level 1
+constexpr int minResolution = 128;
+constexpr int maxResolution = 512;  // its patches of 2, 4, … 512 cells fill a table
+static_assert(maxResolution == 1 << (blurSizes - 1));
+constexpr double minBlurredGrowth = 1.1;  // from level to level
+constexpr double minError = 1e-6;         // of level 1
 // Half as many triangles double the error of a smooth surface (it goes with the square of the edges). Twice that bounds
 // from below the error of a level whose triangles are too small for a picture.
-constexpr float mostUnseenGrowth = 4;
+constexpr float maxUnseenGrowth = 4;
 
 // ---- what is left over patches
 
@@ -118,10 +118,10 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     };
     Four sums{};
     std::size_t i = 0;
-    const Four most = brightest - Four{};
+    const Four max = brightest - Four{};
     const auto four = [&](const float* from) {
         const Four values = loaded<Four>(from);
-        return values < most ? values : most;
+        return values < max ? values : max;
     };
     for (; i + 4 <= end; i += 4) sums += at(first, i, four) * at(second, i, four);
     float rest = 0;
@@ -216,7 +216,7 @@ struct Sight {
 
 int resolutionFor(std::uint32_t triangles) {
     const double root = std::sqrt(static_cast<double>(triangles));
-    const auto wanted = static_cast<unsigned>(std::clamp(root, double{leastResolution}, double{mostResolution}));
+    const auto wanted = static_cast<unsigned>(std::clamp(root, double{minResolution}, double{maxResolution}));
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
@@ -306,15 +306,14 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         const SquareSums sums = total([&](const Sight& sight) -> const SquareSums& { return sight.changes[l]; });
         BlurTable& own = pyramid.levels[l].blurredError;
         for (std::size_t i = 0; i < blurSizes; ++i)
-            own[i] =
-                static_cast<float>(std::max({std::sqrt(sums[i]), leastBlurredGrowth * double{before[i]}, leastError}));
+            own[i] = static_cast<float>(std::max({std::sqrt(sums[i]), minBlurredGrowth * double{before[i]}, minError}));
         before = own;
     }
     for (std::size_t l = pyramid.levels.size() - 1; --l > 0;) {
         if (pyramid.levels[l].triangleCount * viewCount <= covered) continue;
         BlurTable& own = pyramid.levels[l].blurredError;
         const BlurTable& coarser = pyramid.levels[l + 1].blurredError;
-        for (std::size_t i = 0; i < blurSizes; ++i) own[i] = std::max(own[i], coarser[i] / mostUnseenGrowth);
+        for (std::size_t i = 0; i < blurSizes; ++i) own[i] = std::max(own[i], coarser[i] / maxUnseenGrowth);
     }
 }
 

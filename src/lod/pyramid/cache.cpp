@@ -29,8 +29,8 @@ constexpr std::size_t keyDigits = 16;
 
 // The whole key is in the name, so that versions of the program and options don't take each other's files away.
 fs::path fileName(const PyramidKey& key) {
-    const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.leastTriangles,
-                                   static_cast<std::uint64_t>(key.options.mostLevels),
+    const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,
+                                   static_cast<std::uint64_t>(key.options.maxLevels),
                                    static_cast<std::uint64_t>(key.options.vertices)};
     return fmt::format("{:0{}x}{}", hashBytes(std::as_bytes(std::span(rest)), key.mesh), keyDigits, extension);
 }
@@ -150,7 +150,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     parallelFor(meshes.size(), [&](std::size_t i) {
         const Mesh& mesh = meshes[order[i]];
         Pyramid& pyramid = result.pyramids[order[i]];
-        const bool worthIt = mesh.triangleCount() > options.leastTriangles;
+        const bool worthIt = mesh.triangleCount() > options.minTriangles;
         const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
         std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
         const bool found = loaded.has_value();

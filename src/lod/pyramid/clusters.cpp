@@ -19,10 +19,10 @@ namespace {
 // ---- growing: which triangles are a cluster
 
 constexpr float coneWeight = 0.75f;     // of likeness of normals against compactness
-constexpr float leastTurn = 1e-3f;      // what the price of a normal doesn't fall below
+constexpr float minTurn = 1e-3f;        // what the price of a normal doesn't fall below
 constexpr std::size_t seedsAhead = 64;  // triangles beside earlier clusters that are looked at for a seed
 // Of a vertex, that one cluster looks at: more than it can take. Files may have millions at one.
-constexpr std::size_t mostAround = 1024;
+constexpr std::size_t maxNeighbours = 1024;
 
 struct Facet {
     glm::vec3 centre{0};
@@ -65,7 +65,7 @@ struct ClusterGrowth {
     }
 };
 
-void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most) {
+void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max) {
     const std::size_t count = g.corners.size() / 3;
     g.facets.reserve(count);
     double area = 0;
@@ -79,17 +79,17 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
         g.facets.push_back({(a + b + c) / 3.0f, doubleArea > 0 ? cross / doubleArea : glm::vec3(0)});
         area += 0.5 * double{doubleArea};
     }
-    g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * most));
+    g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * max));
 }
 
 // Corners at the vertex: all, or where there are a great many, so many of open triangles. Those of taken ones go to the
 // front once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
-    if (all.size() <= mostAround) return all;
+    if (all.size() <= maxNeighbours) return all;
     std::size_t& first = g.firstOpen[v];
     std::size_t end = first;
-    for (; end < all.size() && end - first < mostAround; ++end)
+    for (; end < all.size() && end - first < maxNeighbours; ++end)
         if (g.taken[faceOf(all[end])] != 0) std::swap(all[first++], all[end]);
     return all.subspan(first, end - first);
 }
@@ -154,13 +154,13 @@ TriangleNumber mostAlike(const ClusterGrowth& g, const std::vector<TriangleNumbe
     const glm::vec3 normal = length > 0 ? coneWeight / length * g.normals : glm::vec3(0);
     const float perLength = (1 - coneWeight) / g.radius;
     TriangleNumber best;
-    float least = std::numeric_limits<float>::infinity();
+    float min = std::numeric_limits<float>::infinity();
     for (const TriangleNumber triangle : list) {
         const Facet& facet = g.facets[triangle];
-        const float turn = std::max(leastTurn, 1 - glm::dot(facet.normal, normal));
+        const float turn = std::max(minTurn, 1 - glm::dot(facet.normal, normal));
         const float price = (1 + perLength * glm::distance(facet.centre, centre)) * turn;
-        if (!(price < least) && best.isValid()) continue;
-        least = price;
+        if (!(price < min) && best.isValid()) continue;
+        min = price;
         best = triangle;
     }
     return best;
@@ -195,13 +195,13 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
-    float least = std::numeric_limits<float>::infinity();
+    float min = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < std::min(seedsAhead, g.left.size()); ++i) {
         const TriangleNumber triangle = g.left[g.left.size() - 1 - i];
         if (g.taken[triangle] != 0) continue;
         const float distance = glm::distance(g.facets[triangle].centre, place);
-        if (!(distance < least) && best.isValid()) continue;
-        least = distance;
+        if (!(distance < min) && best.isValid()) continue;
+        min = distance;
         best = triangle;
     }
     if (best.isValid()) return best;
@@ -225,9 +225,9 @@ void close(ClusterGrowth& g) {
 }  // namespace
 
 GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
-                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most) {
+                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max) {
     ClusterGrowth g(corners, positions.size());
-    measureFacets(g, positions, most);
+    measureFacets(g, positions, max);
     g.open.resize(positions.size());
     for (const LocalNumber v : corners) ++g.open[v];
     g.lastCluster.resize(positions.size());
@@ -235,10 +235,10 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
     g.taken.resize(count);
     g.result.triangles.reserve(count);
     while (g.result.triangles.size() < count) {
-        const bool full = g.size == most;
+        const bool full = g.size == max;
         TriangleNumber next = full ? seedBeside(g) : nextInside(g);
         const glm::vec3 place = g.size > 0 ? g.centres / static_cast<float>(g.size) : glm::vec3(0);
-        if (full || (!next.isValid() && g.size >= most / 2)) close(g);
+        if (full || (!next.isValid() && g.size >= max / 2)) close(g);
         if (!next.isValid()) next = seedElsewhere(g, place);
         take(g, next);
     }
@@ -296,15 +296,15 @@ struct ClusterTriangle {
 template <typename Vertex>
 Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> positions) {
     std::vector<ClusterTriangle> triangles(indices.size() / 3);
-    glm::vec3 least = finitePosition(positions[indexOf(indices.front())]);
-    glm::vec3 most = least;
+    glm::vec3 min = finitePosition(positions[indexOf(indices.front())]);
+    glm::vec3 max = min;
     glm::dvec3 sum(0);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         ClusterTriangle& triangle = triangles[t];
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::vec3 p = finitePosition(positions[indexOf(indices[3 * t + k])]);
-            least = glm::min(least, p);
-            most = glm::max(most, p);
+            min = glm::min(min, p);
+            max = glm::max(max, p);
             triangle.p[k] = glm::dvec3(p);
         }
         triangle.cross = glm::cross(triangle.p[1] - triangle.p[0], triangle.p[2] - triangle.p[0]);
@@ -313,12 +313,12 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
 
     // The ball, and the cone of normals about their mean by area.
     Cluster cluster;
-    cluster.centre = glm::vec3(0.5 * (glm::dvec3(least) + glm::dvec3(most)));
+    cluster.centre = glm::vec3(0.5 * (glm::dvec3(min) + glm::dvec3(max)));
     const glm::dvec3 centre(cluster.centre);
     if (glm::length(sum) > 0) cluster.axis = glm::vec3(glm::normalize(sum));
     const glm::dvec3 axis(cluster.axis);
     double squaredRadius = 0;
-    double leastCosine = 1;
+    double minCosine = 1;
     double planes = std::numeric_limits<double>::infinity();
     double altitude = std::numeric_limits<double>::infinity();
     for (const ClusterTriangle& triangle : triangles) {
@@ -329,14 +329,14 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
         altitude = std::min(altitude, area2 / triangle.longestEdge());
         if (!(area2 > 0)) continue;
         const glm::dvec3 normal = triangle.cross / area2;
-        leastCosine = std::min(leastCosine, glm::dot(normal, axis));
+        minCosine = std::min(minCosine, glm::dot(normal, axis));
         planes = std::min(planes, glm::dot(normal, triangle.p[0] - centre));
     }
     const double radius = std::sqrt(squaredRadius);
     cluster.radius = static_cast<float>(radius * (1 + valueRounding));
-    cluster.leastCosine = static_cast<float>(leastCosine - valueRounding);
+    cluster.minCosine = static_cast<float>(minCosine - valueRounding);
     cluster.planes = static_cast<float>(std::max(planes, -radius) - valueRounding * radius);
-    cluster.leastAltitude = std::isfinite(altitude) ? static_cast<float>(altitude * (1 - valueRounding)) : 0;
+    cluster.minAltitude = std::isfinite(altitude) ? static_cast<float>(altitude * (1 - valueRounding)) : 0;
     return cluster;
 }
 
@@ -344,7 +344,7 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
 template <typename Vertex>
 void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
                       std::uint32_t first, std::vector<Cluster>& result) {
-    const GrownClusters grown = growClusters(local.corners, local.positions, mostClusterTriangles);
+    const GrownClusters grown = growClusters(local.corners, local.positions, maxClusterTriangles);
     const std::vector<Vertex> unordered(indices.begin(), indices.end());
     for (std::size_t t = 0; t < grown.triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = unordered[3 * indexOf(grown.triangles[t]) + k];
@@ -362,7 +362,7 @@ template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount) {
     std::vector<Cluster> result;
-    result.reserve(level.indices.size() / (3 * mostClusterTriangles) + level.primitiveIndexCounts.size());
+    result.reserve(level.indices.size() / (3 * maxClusterTriangles) + level.primitiveIndexCounts.size());
     Numbered<PositionNumber, LocalNumber> localOf(placeCount);
     std::uint32_t first = 0;
     for (const std::uint32_t count : level.primitiveIndexCounts) {

@@ -22,7 +22,7 @@ struct GrownClusters {
 // The positions of the corners, in object units, may be anything. No cluster has more than `most` (1 or more)
 // triangles. Deterministic.
 GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
-                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most);
+                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max);
 
 // Reorders the triangles within each primitive into clusters, mostly neighbours one after the other, and within each
 // from neighbour to neighbour. `positions` and `places` have an entry a vertex; the places are below `placeCount`, and

@@ -61,11 +61,11 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
     const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, smallestPatch, contrast,
                  repairedFaces, end] = pyramid;
-    const auto& [leastTriangles, mostLevels, levelVertices, finishes] = key.options;
+    const auto& [minTriangles, maxLevels, levelVertices, finishes] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
-    header.leastTriangles = leastTriangles;
-    header.mostLevels = mostLevels;
+    header.minTriangles = minTriangles;
+    header.maxLevels = maxLevels;
     header.indexCount = indices.size();
     header.levelCount = static_cast<std::uint32_t>(levels.size());
     header.primitiveCount = static_cast<std::uint32_t>(mesh.primitives.size());
@@ -123,7 +123,7 @@ bool allBelow(std::span<const std::uint32_t> values, std::size_t limit) {
 
 bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey& key) {
     return header.version == PyramidFileHeader::expectedVersion && header.mesh == key.mesh &&
-           header.leastTriangles == key.options.leastTriangles && header.mostLevels == key.options.mostLevels &&
+           header.minTriangles == key.options.minTriangles && header.maxLevels == key.options.maxLevels &&
            header.vertices == static_cast<std::uint32_t>(key.options.vertices) &&
            header.primitiveCount == mesh.primitives.size() && header.triangleCount == mesh.triangleCount() &&
            header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
@@ -160,7 +160,7 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
 
     std::uint64_t next = 0;
     auto range = ranges.begin();
-    std::uint32_t mostVertices = header.vertexCount;
+    std::uint32_t maxVertices = header.vertexCount;
     for (const PyramidFileLevel& record : records) {
         PyramidLevel& level = levels.emplace_back();
         level.primitives.assign(range, range + header.primitiveCount);
@@ -171,9 +171,9 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
             next += primitive.count;
             count += primitive.count;
         }
-        if (count != 3 * std::uint64_t{record.triangleCount} || record.vertexCount > mostVertices) return false;
+        if (count != 3 * std::uint64_t{record.triangleCount} || record.vertexCount > maxVertices) return false;
         if (!(record.meanEdge >= 0) || !(record.longestEdge >= 0) || !(record.error >= 0)) return false;
-        mostVertices = record.vertexCount;
+        maxVertices = record.vertexCount;
         level.vertexCount = record.vertexCount;
         level.triangleCount = record.triangleCount;
         level.meanEdge = record.meanEdge;

@@ -39,8 +39,8 @@ struct PyramidFileHeader {
     std::uint32_t version = expectedVersion;
     std::uint32_t levelCount = 0;
     std::uint64_t mesh = 0;  // the key
-    std::uint32_t leastTriangles = 0;
-    std::int32_t mostLevels = 0;
+    std::uint32_t minTriangles = 0;
+    std::int32_t maxLevels = 0;
     std::uint64_t indexCount = 0;
     std::uint32_t primitiveCount = 0;
     std::uint32_t vertexCount = 0;

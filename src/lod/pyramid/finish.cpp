@@ -37,8 +37,8 @@ std::uint8_t byteOf(float value, bool srgb) {
 FinishImage reduced(const TextureImage& image, bool srgb) {
     const Decoding& values = decoding(srgb);
     FinishImage result;
-    result.width = std::min(image.width, FinishImage::mostSide);
-    result.height = std::min(image.height, FinishImage::mostSide);
+    result.width = std::min(image.width, FinishImage::maxSide);
+    result.height = std::min(image.height, FinishImage::maxSide);
     result.srgb = srgb;
     result.texels.reserve(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height));
     const auto piece = [](int i, int count, int size) {

@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 // A texture, reduced to a size that such a picture can show.
 struct FinishImage {
-    static constexpr int mostSide = 256;  // texels
+    static constexpr int maxSide = 256;  // texels
 
     int width = 0;
     int height = 0;

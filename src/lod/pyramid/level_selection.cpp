@@ -14,9 +14,9 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 sample
 constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;  // px
-constexpr double mostOfSampleError = 0.3;   // both together are expected to err by 1.04 times as much as the samples
-constexpr double largestFactor = 2;         // few samples: their noise hides nothing of the silhouette
+constexpr double lightOfSampleError = 6.7;   // px
+constexpr double sampleErrorShareMax = 0.3;  // both together are expected to err by 1.04 times as much as the samples
+constexpr double largestFactor = 2;          // few samples: their noise hides nothing of the silhouette
 
 // Whether edges are held against the target.
 bool bySize(LodMetric metric) {
@@ -97,7 +97,7 @@ LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
 
 double measuredLimit(double light, double edge) {
     const double sampleError = std::sqrt(light / lightOfSampleError);
-    return std::min(mostOfSampleError * sampleError, light / edge);
+    return std::min(sampleErrorShareMax * sampleError, light / edge);
 }
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {

@@ -59,17 +59,17 @@ private:
 
 // With a cell more at each side, for rounding.
 CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
-    glm::vec3 least(std::numeric_limits<float>::infinity());
-    glm::vec3 most = -least;
+    glm::vec3 min(std::numeric_limits<float>::infinity());
+    glm::vec3 max = -min;
     for (const glm::dvec3& corner : bounds.corners()) {
         const glm::vec3 place = eye.place(glm::vec3(corner));
-        least = glm::min(least, place);
-        most = glm::max(most, place);
+        min = glm::min(min, place);
+        max = glm::max(max, place);
     }
     const auto down = [](int cell) { return cell / boxAlignment * boxAlignment; };
     const auto up = [&](int cell) { return std::min(down(cell + boxAlignment - 1), eye.resolution); };
-    return {down(firstAt(least.x - 1, 0, eye.resolution)), up(firstAt(most.x + 1, 0, eye.resolution)),
-            down(firstAt(least.y - 1, 0, eye.resolution)), up(firstAt(most.y + 1, 0, eye.resolution))};
+    return {down(firstAt(min.x - 1, 0, eye.resolution)), up(firstAt(max.x + 1, 0, eye.resolution)),
+            down(firstAt(min.y - 1, 0, eye.resolution)), up(firstAt(max.y + 1, 0, eye.resolution))};
 }
 
 // The primitive that has the pyramid's index `first`.

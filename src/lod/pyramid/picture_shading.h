@@ -93,9 +93,9 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     SeenNormals seen;
     seen.spread = normalSpread(agreement);
     seen.shown = meanCosine(agreement * nv, nv, seen.spread);
-    const float least = std::max(seen.shown, 1e-3f);
-    const float turn = (1 - agreement) / least;
-    const float bound = 1.23f * turn / ((1 + agreement) * least) * std::max(1 - nv * nv, 0.0f);
+    const float min = std::max(seen.shown, 1e-3f);
+    const float turn = (1 - agreement) / min;
+    const float bound = 1.23f * turn / ((1 + agreement) * min) * std::max(1 - nv * nv, 0.0f);
     seen.towards = turn / std::sqrt(1 + bound);
     seen.along = agreement - seen.towards * nv;
     return seen;
@@ -172,8 +172,8 @@ struct SeenTriangle {
 // Cells of a row that are lit as matt, which is done for all at once.
 class MattCells {
 public:
-    MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int most)
-        : lights_(std::move(lights)), toEye_(toEye), cells_(static_cast<std::size_t>(most)), agreement_(cells_.size()) {
+    MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int max)
+        : lights_(std::move(lights)), toEye_(toEye), cells_(static_cast<std::size_t>(max)), agreement_(cells_.size()) {
         for (std::vector<float>& values : normal_) values.resize(cells_.size());
         for (std::vector<float>* values : {&spread_, &along_, &towards_}) values->resize(cells_.size());
         shares_.assign(lights_.size(), agreement_);
@@ -303,7 +303,7 @@ public:
         const float agreement = coarse_
                                     ? std::clamp(weights[0] * triangle.lengths[0] + weights[1] * triangle.lengths[1] +
                                                      weights[2] * triangle.lengths[2],
-                                                 leastShownAgreement, 1.0f)
+                                                 minShownAgreement, 1.0f)
                                     : 1;
         const glm::vec3 diffuse = color * (1 - metallic);
         const glm::vec3 emission = finish.emission * mapped(finish.emissionMap, uv0, uv1);

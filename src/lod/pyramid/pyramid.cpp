@@ -27,16 +27,16 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double leastEdgeGrowth = 1.05;   // from level to level
-constexpr double leastEdgeToError = 2;     // a level can't be as fine as its edges say where its error outgrew them
-constexpr double leastErrorGrowth = 1.25;  // from level to level, from level 1 on
-constexpr double errorFloor = 1e-6;        // of the box's diagonal
+constexpr double minEdgeGrowth = 1.05;   // from level to level
+constexpr double minEdgeToError = 2;     // a level can't be as fine as its edges say where its error outgrew them
+constexpr double minErrorGrowth = 1.25;  // from level to level, from level 1 on
+constexpr double errorFloor = 1e-6;      // of the box's diagonal
 // Points on each of two surfaces at which a level's distance to level 0 is measured: as many as the mesh has triangles,
 // within these bounds, so that it stays cheap beside the simplification.
-constexpr std::size_t leastErrorPoints = 256;
-constexpr std::size_t mostErrorPoints = 1024;
+constexpr std::size_t minErrorPoints = 256;
+constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-constexpr std::size_t mostPossibleLevels = 128;  // each leaves three quarters of at most 2³² triangles
+constexpr std::size_t maxPossibleLevels = 128;  // each leaves three quarters of at most 2³² triangles
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
     TriangleSet<MeshVertexNumber> level;
@@ -124,7 +124,7 @@ std::size_t percentileRank(std::size_t count) {
 // Of the level's surface from the mesh's, whichever way it is larger; at most the box's diagonal, where the level has
 // no area left.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
-    const std::size_t points = std::clamp(mesh.triangles.size(), leastErrorPoints, mostErrorPoints);
+    const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
     const double oneWay = largeDistance(mesh, level, points, rank, 0);
     return std::min(largeDistance(level, mesh, points, rank, oneWay), diagonal);
@@ -133,9 +133,9 @@ double levelError(const Surface& mesh, const Surface& level, double diagonal) {
 // Strictly growing, so that a level can be found for any target.
 void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
-        levels[l].error = std::max({levels[l].error, leastErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
-        levels[l].meanEdge = std::max(
-            {levels[l].meanEdge, leastEdgeGrowth * levels[l - 1].meanEdge, leastEdgeToError * levels[l].error});
+        levels[l].error = std::max({levels[l].error, minErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
+        levels[l].meanEdge =
+            std::max({levels[l].meanEdge, minEdgeGrowth * levels[l - 1].meanEdge, minEdgeToError * levels[l].error});
     }
 }
 
@@ -273,17 +273,17 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     Simplification simplification;
     double diagonal = 0;
     const bool fits = options.vertices == LevelVertices::fitted;
-    if (options.mostLevels > 1) {
+    if (options.maxLevels > 1) {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
         std::optional<FitSource> source;  // once the first level is there: collapsing the whole mesh takes most memory
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
         std::vector<FittedLevel> coarser(
-            std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
+            std::min<std::size_t>(maxPossibleLevels, static_cast<std::size_t>(options.maxLevels) - 1));
         Tasks tasks(helpers);
         simplification =
             simplify(vertices, positions, smoothing, levels[0].triangles,
-                     {options.leastTriangles, options.mostLevels - 1, fits, vertexShares(options.vertices),
+                     {options.minTriangles, options.maxLevels - 1, fits, vertexShares(options.vertices),
                       [&](double lost) { reach(shareOfCollapses * lost); }},
                      tasks, [&](std::uint32_t l, SimplifiedLevel level) {
                          if (fits) std::call_once(prepared, prepare);
@@ -475,7 +475,7 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
 
 Pyramid fullDetail(const Mesh& mesh) {
     PyramidOptions options;
-    options.mostLevels = 1;
+    options.maxLevels = 1;
     return build(mesh, options, 0, {});
 }
 

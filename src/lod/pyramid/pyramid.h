@@ -39,12 +39,12 @@ struct Cluster {
     glm::vec3 centre{0};      // of a ball around the vertices
     float radius = 0;         // of the ball
     glm::vec3 axis{0, 0, 1};  // unit length, about which the triangles' unit normals n lie
-    float leastCosine = -1;   // of the angle between an n and the axis
+    float minCosine = -1;     // of the angle between an n and the axis
     float planes = 0;         // n·(p − centre) is at least this, p on the plane of n's triangle
-    float leastAltitude = 0;  // of the triangles; those of which corners coincide draw nothing and don't count
+    float minAltitude = 0;    // of the triangles; those of which corners coincide draw nothing and don't count
 };
 
-inline constexpr std::uint32_t mostClusterTriangles = 64;
+inline constexpr std::uint32_t maxClusterTriangles = 64;
 
 // What a blur leaves of a difference: its root mean square once it is averaged over patches of growing size.
 // [0]: over no patch, point by point. [i], i ≥ 1: over square patches of side 2^(i − 1) · Pyramid::smallestPatch. Light
@@ -94,12 +94,12 @@ struct Pyramid {
     double smallestPatch = 0;            // object units; of blur tables, 0 without a second level
     BlurTable contrast{};  // of level 0: the standard deviation of its light within patches; see blurred_error.h
     std::uint32_t repairedFaces = 0;  // faces that half-edges can't hold as they are; see manifold.h
-    PyramidEnd end = PyramidEnd::mostLevels;
+    PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 struct PyramidOptions {
-    std::uint32_t leastTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
-    int mostLevels = 24;                // level 0 included
+    std::uint32_t minTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
+    int maxLevels = 24;               // level 0 included
     LevelVertices vertices = LevelVertices::fitted;
     const Finishes* finishes = nullptr;  // of the scene that the meshes belong to; null: white and matt
 };

@@ -21,7 +21,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t mostTrianglesPerLeaf = 4;
+constexpr std::size_t maxTrianglesPerLeaf = 4;
 constexpr std::size_t arity = 4;  // of the tree
 // What single precision may be off by at a coordinate, as a share of the largest of both sides.
 constexpr float rounding = 2.5e-7f;
@@ -110,7 +110,7 @@ std::size_t leafStart(const Surface& surface, std::size_t leaf) {
 void buildNodes(Surface& surface) {
     std::size_t leaves = arity;
     std::size_t inner = 1;
-    while (leaves * mostTrianglesPerLeaf < surface.triangles.size()) {
+    while (leaves * maxTrianglesPerLeaf < surface.triangles.size()) {
         inner += leaves;
         leaves *= arity;
     }
@@ -171,26 +171,26 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
     // A little more than it is, as sums of squares in single precision may be off too.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
-    float most = bound();
+    float max = bound();
     stack[size++] = {0, 0};
     while (size > 0) {
         if (nearest.squaredDistance <= enough) break;
         const Entry entry = stack[--size];
-        if (!(entry.squaredDistance < most)) continue;
+        if (!(entry.squaredDistance < max)) continue;
         if (entry.node >= surface.nodes.size()) {
             const std::size_t leaf = entry.node - surface.nodes.size();
             const std::size_t end = leafStart(surface, leaf + 1);
             for (std::size_t t = leafStart(surface, leaf); t < end; ++t)
                 if (const double squared = squaredDistance(surface.triangles[t], p); squared < nearest.squaredDistance)
                     nearest = {squared, t};
-            most = bound();
+            max = bound();
             continue;
         }
         // The nearest child on top.
         const Four squared = squaredDistances(surface.nodes[entry.node], place, slack);
         const std::size_t first = size;
         for (std::size_t k = 0; k < arity; ++k) {
-            if (!(squared[k] < most)) continue;
+            if (!(squared[k] < max)) continue;
             std::size_t at = size++;
             for (; at > first && stack[at - 1].squaredDistance < squared[k]; --at) stack[at] = stack[at - 1];
             stack[at] = {squared[k], arity * entry.node + 1 + k};
@@ -277,11 +277,11 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     return distances;
 }
 
-double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least) {
-    if (from.empty() || rank == 0 || count < rank) return least;
+double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
+    if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, least * least);  // squared, a heap with the least of them first
-    std::size_t nearest = 0;                           // of the point before, which lies close by
+    std::vector<double> largest(rank, min * min);  // squared, a heap with the least of them first
+    std::size_t nearest = 0;                       // of the point before, which lies close by
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());
         nearest = found.triangle;
@@ -290,7 +290,7 @@ double largeDistance(const Surface& from, const Surface& to, std::size_t count, 
         largest.back() = found.squaredDistance;
         std::push_heap(largest.begin(), largest.end(), std::greater());
     });
-    return std::max(least, std::sqrt(largest.front()));
+    return std::max(min, std::sqrt(largest.front()));
 }
 
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count) {

@@ -54,7 +54,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 
 // Returns the `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger or there
 // are fewer. It is faster, because it stops looking for the closest point once it has found one that is near enough.
-double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least);
+double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min);
 
 struct Distances {
     double mean = 0;

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double mostSpread = 2;  // of numbers, in square roots of the vertices' count
+constexpr double maxSpread = 2;  // of numbers, in square roots of the vertices' count
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t ver
     for (std::size_t i = 3; i < v.size(); ++i) sum += apart(v[i], v[i - 3]);
     for (std::size_t i = 0; i < v.size(); i += 3) sum += apart(v[i], v[i + 1]);
     return static_cast<double>(sum) >
-           mostSpread * std::sqrt(static_cast<double>(vertexCount)) * static_cast<double>(v.size());
+           maxSpread * std::sqrt(static_cast<double>(vertexCount)) * static_cast<double>(v.size());
 }
 
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions) {

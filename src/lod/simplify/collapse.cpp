@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double leastTurnCosine = 0.2588;  // 75°
-constexpr double sliverQuality = 0.02;      // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+constexpr double minTurnCosine = 0.2588;  // 75°
+constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
 // How the face with the corners a, b and c takes a moving to `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
@@ -25,7 +25,7 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     const double squareAfter = glm::dot(after, after);
     const double along = glm::dot(before, after);
     if (!(squareAfter > 0) || along < 0) return Fit::bad;
-    if (along * along < leastTurnCosine * leastTurnCosine * squareBefore * squareAfter) return Fit::bad;
+    if (along * along < minTurnCosine * minTurnCosine * squareBefore * squareAfter) return Fit::bad;
     const auto edges = [&](const glm::dvec3& p) {
         return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
     };
@@ -76,15 +76,15 @@ Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
 template <typename Admitted>
 WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
     WedgeNumber nearest;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     forEachSpoke(sides.mesh, sides.survivor, [&](HalfedgeHandle corner) {
         const FaceHandle face = sides.mesh.face_handle(corner);
         const WedgeNumber candidate = sides.mesh.wedge(corner);
         if (!face.is_valid() || candidate == nearest || !admitted(face, candidate)) return;
         const double distance = sides.mesh.wedges.difference(wedge, candidate);
-        if (nearest.isValid() && !(distance < least)) return;
+        if (nearest.isValid() && !(distance < min)) return;
         nearest = candidate;
-        least = distance;
+        min = distance;
     });
     return nearest;
 }
@@ -138,7 +138,7 @@ constexpr float edgeWeight = 1e-4f;
 
 // OpenMesh's collapse walks around all four vertices of the edge's faces in search of a border. Around the middle of a
 // fan that would take the square of its faces.
-constexpr std::size_t mostSpokes = 8192;
+constexpr std::size_t maxSpokes = 8192;
 
 // Whether the half-edge is one of three around a hole. OpenMesh allows a collapse along it where two corners of the
 // hole are joined by a second edge, but it would close the hole and leave a half-edge without a wedge, or a face with
@@ -165,7 +165,7 @@ ShapeModule::ShapeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {
         if (!surface.halfedge_handle(v).is_valid()) continue;
         std::size_t spokes = 0;
         forEachSpoke(surface, v, [&](HalfedgeHandle) { ++spokes; });
-        if (spokes > mostSpokes) hubs_.push_back(v);
+        if (spokes > maxSpokes) hubs_.push_back(v);
     }
 }
 
@@ -292,7 +292,7 @@ void QuadricModule::postprocess_collapse(const CollapseInfo& collapse) {
     mesh().data(collapse.v1).quadric.add(mesh().data(collapse.v0).quadric, step);
 }
 
-float QuadricModule::cost(HalfedgeHandle along, float most) {
+float QuadricModule::cost(HalfedgeHandle along, float max) {
     const SurfaceMesh& surface = mesh();
     const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
     const VertexHandle from = surface.to_vertex_handle(back);
@@ -300,7 +300,7 @@ float QuadricModule::cost(HalfedgeHandle along, float most) {
     const glm::vec3 step(surface.step(from, to));
     const Quadric& own = surface.data(from).quadric;
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
-    if (!(sum < most)) return sum;
+    if (!(sum < max)) return sum;
 
     // Attributes on either side of the edge, once where they are the same.
     WedgeNumber leftFrom, leftTo;
@@ -309,7 +309,7 @@ float QuadricModule::cost(HalfedgeHandle along, float most) {
         leftTo = surface.wedge(surface.next_halfedge_handle(along));
         sum += surface.wedges.cost(leftFrom, leftTo, step);
     }
-    if (surface.is_boundary(back) || !(sum < most)) return sum;
+    if (surface.is_boundary(back) || !(sum < max)) return sum;
     const WedgeNumber rightFrom = surface.wedge(surface.next_halfedge_handle(back));
     const WedgeNumber rightTo = surface.wedge(back);
     if (rightFrom == leftFrom && rightTo == leftTo) return sum;

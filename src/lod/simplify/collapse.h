@@ -81,7 +81,7 @@ public:
 
     // Returns the cost of collapsing along a half-edge, ≥ 0. If the cost is `most` or more, the result may be any value
     // from `most` to the cost.
-    [[nodiscard]] float cost(HalfedgeHandle along, float most);
+    [[nodiscard]] float cost(HalfedgeHandle along, float max);
     // Returns the vertex's cheapest collapse, whether it is allowed or not; of equally cheap ones, the first.
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 

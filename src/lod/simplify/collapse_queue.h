@@ -86,12 +86,12 @@ private:
         for (;;) {
             const std::uint32_t first = arity * place + 1;
             if (first >= size) break;
-            std::uint32_t least = first;
+            std::uint32_t min = first;
             for (std::uint32_t child = first + 1; child < std::min(first + arity, size); ++child)
-                if (heap_[child] < heap_[least]) least = child;
-            if (key < heap_[least]) break;
-            set(place, heap_[least]);
-            place = least;
+                if (heap_[child] < heap_[min]) min = child;
+            if (key < heap_[min]) break;
+            set(place, heap_[min]);
+            place = min;
         }
         set(place, key);
     }

@@ -19,7 +19,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double largestRatio = 1.2;      // of sizes that count as equal when the smallest go first
-constexpr double mostLarger = 4;          // a neighbour this many times as large stands in for nothing: it would swell
+constexpr double maxEnlargement = 4;      // a neighbour this many times as large stands in for nothing: it would swell
 constexpr double manyShare = 0.25;        // of the faces
 constexpr std::uint32_t fewestFaces = 4;  // of what collapses can't make smaller: a tetrahedron
 
@@ -215,7 +215,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t mostVisits = 4096;
+    static constexpr std::uint32_t maxVisits = 4096;
 
     // The points, as nanoflann reads them.
     struct Centres {
@@ -241,21 +241,21 @@ private:
     struct Search {
         const std::vector<ComponentNumber>& numbers;
         const Counts& counts;
-        double leastSquared = std::numeric_limits<double>::infinity();
+        double minSquared = std::numeric_limits<double>::infinity();
         ComponentNumber best;
         std::uint32_t visits = 0;
 
         Search(const std::vector<ComponentNumber>& numbered, const Counts& counted)
             : numbers(numbered), counts(counted) {}
-        [[nodiscard]] double worstDist() const { return leastSquared; }
+        [[nodiscard]] double worstDist() const { return minSquared; }
         [[nodiscard]] bool full() const { return best.isValid(); }
         // False ends the search.
         bool addPoint(double squared, std::size_t i) {
-            if (squared < leastSquared && counts(numbers[i])) {
-                leastSquared = squared;
+            if (squared < minSquared && counts(numbers[i])) {
+                minSquared = squared;
                 best = numbers[i];
             }
-            return ++visits < mostVisits;
+            return ++visits < maxVisits;
         }
     };
 
@@ -345,7 +345,7 @@ void removeComponents(Simplifier& s, std::size_t target) {
                 const ComponentNumber heir = tree.nearest(gone.ball.centre, [&](ComponentNumber c) {
                     const Component& other = s.components[c];
                     return !other.removed && other.primitive == gone.primitive &&
-                           other.ball.radius <= mostLarger * gone.ball.radius;
+                           other.ball.radius <= maxEnlargement * gone.ball.radius;
                 });
                 if (!heir.isValid()) continue;
                 Component& next = s.components[heir];

@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 // Bounds of a vertex's area, in means of all: they keep the equations well conditioned.
-constexpr double leastArea = 1e-3;
+constexpr double minArea = 1e-3;
 constexpr double largestArea = 1e3;
 
 // Groups of those of `count` vertices that have the same key, below `keyCount`, and the same values.
@@ -93,14 +93,14 @@ Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& posi
     Numbered<MeshVertexNumber, float> relative(positions.size(), 1);
     if (!(mean > 0)) return relative;
     for (const MeshVertexNumber v : areas.numbers())
-        relative[v] = static_cast<float>(std::clamp(areas[v] / mean, leastArea, largestArea));
+        relative[v] = static_cast<float>(std::clamp(areas[v] / mean, minArea, largestArea));
     return relative;
 }
 
 // A vertex whose normal stands square to its triangle's counts this much of its area.
-constexpr float leastForeshortening = 0.02f;
+constexpr float minForeshortening = 0.02f;
 // Normals of vertices that share an anchor and differ by more than 60° stand on two sides of an edge.
-constexpr float leastSharedCosine = 0.5f;
+constexpr float minSharedCosine = 0.5f;
 
 }  // namespace
 
@@ -142,7 +142,7 @@ AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertex
         sum.area += source.areas[v];
         const glm::vec3& normal = vertices.normals[v.value];
         const glm::vec3& shared = vertices.normals[own.value];
-        const bool acrossEdge = glm::dot(normal, shared) < leastSharedCosine;
+        const bool acrossEdge = glm::dot(normal, shared) < minSharedCosine;
         sum.normal += source.areas[v] * (acrossEdge ? shared : normal);
         if (!sums.colors.empty()) sums.colors[own] += source.areas[v] * vertices.colors[v.value];
     }
@@ -171,7 +171,7 @@ float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, con
     const float* w = anchor.weight;
     const bool atCorner = w[0] == 1 || w[1] == 1 || w[2] == 1;
     if (atCorner || face == glm::vec3(0)) return area;
-    return area * std::clamp(glm::dot(face, normal), leastForeshortening, 1.0f);
+    return area * std::clamp(glm::dot(face, normal), minForeshortening, 1.0f);
 }
 
 }  // namespace defocus::engine

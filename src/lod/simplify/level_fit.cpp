@@ -16,7 +16,7 @@ namespace defocus::engine {
 namespace {
 
 // Normals that agree less have none that could stand for them.
-constexpr float leastAgreement = 0.125f;
+constexpr float minAgreement = 0.125f;
 
 // What the anchors give the vertices of the level: sums of share · weight, and of that times their own values.
 struct AnchorSums {
@@ -148,7 +148,7 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     Numbered<UnknownNumber, float> result(groups.count(), 1);
     for (const UnknownNumber g : result.numbers()) {
         const double mean = cosines[g] / weights[g];  // no number where nothing counts
-        if (std::isfinite(mean)) result[g] = std::clamp(static_cast<float>(mean), leastAgreement, 1.0f);
+        if (std::isfinite(mean)) result[g] = std::clamp(static_cast<float>(mean), minAgreement, 1.0f);
     }
     return result;
 }
@@ -182,7 +182,7 @@ Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const
         const glm::vec3 normal(row[0], row[1], row[2]);
         const float length = glm::length(normal);
         const double faceLength = glm::length(faces[g]);
-        if (length > leastAgreement && glm::dot(glm::dvec3(normal), faces[g]) >= 0) {
+        if (length > minAgreement && glm::dot(glm::dvec3(normal), faces[g]) >= 0) {
             directions[g] = normal / length;
         } else {
             directions[g] =
@@ -231,7 +231,7 @@ struct Grown {
 
 void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
     if (!(growth.area > grown.area) || !(grown.area > 0)) return;
-    grown.factor = std::min(std::sqrt(growth.area / grown.area), growth.mostFactor);
+    grown.factor = std::min(std::sqrt(growth.area / grown.area), growth.maxFactor);
     for (glm::length_t axis = 0; axis < 3; ++axis)
         if (const double size = grown.box.size()[axis]; size > 0)
             grown.factor = std::min(grown.factor, limits.size()[axis] / size);
@@ -263,10 +263,10 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
 }
 
 // Levels of more triangles cover what level 0 does, and are as bright, without help.
-constexpr std::size_t mostConservedTriangles = 16'384;
+constexpr std::size_t maxConservedTriangles = 16'384;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
-    if (level.triangles.count() > mostConservedTriangles) return;
+    if (level.triangles.count() > maxConservedTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
     std::vector<std::uint32_t> places;
@@ -284,7 +284,7 @@ void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fi
 }
 
 void conserveLight(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
-    if (level.triangles.count() > mostConservedTriangles) return;
+    if (level.triangles.count() > maxConservedTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.smoothing[v]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, true);
     std::vector<std::uint32_t> numbers;

@@ -60,7 +60,7 @@ struct Anchor {
 struct Growth {
     glm::dvec3 centre{0};  // object units
     double area = 0;       // object units squared
-    double mostFactor = 1;
+    double maxFactor = 1;
 };
 
 struct LevelMesh {

@@ -42,9 +42,9 @@ struct LitPoint {
 
 // Visits points of the surface as visit(corners, point); its area.
 template <typename Visit>
-double forEachLitPoint(const LitSurface& surface, std::size_t leastPoints, const Visit& visit) {
+double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const Visit& visit) {
     const std::size_t triangles = surface.indices.size() / 3;
-    const double wanted = std::sqrt(static_cast<double>(leastPoints) / static_cast<double>(3 * triangles + 1));
+    const double wanted = std::sqrt(static_cast<double>(minPoints) / static_cast<double>(3 * triangles + 1));
     const int parts = std::max(1, static_cast<int>(std::ceil(wanted)));
     double areas = 0;
     for (std::size_t i = 0; i < 3 * triangles; i += 3) {
@@ -69,7 +69,7 @@ double forEachLitPoint(const LitSurface& surface, std::size_t leastPoints, const
             const float length = glm::length(normal);
             if (length > 0) point.normal = normal / length;
             point.agreement =
-                std::clamp(w.x * lengths[0] + w.y * lengths[1] + w.z * lengths[2], leastShownAgreement, 1.0f);
+                std::clamp(w.x * lengths[0] + w.y * lengths[1] + w.z * lengths[2], minShownAgreement, 1.0f);
             point.area = static_cast<float>(share * area);
             point.light = point.area * (w.x * colors[0] + w.y * colors[1] + w.z * colors[2]);
             visit(v, point);
@@ -121,7 +121,7 @@ struct GroupSlopes {
 // Of meanCosine(), for a point's normal that turns: those along its own direction are 0. `values` are what it throws
 // back.
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float leastRoot = 0.02f;  // the slope jumps where light grazes a normal that stands for itself
+    constexpr float minRoot = 0.02f;  // the slope jumps where light grazes a normal that stands for itself
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
@@ -138,7 +138,7 @@ GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
         const float root = std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f));
         values[l] = 0.5f * (root + mean);
         values[l + pairCount] = 0.5f * (root - mean);
-        const float even = 0.5f * (point.agreement * mean - spread * cosine) / std::max(root, leastRoot);
+        const float even = 0.5f * (point.agreement * mean - spread * cosine) / std::max(root, minRoot);
         slopes.x[l] = even * (lights.x[l] - cosine * n.x);
         slopes.y[l] = even * (lights.y[l] - cosine * n.y);
         slopes.z[l] = even * (lights.z[l] - cosine * n.z);
@@ -154,13 +154,13 @@ struct FollowingMeans {
 };
 
 // Into `result`, which may be large: it isn't made anew.
-void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t leastPoints,
+void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
     result.means = {};
     result.areas.assign(groups.size(), 0);
     result.slopes.assign(groups.size(), GroupSlopes{});
-    const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t* corners, const LitPoint& point) {
+    const double area = forEachLitPoint(surface, minPoints, [&](const std::uint32_t* corners, const LitPoint& point) {
         LightRow values;
         const GroupSlopes slopes = slopesAt(from, point, values);
         for (std::size_t l = 0; l < lightCount; ++l) result.means[l] += double{point.light * values[l]};
@@ -243,10 +243,10 @@ std::array<glm::dvec3, lightCount> directionsToLights() {
     return directions;
 }
 
-LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints) {
+LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints) {
     const Lights from = lights();
     LightMeans means{};
-    const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t*, const LitPoint& point) {
+    const double area = forEachLitPoint(surface, minPoints, [&](const std::uint32_t*, const LitPoint& point) {
         const glm::vec3& n = point.normal;
         const float spread = normalSpread(point.agreement);
         LightRow values;
@@ -263,11 +263,11 @@ LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints) {
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals) {
-    constexpr int mostRounds = 8;
+    constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
     // A turn changes the shading of each point, of which less blur leaves more than of the mean: no further than so
     // many times what it gains.
-    constexpr double mostTurn = 16;
+    constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;
     double worstAtFirst = 0;
@@ -277,7 +277,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     double leastSquares = std::numeric_limits<double>::infinity();
     // Strong at first, so that normals turn no further than the lights ask for, and highlights keep their place.
     double damping = 1;
-    for (int round = 0; round < mostRounds; ++round) {
+    for (int round = 0; round < maxRounds; ++round) {
         followNormals();
         LightMeans rest{};
         double squares = 0;
@@ -289,7 +289,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
         }
         if (round == 0) worstAtFirst = worst;
         if (squares < leastSquares) {
-            if (round > 0 && turned(original, normals, groups, at) > mostTurn * (worstAtFirst - worst)) break;
+            if (round > 0 && turned(original, normals, groups, at) > maxTurn * (worstAtFirst - worst)) break;
             leastSquares = squares;
             std::copy(normals.begin(), normals.end(), best.begin());
             wanted = rest;

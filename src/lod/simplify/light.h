@@ -34,7 +34,7 @@ inline float meanCosine(float mean, float cosine, float spread) {
 }
 
 // The shaders bound interpolated agreements so.
-inline constexpr float leastShownAgreement = 0.05f;
+inline constexpr float minShownAgreement = 0.05f;
 
 // A surface with values at its vertices; `indices` are three a triangle.
 struct LitSurface {
@@ -47,7 +47,7 @@ struct LitSurface {
 
 // Returns the light that a matt surface throws back, averaged over its area. Measured at three points of each triangle,
 // or at more of them if these are fewer than `leastPoints` in all.
-LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints);
+LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 
 // Enough points for means that are right within 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;

@@ -18,7 +18,7 @@ namespace defocus::engine {
 namespace {
 
 // Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
-constexpr std::size_t mostFacesToPair = 32;
+constexpr std::size_t maxFacesToPair = 32;
 
 // What a face was repaired by.
 constexpr std::uint8_t turnedRepair = 1;
@@ -181,7 +181,7 @@ void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
         SurfaceCorner forward, backward;
     };
     std::vector<Candidate> candidates;
-    const bool tooMany = edges.size() > mostFacesToPair;
+    const bool tooMany = edges.size() > maxFacesToPair;
     for (const SurfaceCorner a : tooMany ? std::span<const SurfaceCorner>() : edges) {
         if (!surface.forward(a)) continue;
         const glm::dvec3 normal = faceNormal(surface, faceOf(a));

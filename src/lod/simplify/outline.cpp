@@ -17,22 +17,22 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int leastResolution = 128;
-constexpr int mostResolution = 512;
+constexpr int minResolution = 128;
+constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // about, of an even mesh
 
-constexpr double mostUnseen = 5e-3;   // relative difference of areas up to which nothing moves
-constexpr int localRounds = 2;        // each edge of an outline follows level 0's
-constexpr int mostGlobalRounds = 12;  // the covered area of each direction becomes level 0's
+constexpr double maxUnseen = 5e-3;   // relative difference of areas up to which nothing moves
+constexpr int localRounds = 2;       // each edge of an outline follows level 0's
+constexpr int maxGlobalRounds = 12;  // the covered area of each direction becomes level 0's
 // Relative differences of areas. Levels of many triangles take time, and mostly cover enough.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr int mostVainRounds = 4;  // after which areas aren't expected to come nearer
-constexpr double mostWay = 48;     // cells between an edge and level 0's outline, beyond which it is another part's
-constexpr int mostEdgePoints = 24;
-constexpr double stiffness = 0.1;       // of a vertex against moves that few outlines ask for, as a share of all
-constexpr double mostMoveShare = 0.25;  // of the mean length of the edges at a vertex, a round
+constexpr int maxVainRounds = 4;  // after which areas aren't expected to come nearer
+constexpr double maxWay = 48;     // cells between an edge and level 0's outline, beyond which it is another part's
+constexpr int maxEdgePoints = 24;
+constexpr double stiffness = 0.1;      // of a vertex against moves that few outlines ask for, as a share of all
+constexpr double maxMoveShare = 0.25;  // of the mean length of the edges at a vertex, a round
 constexpr double constraintSlack = 1e-3;
 
 // An edge with one or two of its faces.
@@ -107,7 +107,7 @@ struct OutlinePoint {
 double wayToOutline(const CoverGrid& level0, const glm::dvec2& start, const glm::dvec2& outward) {
     const bool inside = level0.covers(start);
     const double sign = inside ? 1 : -1;
-    for (double way = 0.5; way < mostWay; way += 0.5)
+    for (double way = 0.5; way < maxWay; way += 0.5)
         if (level0.covers(start + sign * way * outward) != inside) return sign * (way - 0.25);
     return std::numeric_limits<double>::quiet_NaN();
 }
@@ -126,14 +126,14 @@ public:
         original_ = places_;
         for (const CoverGrid& level0 : outlines) areas_.push_back(level0.area());
         std::vector<double> counts(places_.size(), 0);
-        mostMove_.assign(places_.size(), 0);
+        maxMove_.assign(places_.size(), 0);
         for (const Edge& edge : edges_.all)
             for (const std::uint32_t v : {edge.a, edge.b}) {
-                mostMove_[v] += glm::distance(glm::dvec3(places_[edge.a]), glm::dvec3(places_[edge.b]));
+                maxMove_[v] += glm::distance(glm::dvec3(places_[edge.a]), glm::dvec3(places_[edge.b]));
                 counts[v] += 1;
             }
         for (std::size_t v = 0; v < places_.size(); ++v)
-            if (counts[v] > 0) mostMove_[v] *= mostMoveShare / counts[v];
+            if (counts[v] > 0) maxMove_[v] *= maxMoveShare / counts[v];
     }
 
     // The largest relative difference of a covered area.
@@ -192,13 +192,13 @@ public:
             worst = std::max(worst, std::abs(relative));
         }
         const bool matched = worst <= enough;
-        vainRounds_ = matched || misfit < leastMisfit_ ? 0 : vainRounds_ + 1;
+        vainRounds_ = matched || misfit < minMisfit_ ? 0 : vainRounds_ + 1;
         if (vainRounds_ == 0) {
-            leastMisfit_ = misfit;
+            minMisfit_ = misfit;
             worstOfBest_ = worst;
             best_ = places_;
         }
-        if (matched || vainRounds_ == mostVainRounds) return false;
+        if (matched || vainRounds_ == maxVainRounds) return false;
         const std::vector<double> factors = solved(gradients_, missing);
         std::vector<glm::dvec3> moves(places_.size(), glm::dvec3(0));
         for (std::size_t v = 0; v < moves.size(); ++v)
@@ -251,7 +251,7 @@ private:
             if (!(length > 1e-6)) continue;
             glm::dvec2 across(along.y / length, -along.x / length);
             if (glm::dot(across, cells_[edge.third] - from) > 0) across = -across;
-            const int count = std::clamp(static_cast<int>(std::ceil(length)), 1, mostEdgePoints);
+            const int count = std::clamp(static_cast<int>(std::ceil(length)), 1, maxEdgePoints);
             for (int i = 0; i < count; ++i) {
                 const double share = (i + 0.5) / count;
                 const glm::dvec2 start = from + share * along;
@@ -283,7 +283,7 @@ private:
         for (std::size_t v = 0; v < places_.size(); ++v) {
             const double length = glm::length(moves[v]);
             if (!(length > 0) || !std::isfinite(length)) continue;
-            const glm::dvec3 bounded = moves[v] * std::min(1.0, mostMove_[v] / length);
+            const glm::dvec3 bounded = moves[v] * std::min(1.0, maxMove_[v] / length);
             places_[v] = glm::clamp(glm::vec3(glm::dvec3(places_[v]) + bounded), glm::vec3(box_.minimum),
                                     glm::vec3(box_.maximum));
         }
@@ -296,12 +296,12 @@ private:
     std::vector<glm::vec3> original_;
     std::vector<std::uint32_t> corners_;
     Edges edges_;
-    std::vector<double> mostMove_;  // of each place
+    std::vector<double> maxMove_;  // of each place
     std::span<const CoverGrid> outlines_;
     std::vector<double> areas_;  // of the outlines
     const Bounds& box_;
-    std::vector<glm::vec3> best_;                                   // places whose areas were nearest to the outlines'
-    double leastMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
+    std::vector<glm::vec3> best_;                                 // places whose areas were nearest to the outlines'
+    double minMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // since then
     std::vector<glm::vec3> gradients_;  // of each place, one a direction
@@ -324,8 +324,8 @@ std::array<glm::dvec3, outlineDirections> directionsOfOutlines() {
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box) {
     const double edges = std::sqrt(static_cast<double>(indices.size()) / 3);
-    const int wanted = 64 * static_cast<int>(std::min(cellsPerEdge * edges, double{mostResolution}) / 64);
-    const int resolution = std::clamp(wanted, leastResolution, mostResolution);
+    const int wanted = 64 * static_cast<int>(std::min(cellsPerEdge * edges, double{maxResolution}) / 64);
+    const int resolution = std::clamp(wanted, minResolution, maxResolution);
     std::vector<CoverGrid> outlines;
     for (const glm::dvec3& direction : directionsOfOutlines())
         outlines.emplace_back(box, direction, resolution).add(positions, indices);
@@ -342,15 +342,15 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     for (const std::uint32_t v : indices) corners.push_back(places[v]);
     const double enough = indices.size() > 3 * fewTriangles ? passable : goodEnough;
     OutlineFit fit(at, corners, outlines, box);
-    if (fit.worstArea() <= mostUnseen) return;
+    if (fit.worstArea() <= maxUnseen) return;
     const auto matchAreas = [&](OutlineFit& own) {
-        for (int round = 0; round < mostGlobalRounds && own.matchAreas(enough); ++round) {
+        for (int round = 0; round < maxGlobalRounds && own.matchAreas(enough); ++round) {
         }
     };
     matchAreas(fit);
     std::vector<glm::vec3> best = fit.places();
     // Edges that follow level 0's outline one by one move farther, and may follow another part's: only where it helps.
-    if (fit.worst() > mostUnseen) {
+    if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();
         matchAreas(other);

@@ -17,23 +17,23 @@ namespace {
 
 // A poor collapse is made when good ones cost this much more.
 constexpr float poorPenalty = 10;
-constexpr std::size_t leastFacesToReport = 1000;  // fewer are gone before anyone looks
+constexpr std::size_t minFacesToReport = 1000;  // fewer are gone before anyone looks
 // Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
-constexpr std::size_t mostFacesToFollow = 8192;
+constexpr std::size_t maxFacesToFollow = 8192;
 // Down to this many faces collapses are made in sweeps.
-constexpr std::size_t leastFacesToSweep = 16'384;
-constexpr std::size_t sweepsPerLevel = 8;  // each allows for one in so many of the collapses that are still wanted …
-constexpr std::size_t leastSweepShare = 128;  // … or of the faces, if that is more
-constexpr std::size_t costSample = 8192;      // vertices whose costs tell those of all
+constexpr std::size_t minFacesToSweep = 16'384;
+constexpr std::size_t sweepsPerLevel = 8;   // each allows for one in so many of the collapses that are still wanted …
+constexpr std::size_t minSweepShare = 128;  // … or of the faces, if that is more
+constexpr std::size_t costSample = 8192;    // vertices whose costs tell those of all
 // A further level must save a quarter of the triangles …
 constexpr double largestShare = 0.75;
 // … but leave this share of those that can still go: where many components are as small as they get, halving all would
 // be at the cost of the few large ones.
-constexpr double leastShareOfMovable = 0.25;
+constexpr double minShareOfMovable = 0.25;
 // What is kept for components that can still go while others have most of the faces: so much of the share that their
 // area has in the mesh's, less where the level would otherwise lack whole components.
 constexpr double keptShare = 0.5;
-constexpr double leastKeptShare = 0.25;
+constexpr double minKeptShare = 0.25;
 
 void setCandidate(Simplifier& s, VertexHandle v, const Candidate& candidate) {
     Candidate& own = s.mesh->data(v).candidate;
@@ -96,7 +96,7 @@ void startQueue(Simplifier& s) {
 // but for the few to which the survivor is nearer than what is gone.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
-    const bool atOnce = s.liveFaces <= mostFacesToFollow;
+    const bool atOnce = s.liveFaces <= maxFacesToFollow;
     const auto outdate = [&](VertexHandle v) {
         Candidate& candidate = mesh.data(v).candidate;
         if (!atOnce && candidate.possible() && candidate.fit == Fit::good)
@@ -120,7 +120,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
 }
 
 void reportLoss(Simplifier& s) {
-    s.facesAtReport = s.liveFaces - std::min(s.liveFaces, std::max(s.firstFaces / 100, leastFacesToReport));
+    s.facesAtReport = s.liveFaces - std::min(s.liveFaces, std::max(s.firstFaces / 100, minFacesToReport));
     s.lost(1 - static_cast<double>(s.liveFaces) / static_cast<double>(s.firstFaces));
 }
 
@@ -189,17 +189,17 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
 
 // Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
 // Says whether there were any.
-bool sweep(Simplifier& s, std::size_t target, float most) {
+bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        while (i < count && !(vertices[i].candidate.cost <= most)) ++i;  // most are too dear
+        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most are too dear
         if (i == count) break;
         const VertexHandle v(i);
         const Candidate& candidate = vertices[i].candidate;
-        const auto ready = [&] { return candidate.cost <= most && candidate.fit < Fit::bad && candidate.possible(); };
+        const auto ready = [&] { return candidate.cost <= max && candidate.fit < Fit::bad && candidate.possible(); };
         if (!ready()) continue;
         if (candidate.outdated) enqueueCheapest(s, v);
         while (ready()) {
@@ -220,22 +220,22 @@ bool sweep(Simplifier& s, std::size_t target, float most) {
 bool sweepTo(Simplifier& s, std::size_t target) {
     while (s.liveFaces > target) {
         const std::size_t wanted = (s.liveFaces - target) / 2;
-        const float most = costAtRank(*s.mesh, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
-        if (!sweep(s, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
+        const float max = costAtRank(*s.mesh, std::max(wanted / sweepsPerLevel, s.liveFaces / minSweepShare));
+        if (!sweep(s, target, max) && !(max < std::numeric_limits<float>::infinity())) return false;
     }
     return true;
 }
 
 // Whether `least` is too near to so many faces for a level of its own.
-bool isJustAbove(std::size_t faces, std::size_t least) {
-    return faces > least && largestShare * static_cast<double>(faces) < static_cast<double>(least);
+bool isJustAbove(std::size_t faces, std::size_t min) {
+    return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
 // How many faces the next level should have: half, or the least at once where half would come so near to it that no
 // level fits between.
-std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
+std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
-    return half <= leastTriangles || isJustAbove(half, leastTriangles) ? leastTriangles : half;
+    return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;
 }
 
 // How many faces collapses should leave at least, of a level that should have `target`; `share`: see isKept.
@@ -254,7 +254,7 @@ std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share)
             movable[mesh.data(mesh.from_vertex_handle(corners.at[0])).component] = 1;
     });
     const auto rest = static_cast<double>(s.liveFaces - stuck);
-    double kept = leastShareOfMovable * rest;
+    double kept = minShareOfMovable * rest;
     if (movable.size() > 1) {
         double area = 0;
         for (const ComponentNumber c : movable.numbers()) area += movable[c] != 0 ? s.components[c].area : 0;
@@ -268,19 +268,19 @@ std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share)
 void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     const std::size_t floor = collapseFloor(s, target, keptShare);
     s.queued = false;
-    if (floor >= leastFacesToSweep) sweepTo(s, floor);
+    if (floor >= minFacesToSweep) sweepTo(s, floor);
     if (s.liveFaces <= floor) return;
     startQueue(s);
     collapseTo(s, floor, target, keptShare);
     if (s.liveFaces <= enough) return;
     startQueue(s);
-    collapseTo(s, enough, target, leastKeptShare);
+    collapseTo(s, enough, target, minKeptShare);
 }
 
 // Why no level is tried from so many faces.
 PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
-    return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
+    return faces <= options.minTriangles ? PyramidEnd::minTriangles : PyramidEnd::smallSaving;
 }
 
 std::size_t vertexCount(const SurfaceMesh& mesh) {
@@ -350,31 +350,31 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
     }
 
     // Collapse, and take a picture whenever half of the triangles are gone.
-    while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
-        const std::size_t target = nextTarget(s, options.leastTriangles);
-        const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
-        if (target > most || s.liveFaces == 0) {
+    while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.maxLevels))) {
+        const std::size_t target = nextTarget(s, options.minTriangles);
+        const auto max = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
+        if (target > max || s.liveFaces == 0) {
             result.end = endAt(s.liveFaces, triangles, options);
             break;
         }
 
         // Where parts that can be no smaller leave too little to the others, whole ones go; then collapses.
-        if (s.liveFaces <= mostFacesToFollow && !isConnected(s)) findComponents(s, triangles);
-        if (collapseFloor(s, target, leastKeptShare) > most) {
+        if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
+        if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);
             s.grows = true;
             removeComponents(s, s.liveFaces - (collapseFloor(s, target, keptShare) - target));
         }
-        if (collapseFloor(s, target, leastKeptShare) <= most) collapseToLevel(s, target, most);
+        if (collapseFloor(s, target, minKeptShare) <= max) collapseToLevel(s, target, max);
 
         // Where those came no further, whole parts go; where that isn't enough either, this is the end.
-        const bool tooMany = s.liveFaces > most || isJustAbove(s.liveFaces, options.leastTriangles);
+        const bool tooMany = s.liveFaces > max || isJustAbove(s.liveFaces, options.minTriangles);
         if (tooMany || manyAreSmallest(s)) {
             findComponents(s, triangles);
             s.grows = true;
         }
         if (tooMany) removeComponents(s, target);
-        if (s.liveFaces > most) {
+        if (s.liveFaces > max) {
             result.end = s.components.size() > 1 && canCollapse(s) ? PyramidEnd::largestParts : PyramidEnd::topology;
             break;
         }

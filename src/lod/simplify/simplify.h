@@ -31,9 +31,9 @@ namespace defocus::engine {
 constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose freed memory is worth giving back
 
 struct SimplifyOptions {
-    std::uint32_t leastTriangles = 64;  // halving ends here
-    int mostLevels = 23;                // without level 0
-    bool anchors = true;                // whether levels get them; a level without anchors can't be fitted
+    std::uint32_t minTriangles = 64;  // halving ends here
+    int maxLevels = 23;               // without level 0
+    bool anchors = true;              // whether levels get them; a level without anchors can't be fitted
     // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are
     // one.
     std::vector<double> vertexShares = {};
@@ -60,7 +60,7 @@ struct Simplification {
     std::vector<MeshVertexNumber> twins;
     std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
     std::uint32_t repairedFaces = 0;
-    PyramidEnd end = PyramidEnd::mostLevels;
+    PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 // Makes levels of half the triangles each, until less than a quarter can be saved, or levels of the given shares of the

@@ -24,7 +24,7 @@ namespace {
 
 // Resultant of the unit normals around a wedge, as a share of their number (by angle), below which it is split: a cone
 // of 60° at its tip is kept.
-constexpr double leastResultant = 0.5;
+constexpr double minResultant = 0.5;
 constexpr int rounds = 3;  // of two means
 
 struct CornerNormal {
@@ -40,7 +40,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
 // Where all faces look within 60° of the first, their resultant is long enough whatever the angles are.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
-    const double limit = leastResultant * leastResultant * glm::dot(first, first);
+    const double limit = minResultant * minResultant * glm::dot(first, first);
     return std::all_of(corners.begin(), corners.end(), [&](const CornerNormal& c) {
         const double along = glm::dot(first, c.normal);
         return along > 0 && along * along > limit * glm::dot(c.normal, c.normal);
@@ -76,7 +76,7 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
         sum += c.normal;
         angles += glm::length(c.normal);
     }
-    if (glm::length(sum) >= leastResultant * angles) return corners.size();
+    if (glm::length(sum) >= minResultant * angles) return corners.size();
 
     // Two means, from the corner of the largest angle and the one that looks away from it most.
     const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
@@ -170,10 +170,10 @@ Creases creases(Simplifier& s, const Corners& corners) {
 // Where do the mesh's vertices lie on what is left of it? Every vertex that is gone has a survivor, near which the
 // level's closest face is looked for.
 
-constexpr std::size_t mostSteps = 12;          // vertices whose faces are looked at, on the way to the closest face
-constexpr std::size_t mostFacesAround = 1024;  // faces of a vertex on that way; files may have millions at one
-constexpr double noDistance = 1e-24;           // squared, where the mesh is about 1 wide: rounding
-constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
+constexpr std::size_t maxSteps = 12;          // vertices whose faces are looked at, on the way to the closest face
+constexpr std::size_t maxFacesAround = 1024;  // faces of a vertex on that way; files may have millions at one
+constexpr double noDistance = 1e-24;          // squared, where the mesh is about 1 wide: rounding
+constexpr double minUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
 // Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
 constexpr std::uint32_t enoughAnchors = 16;
 
@@ -212,13 +212,13 @@ struct Closest {
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < 3; ++i) {
         const VertexHandle v = rings.level.corners[cornerAt(face, i)];
-        if (rings.around[v].size() > mostFacesAround || std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
+        if (rings.around[v].size() > maxFacesAround || std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
         const glm::dvec3 offset = p - rings.point(v);
-        if (const double distance = glm::dot(offset, offset); distance < least) {
-            least = distance;
+        if (const double distance = glm::dot(offset, offset); distance < min) {
+            min = distance;
             nearest = v;
         }
     }
@@ -231,7 +231,7 @@ bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& al
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
     const double height = glm::dot(offset, normal);
-    return height * height >= leastUpright * glm::dot(offset, offset) * glm::dot(normal, normal);
+    return height * height >= minUpright * glm::dot(offset, offset) * glm::dot(normal, normal);
 }
 
 // The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
@@ -242,10 +242,10 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     VertexHandle nearest = start;
     const glm::dvec3 away = p - rings.point(start);
     bool below = false;
-    double least = glm::dot(away, away);
-    std::array<VertexHandle, mostSteps> seen;
-    for (std::size_t step = 0; step < mostSteps && nearest.is_valid(); ++step) {
-        if (least <= (result.corner.isValid() ? noDistance : 0)) break;
+    double min = glm::dot(away, away);
+    std::array<VertexHandle, maxSteps> seen;
+    for (std::size_t step = 0; step < maxSteps && nearest.is_valid(); ++step) {
+        if (min <= (result.corner.isValid() ? noDistance : 0)) break;
         seen[step] = nearest;
         const glm::dvec3& a = rings.point(nearest);
         const glm::dvec3 fromA = p - a;
@@ -258,8 +258,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
             const glm::dvec2 along = closestCoordinates(p, a, b, c);
             const glm::dvec3 offset = fromA - along.x * (b - a) - along.y * (c - a);
             const double distance = glm::dot(offset, offset);
-            if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
-            least = distance;
+            if (!(distance < min)) continue;  // NaN of a degenerate face is passed over
+            min = distance;
             result.along = along;
             result.corner = corner;
             below = liesBelow(rings, face, along, offset);
@@ -268,7 +268,7 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
         if (!result.corner.isValid() || below) break;
         nearest = nearestUnseen(rings, faceOf(result.corner), p, std::span(seen.data(), step + 1));
     }
-    result.squaredDistance = least;
+    result.squaredDistance = min;
     return result;
 }
 

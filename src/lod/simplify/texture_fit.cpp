@@ -16,7 +16,7 @@ namespace {
 
 // An anchor further from its triangle in texture space than this, in the triangle's longest sides there, lies on
 // another chart.
-constexpr float mostTextureGap = 0.5f;
+constexpr float maxTextureGap = 0.5f;
 
 // Whether a gap in a triangle with these corners is one to another chart.
 bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) {
@@ -25,7 +25,7 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
         const glm::vec2 side = corners[(k + 1) % 3] - corners[k];
         longest = std::max(longest, glm::dot(side, side));
     }
-    return !(glm::dot(gap, gap) <= mostTextureGap * mostTextureGap * longest);
+    return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
 // The same as AnchorSums, of the way in texture space from the point of the level to the vertex that lies there.

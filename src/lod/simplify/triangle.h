@@ -78,7 +78,7 @@ void forEachTrianglePoint(int parts, const Visit& visit) {
 // cornersOf(t) are the three items of both arrays, below `triangles`, that a triangle joins.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {
-    constexpr double leastTurnCosine = 0.5;
+    constexpr double minTurnCosine = 0.5;
     const auto normalOf = [&](const Points& points, const auto& corners) {
         const glm::dvec3 a = points[corners[0]];
         return glm::cross(glm::dvec3(points[corners[1]]) - a, glm::dvec3(points[corners[2]]) - a);
@@ -89,7 +89,7 @@ void keepFacesUpright(Points& fitted, const Points& original, std::size_t triang
             const auto corners = cornersOf(t);
             const glm::dvec3 before = normalOf(original, corners);
             const glm::dvec3 after = normalOf(fitted, corners);
-            if (glm::dot(before, after) >= leastTurnCosine * glm::length(before) * glm::length(after)) continue;
+            if (glm::dot(before, after) >= minTurnCosine * glm::length(before) * glm::length(after)) continue;
             for (const auto corner : corners) {
                 changed |= fitted[corner] != original[corner];
                 fitted[corner] = original[corner];

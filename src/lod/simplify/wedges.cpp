@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float leastBlurRange = 1e-3f;  // mm, or of the factor: less is not worth an edge
-constexpr double leastQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+constexpr float minBlurRange = 1e-3f;  // mm, or of the factor: less is not worth an edge
+constexpr double minQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
 // How the attributes of a table of AttributeQuadric<n> change from one row to another.
 template <std::size_t n>
@@ -57,8 +57,8 @@ void WedgeTable::assign(const Vertices& vertices, float uvScale) {
     hasUv_ = !vertices.uv0.empty();
     attributeCount_ = std::size_t{3} + (hasColors_ ? 3 : 0) + (hasBlurs_ ? 3 : 0) + (hasUv_ ? 2 : 0);
     const VertexBlurBounds blurs = boundsOf(vertices.blurs);
-    const float perFactor = blurWeight / std::max(blurs.factorMost - blurs.factorLeast, leastBlurRange);
-    const float perMillimetre = blurWeight / std::max(blurs.addedMost - blurs.addedLeast, leastBlurRange);
+    const float perFactor = blurWeight / std::max(blurs.factorMax - blurs.factorMin, minBlurRange);
+    const float perMillimetre = blurWeight / std::max(blurs.addedMax - blurs.addedMin, minBlurRange);
     sources_.resize(vertices.count());
     rows_.clear();
     rows_.reserve(attributeCount_ * vertices.count());
@@ -147,7 +147,7 @@ void WedgeTable::addFace(const WedgeNumber* corners, const glm::dvec3* places) {
         squaredEdges += glm::dot(edge, edge);
     }
     const double doubleArea = glm::length(glm::cross(places[1] - places[0], places[2] - places[0]));
-    if (!(doubleArea > leastQuality * squaredEdges)) return;
+    if (!(doubleArea > minQuality * squaredEdges)) return;
     std::visit(
         [&](auto& quadrics) {
             constexpr std::size_t n = std::remove_cvref_t<decltype(quadrics)>::attributes;

@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 // The least |CoC| that the object's surfaces may have at a depth and a place of the image, px.
-double leastCoc(const ObjectPlan& object, const FramePlan& plan, double depth, const glm::dvec2& ndc) {
+double minCoc(const ObjectPlan& object, const FramePlan& plan, double depth, const glm::dvec2& ndc) {
     return circleOfConfusionRange(plan.coc, {depth, depth, ndc, ndc, object.own}, plan.view.width).smallest;
 }
 
@@ -28,7 +28,7 @@ double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan) {
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
     const glm::dvec3 centre = object.viewBox.centre();
     const glm::dvec2 ndc = glm::dvec2(centre) * glm::dvec2(1, plan.coc.aspect) / (-centre.z * plan.tanHalfHorizontal);
-    return leastCoc(object, plan, -centre.z, ndc);
+    return minCoc(object, plan, -centre.z, ndc);
 }
 
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan) {
@@ -45,7 +45,7 @@ std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const F
     for (std::size_t i = 0; i < patchDepths; ++i) {
         const double depth =
             glm::mix(object.nearestDepth, object.farthestDepth, (static_cast<double>(i) + 0.5) / patchDepths);
-        const double coc = leastCoc(object, plan, depth, glm::dvec2(0));
+        const double coc = minCoc(object, plan, depth, glm::dvec2(0));
         sides[i] = sideAt(depth, std::clamp(coc, object.coc.smallest, object.coc.largest));
     }
     return sides;

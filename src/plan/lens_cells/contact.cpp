@@ -14,8 +14,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr double closedGap = 1;  // px
-constexpr int mostGridSide = 512;
-constexpr std::size_t mostCellsAnObject = 4;  // on average
+constexpr int maxGridSide = 512;
+constexpr std::size_t maxCellsAnObject = 4;  // on average
 
 // Lists of objects by the cells of the image that they may be seen in. What lies outside is in the cells at the border.
 // Each cell knows a value that none of its objects lies below, so that heaps of objects that have all been raised are
@@ -26,20 +26,20 @@ public:
     Grid(const std::vector<ContactBounds>& bounds, double reach)
         : bounds_(&bounds),
           reach_(reach),
-          side_(std::clamp(static_cast<int>(std::sqrt(bounds.size())), 1, mostGridSide)),
+          side_(std::clamp(static_cast<int>(std::sqrt(bounds.size())), 1, maxGridSide)),
           visitedFrom_(bounds.size(), bounds.size()) {
-        glm::dvec2 least(ContactBounds::infinity);
-        glm::dvec2 most(-ContactBounds::infinity);
+        glm::dvec2 min(ContactBounds::infinity);
+        glm::dvec2 max(-ContactBounds::infinity);
         for (const ContactBounds& b : bounds) {
-            if (!std::isfinite(b.seenLeast.x)) continue;
-            least = glm::min(least, b.seenLeast);
-            most = glm::max(most, b.seenMost);
+            if (!std::isfinite(b.seenMin.x)) continue;
+            min = glm::min(min, b.seenMin);
+            max = glm::max(max, b.seenMax);
         }
-        if (!(most.x >= least.x) || !(most.y >= least.y)) least = most = glm::dvec2(0);
-        origin_ = least;
-        extent_ = std::max({most.x - least.x, most.y - least.y, reach});
-        side_ = std::min(side_, static_cast<int>(std::min<double>(extent_ / reach, mostGridSide)));
-        while (side_ > 1 && cellsCovered() > mostCellsAnObject * bounds.size()) side_ /= 2;
+        if (!(max.x >= min.x) || !(max.y >= min.y)) min = max = glm::dvec2(0);
+        origin_ = min;
+        extent_ = std::max({max.x - min.x, max.y - min.y, reach});
+        side_ = std::min(side_, static_cast<int>(std::min<double>(extent_ / reach, maxGridSide)));
+        while (side_ > 1 && cellsCovered() > maxCellsAnObject * bounds.size()) side_ /= 2;
         cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
         for (std::uint32_t i = 0; i < bounds.size(); ++i)
             eachCell(bounds[i], 0, [&](std::size_t cell) { cells_[cell].objects.push_back(i); });
@@ -51,8 +51,8 @@ public:
     void near(std::uint32_t i, const std::vector<bool>& settled, const std::vector<double>& values, Raise raise) {
         eachCell((*bounds_)[i], reach_, [&](std::size_t number) {
             Cell& cell = cells_[number];
-            if (cell.least >= values[i]) return;
-            cell.least = ContactBounds::infinity;
+            if (cell.min >= values[i]) return;
+            cell.min = ContactBounds::infinity;
             for (std::size_t at = 0; at < cell.objects.size();) {
                 const std::uint32_t j = cell.objects[at];
                 if (settled[j]) {
@@ -62,7 +62,7 @@ public:
                 }
                 ++at;
                 if (std::exchange(visitedFrom_[j], i) != i) raise(j);
-                cell.least = std::min(cell.least, values[j]);
+                cell.min = std::min(cell.min, values[j]);
             }
         });
     }
@@ -70,7 +70,7 @@ public:
 private:
     struct Cell {
         std::vector<std::uint32_t> objects;
-        double least = -ContactBounds::infinity;  // of their values, which never fall
+        double min = -ContactBounds::infinity;  // of their values, which never fall
     };
 
     [[nodiscard]] std::size_t cellsCovered() const {
@@ -84,10 +84,10 @@ private:
     }
     template <typename Visit>
     void eachCell(const ContactBounds& bounds, double reach, Visit visit) const {
-        const int right = column(bounds.seenMost.x + reach, 0);
-        const int top = column(bounds.seenMost.y + reach, 1);
-        for (int y = column(bounds.seenLeast.y - reach, 1); y <= top; ++y)
-            for (int x = column(bounds.seenLeast.x - reach, 0); x <= right; ++x)
+        const int right = column(bounds.seenMax.x + reach, 0);
+        const int top = column(bounds.seenMax.y + reach, 1);
+        for (int y = column(bounds.seenMin.y - reach, 1); y <= top; ++y)
+            for (int x = column(bounds.seenMin.x - reach, 0); x <= right; ++x)
                 visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x));
     }
 
@@ -107,39 +107,39 @@ ContactBounds contactBounds(const ObjectPlan& object, const FramePlan& plan) {
     const double pixelsPerTangent = plan.view.width / (2 * plan.tanHalfHorizontal);
     const glm::dvec2 middle(plan.view.width / 2.0, plan.view.height / 2.0);
     ContactBounds bounds;
-    bounds.seenLeast = glm::dvec2(ContactBounds::infinity);
-    bounds.seenMost = glm::dvec2(-ContactBounds::infinity);
+    bounds.seenMin = glm::dvec2(ContactBounds::infinity);
+    bounds.seenMax = glm::dvec2(-ContactBounds::infinity);
     for (const glm::dvec3& corner : object.viewBox.corners()) {
         const glm::dvec2 place = middle + glm::dvec2(corner) / -corner.z * pixelsPerTangent;
-        bounds.seenLeast = glm::min(bounds.seenLeast, place);
-        bounds.seenMost = glm::max(bounds.seenMost, place);
+        bounds.seenMin = glm::min(bounds.seenMin, place);
+        bounds.seenMax = glm::max(bounds.seenMax, place);
     }
     bounds.unit = 1 / pixelsPerTangent;
-    bounds.least = glm::dvec3(glm::dvec2(object.viewBox.minimum), object.nearestDepth) * pixelsPerTangent;
-    bounds.most = glm::dvec3(glm::dvec2(object.viewBox.maximum), object.farthestDepth) * pixelsPerTangent;
+    bounds.min = glm::dvec3(glm::dvec2(object.viewBox.minimum), object.nearestDepth) * pixelsPerTangent;
+    bounds.max = glm::dvec3(glm::dvec2(object.viewBox.maximum), object.farthestDepth) * pixelsPerTangent;
     return bounds;
 }
 
 double contactGap(const ContactBounds& a, const ContactBounds& b) {
-    const auto apart = [](double leastA, double mostA, double leastB, double mostB) {
-        return std::max(leastA - mostB, leastB - mostA);
+    const auto apart = [](double minA, double maxA, double minB, double maxB) {
+        return std::max(minA - maxB, minB - maxA);
     };
     double inImage = 0;
     double inSpace = 0;
     for (int axis = 0; axis < 2; ++axis)
-        inImage = std::max(inImage, apart(a.seenLeast[axis], a.seenMost[axis], b.seenLeast[axis], b.seenMost[axis]));
+        inImage = std::max(inImage, apart(a.seenMin[axis], a.seenMax[axis], b.seenMin[axis], b.seenMax[axis]));
     for (int axis = 0; axis < 3; ++axis)
-        inSpace = std::max(inSpace, apart(a.least[axis], a.most[axis], b.least[axis], b.most[axis]));
+        inSpace = std::max(inSpace, apart(a.min[axis], a.max[axis], b.min[axis], b.max[axis]));
     if (inSpace > 0) {
         // The farthest depth that both have, or the nearest that the one behind has: px are largest there.
-        const double depth = std::max(std::min(a.most.z, b.most.z), std::max(a.least.z, b.least.z));
+        const double depth = std::max(std::min(a.max.z, b.max.z), std::max(a.min.z, b.min.z));
         inSpace /= depth * std::max(a.unit, b.unit);
     }
     return std::max(0.0, std::max(inImage, inSpace) - closedGap);
 }
 
-std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values,
-                                      double least, double most) {
+std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values, double min,
+                                      double max) {
     // Of equal values the one that was raised last is next: it lies at the front of what is being raised, and what is
     // behind the front has nothing left to raise.
     struct Open {
@@ -151,13 +151,13 @@ std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, 
     std::priority_queue<Open> open;
     for (std::uint32_t i = 0; i < values.size(); ++i) open.push({values[i], i, i});
     std::uint64_t turn = values.size();
-    Grid grid(bounds, most - least + closedGap);
+    Grid grid(bounds, max - min + closedGap);
     std::vector<bool> settled(values.size(), false);
     while (!open.empty()) {
         const double value = open.top().value;
         const std::uint32_t i = open.top().object;
         open.pop();
-        if (value <= least) break;
+        if (value <= min) break;
         if (settled[i]) continue;
         settled[i] = true;
         grid.near(i, settled, values, [&](std::uint32_t j) {

@@ -16,11 +16,11 @@ namespace defocus::engine {
 struct ContactBounds {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     // In the image, px from its lower left corner, through the middle of the lens.
-    glm::dvec2 seenLeast{-infinity};
-    glm::dvec2 seenMost{infinity};
+    glm::dvec2 seenMin{-infinity};
+    glm::dvec2 seenMax{infinity};
     // In view space, but with a depth that is positive, in units that are a px at a depth of 1 m.
-    glm::dvec3 least{-infinity};
-    glm::dvec3 most{infinity};
+    glm::dvec3 min{-infinity};
+    glm::dvec3 max{infinity};
     double unit = 1;  // m
 };
 
@@ -35,7 +35,7 @@ double contactGap(const ContactBounds& a, const ContactBounds& b);
 // Returns for each object the greatest of values[j] − (the shortest way from it to j, over gaps between objects), but
 // `least` where that is less. Objects that touch get the same value, and none is raised by more than `most` − `least`
 // over its own. `values` are within [least, most]. Near-linear in the number of objects.
-std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values,
-                                      double least, double most);
+std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values, double min,
+                                      double max);
 
 }  // namespace defocus::engine

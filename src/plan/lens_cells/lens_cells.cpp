@@ -19,8 +19,8 @@ namespace {
 // closes the gaps between them.
 constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // fewer don't divide a lens
-constexpr std::uint32_t mostPointsOfCell = 16;
-constexpr std::uint32_t mostPoints = 1u << 14;  // of all cells
+constexpr std::uint32_t maxPointsOfCell = 16;
+constexpr std::uint32_t maxPoints = 1u << 14;  // of all cells
 
 std::string reasonForNone(const FramePlan& plan) {
     if (plan.settings.keepAll) return "everything is kept";
@@ -91,7 +91,7 @@ void rotate(std::vector<LensSample>& samples, double angle) {
 // turned, means of a column fill the gaps to the next one where an upright or level edge is blurred.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
-    const std::uint32_t points = std::min(mostPointsOfCell, mostPoints / count);
+    const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
     if (points < 2) return;
     std::vector<LensSample> dense =
         lensSamples(plan.view.lens, plan.settings.sequence, std::uint64_t{plan.frameFirst} * points, count * points,
@@ -130,14 +130,14 @@ std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const Len
 }
 
 double varianceOf(double blur, double coc) {
-    return std::max(0.0, blur * coc * blur * coc - leastCellVariance);
+    return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
 // Classes for a blur of up to `coc` px.
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);
     int classes = variance > 0 ? 1 : 0;
-    while (classes > 0 && classes < mostCellClasses && variance > cellClassVariance(classes - 1)) ++classes;
+    while (classes > 0 && classes < maxCellClasses && variance > cellClassVariance(classes - 1)) ++classes;
     return classes;
 }
 
@@ -175,7 +175,7 @@ double cellClassVariance(int k) {
 }
 
 double pixelRate(const LensCells& cells, double coc) {
-    const double variance = std::min(varianceOf(cells.blur, coc), cellClassVariance(mostCellClasses - 1));
+    const double variance = std::min(varianceOf(cells.blur, coc), cellClassVariance(maxCellClasses - 1));
     return 1 / std::sqrt(std::max(1.0, 3 * (variance - 1.0 / 6)));
 }
 

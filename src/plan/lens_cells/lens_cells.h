@@ -25,11 +25,11 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int mostCellClasses = 5;  // on each side of the focus; σ ends with the last's
+inline constexpr int maxCellClasses = 5;  // on each side of the focus; σ ends with the last's
 // px² along an axis, of class k ≥ 0 of a side, 4^k/3 + 1/6: its image has means over squares of 2^k px, weighed by a
 // tent, and linear interpolation between their middles.
 double cellClassVariance(int k);
-inline constexpr double leastCellVariance = 0.01;  // px², taken from all: what a pixel's own width hides
+inline constexpr double minCellVariance = 0.01;  // px², taken from all: what a pixel's own width hides
 
 struct LensCells {
     double blur = 0;                 // σ as a share of |c|; 0: images stay as they are

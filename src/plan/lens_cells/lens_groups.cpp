@@ -13,13 +13,13 @@ namespace defocus::engine {
 namespace {
 
 int longerSide(std::span<const LensSample> samples, std::span<const std::uint32_t> members) {
-    glm::vec2 least(std::numeric_limits<float>::infinity());
-    glm::vec2 most = -least;
+    glm::vec2 min(std::numeric_limits<float>::infinity());
+    glm::vec2 max = -min;
     for (const std::uint32_t index : members) {
-        least = glm::min(least, samples[index].lens);
-        most = glm::max(most, samples[index].lens);
+        min = glm::min(min, samples[index].lens);
+        max = glm::max(max, samples[index].lens);
     }
-    return most.x - least.x >= most.y - least.y ? 0 : 1;
+    return max.x - min.x >= max.y - min.y ? 0 : 1;
 }
 
 // Points may coincide in one coordinate: their number decides then, so that the order is the same everywhere.

@@ -112,10 +112,10 @@ PixelArea areaOf(const ObjectPlan& object, const FramePlan& plan) {
     const ContactBounds bounds = contactBounds(object, plan);
     const double margin = 0.5 * object.coc.largest + 2;
     const auto within = [](double value, int size) { return static_cast<int>(std::clamp<double>(value, 0, size)); };
-    return {within(std::floor(bounds.seenLeast.x - margin), plan.view.width),
-            within(std::floor(bounds.seenLeast.y - margin), plan.view.height),
-            within(std::ceil(bounds.seenMost.x + margin), plan.view.width),
-            within(std::ceil(bounds.seenMost.y + margin), plan.view.height)};
+    return {within(std::floor(bounds.seenMin.x - margin), plan.view.width),
+            within(std::floor(bounds.seenMin.y - margin), plan.view.height),
+            within(std::ceil(bounds.seenMax.x + margin), plan.view.width),
+            within(std::ceil(bounds.seenMax.y + margin), plan.view.height)};
 }
 
 bool overlap(const PixelArea& a, const PixelArea& b) {
@@ -159,7 +159,7 @@ std::string reasonForFullRate(const FramePlan& plan, const ObjectPlan& object) {
 }  // namespace
 
 std::uint32_t groupSamples(std::uint32_t count) {
-    return std::clamp(count / leastLensGroups, 1u, mostGroupSamples);
+    return std::clamp(count / minLensGroups, 1u, maxGroupSamples);
 }
 
 FrameRates frameRates(const FramePlan& plan, bool cells) {
@@ -179,12 +179,12 @@ FrameRates frameRates(const FramePlan& plan, bool cells) {
         const ObjectPlan& object = plan.objects[i];
         rates.objects[i].reason = reasonForFullRate(plan, object);
         bounds.push_back(contactBounds(object, plan));
-        blurs.push_back(rates.objects[i].reason.empty() ? std::clamp(object.coc.largest, wholeShareBlur, leastShareBlur)
-                                                        : leastShareBlur);
+        blurs.push_back(rates.objects[i].reason.empty() ? std::clamp(object.coc.largest, wholeShareBlur, minShareBlur)
+                                                        : minShareBlur);
     }
-    const std::vector<double> spread = spreadOverContact(bounds, blurs, wholeShareBlur, leastShareBlur);
+    const std::vector<double> spread = spreadOverContact(bounds, blurs, wholeShareBlur, minShareBlur);
     for (std::size_t i = 0; i < spread.size(); ++i) {
-        rates.objects[i].lensShare = (leastShareBlur - spread[i]) / (leastShareBlur - wholeShareBlur);
+        rates.objects[i].lensShare = (minShareBlur - spread[i]) / (minShareBlur - wholeShareBlur);
         if (spread[i] > blurs[i]) rates.objects[i].reason = "it lies beside what shares less";
         if (plan.objects[i].heldLensShare) rates.objects[i].lensShare = *plan.objects[i].heldLensShare;
     }
@@ -217,7 +217,7 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
     block.groups.objects.clear();
     // A group's image stands for all of its samples, with their points on the lights.
     ShadowPlan& shadows = block.groups.shadows;
-    shadows.points = std::min(shadows.points * size, mostPointsPerSample(shadows.maps.size()));
+    shadows.points = std::min(shadows.points * size, maxPointsPerSample(shadows.maps.size()));
     const std::vector<ObjectPlan> objects = std::exchange(block.samples.objects, {});
     for (std::size_t i = 0; i < objects.size(); ++i)
         divideObject(objects[i], sharedGroups(rates.objects[i].lensShare, block), block);

@@ -32,12 +32,12 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t rateBlock = 64;        // samples a block
-inline constexpr std::uint32_t leastLensGroups = 16;  // of a block: as few pixel offsets still smooth an edge
-inline constexpr std::uint32_t mostGroupSamples = 4;  // of a group
+inline constexpr std::uint32_t rateBlock = 64;       // samples a block
+inline constexpr std::uint32_t minLensGroups = 16;   // of a block: as few pixel offsets still smooth an edge
+inline constexpr std::uint32_t maxGroupSamples = 4;  // of a group
 // All of an object is shared up to the first diameter of its largest blur, and nothing from the second on.
 inline constexpr double wholeShareBlur = 3.5;  // px
-inline constexpr double leastShareBlur = 5;    // px
+inline constexpr double minShareBlur = 5;      // px
 
 // Pixels [left, right) × [bottom, top) of the image; row 0 is at the bottom, as OpenGL has it.
 struct PixelArea {

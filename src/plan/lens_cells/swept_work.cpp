@@ -14,8 +14,8 @@ namespace {
 
 // A rectangle in normalised device coordinates.
 struct SweptBounds {
-    glm::dvec2 least{1e30};
-    glm::dvec2 most{-1e30};
+    glm::dvec2 min{1e30};
+    glm::dvec2 max{-1e30};
 };
 
 // Sums over rectangles of pixels: each adds to its corners, and the sums of rows and columns spread them.
@@ -29,10 +29,10 @@ public:
         const auto place = [](double ndc, int size) {
             return std::clamp((ndc + 1) / 2 * size, 0.0, static_cast<double>(size));
         };
-        const int left = static_cast<int>(std::floor(place(bounds.least.x, width_)));
-        const int right = static_cast<int>(std::ceil(place(bounds.most.x, width_)));
-        const int top = static_cast<int>(std::floor(place(-bounds.most.y, height_)));
-        const int bottom = static_cast<int>(std::ceil(place(-bounds.least.y, height_)));
+        const int left = static_cast<int>(std::floor(place(bounds.min.x, width_)));
+        const int right = static_cast<int>(std::ceil(place(bounds.max.x, width_)));
+        const int top = static_cast<int>(std::floor(place(-bounds.max.y, height_)));
+        const int bottom = static_cast<int>(std::ceil(place(-bounds.min.y, height_)));
         if (left >= right || top >= bottom) return;
         at(left, top) += value;
         at(right, top) -= value;
@@ -99,8 +99,8 @@ public:
                 const double blur =
                     std::abs(moment.coc[indices[k]] / p.z) + aberrationReach(plan_->coc, glm::length(field));
                 const glm::dvec2 reach = blur * glm::dvec2(1, plan_->coc.aspect);
-                bounds.least = glm::min(bounds.least, glm::dvec2(p) / p.z - reach);
-                bounds.most = glm::max(bounds.most, glm::dvec2(p) / p.z + reach);
+                bounds.min = glm::min(bounds.min, glm::dvec2(p) / p.z - reach);
+                bounds.max = glm::max(bounds.max, glm::dvec2(p) / p.z + reach);
             }
         sums.add(bounds, share_);
     }
@@ -148,7 +148,7 @@ Image sweptWork(const FramePlan& plan, const World& world) {
 
 Image sweptWorkColourMap(const Image& work) {
     Image shares = work;
-    for (float& value : shares.pixels) value = std::log2(1 + value) / std::log2(1 + mostShownSweptWork);
+    for (float& value : shares.pixels) value = std::log2(1 + value) / std::log2(1 + maxShownSweptWork);
     return colourMapped(shares);
 }
 

@@ -14,7 +14,7 @@ namespace defocus::engine {
 Image sweptWork(const FramePlan& plan, const World& world);
 
 // Triangles a pixel from which on pixels look alike in the colour map.
-inline constexpr float mostShownSweptWork = 16383;
+inline constexpr float maxShownSweptWork = 16383;
 
 // As colours that a person can read: black where nothing is, then brighter with the logarithm (magma).
 Image sweptWorkColourMap(const Image& work);

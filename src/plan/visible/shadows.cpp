@@ -17,27 +17,27 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int leastMapSize = 128;  // px
-constexpr int mostMapSize = 2048;
-constexpr double leastShare = 0.01;         // of all light at the scene's middle: what casts a shadow
+constexpr int minMapSize = 128;  // px
+constexpr int maxMapSize = 2048;
+constexpr double minShare = 0.01;           // of all light at the scene's middle: what casts a shadow
 constexpr double widestTangent = 3;         // half the field of view of one map
 constexpr double levelErrorTexels = 0.5;    // by which a caster's level may be off
-constexpr std::size_t mostBoxes = 64;       // that bound the casters one by one
+constexpr std::size_t maxBoxes = 64;        // that bound the casters one by one
 constexpr double nearShare = 1e-4;          // near plane of lights amid the scene, of its size
 constexpr std::uint32_t smoothPoints = 64;  // on a light, of whose steps the eye sees little
 
 const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
 
 struct Rectangle {
-    glm::dvec2 least{std::numeric_limits<double>::infinity()};
-    glm::dvec2 most{-std::numeric_limits<double>::infinity()};
+    glm::dvec2 min{std::numeric_limits<double>::infinity()};
+    glm::dvec2 max{-std::numeric_limits<double>::infinity()};
     void extend(const glm::dvec2& point) {
-        least = glm::min(least, point);
-        most = glm::max(most, point);
+        min = glm::min(min, point);
+        max = glm::max(max, point);
     }
     void intersect(const Rectangle& other) {
-        least = glm::max(least, other.least);
-        most = glm::max(least, glm::min(most, other.most));
+        min = glm::max(min, other.min);
+        max = glm::max(min, glm::min(max, other.max));
     }
 };
 
@@ -137,8 +137,8 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
     std::size_t count = 0;
     std::vector<Candidate> chosen;
     for (const Candidate& one : found) {
-        if (!(one.strength >= leastShare * all) || !(one.strength > 0) || !std::isfinite(one.strength)) continue;
-        if (count + static_cast<std::size_t>(one.faces) > mostShadowMaps) continue;
+        if (!(one.strength >= minShare * all) || !(one.strength > 0) || !std::isfinite(one.strength)) continue;
+        if (count + static_cast<std::size_t>(one.faces) > maxShadowMaps) continue;
         count += static_cast<std::size_t>(one.faces);
         chosen.push_back(one);
     }
@@ -155,7 +155,7 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
 std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
     const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, mostPointsPerSample(maps)));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, maxPointsPerSample(maps)));
 }
 
 // ---- projections
@@ -193,16 +193,16 @@ glm::dvec2 texelShift(const LensSample& sample, std::uint32_t point) {
 // Rows for x and y of `area`, which is `size` texels, one of them for the shift; `axes` from a place's own.
 void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& origin, Rectangle area, int size,
              const glm::dvec2& shift, double smallest) {
-    const glm::dvec2 extent = glm::max(area.most - area.least, glm::dvec2(smallest));
+    const glm::dvec2 extent = glm::max(area.max - area.min, glm::dvec2(smallest));
     const glm::dvec2 texel = extent / (size - 2.0);
-    const glm::dvec2 least = area.least - texel * (0.5 + shift);
+    const glm::dvec2 min = area.min - texel * (0.5 + shift);
     const glm::dvec4& w = glm::dvec4(projection.clipRows[3]);
     const auto row = [&](const glm::dvec3& axis, double begin, double width) {
         const glm::dvec4 along(axis, -glm::dot(axis, origin));
         return glm::vec4(2 / width * along - (2 * begin / width + 1) * w);
     };
-    projection.clipRows[0] = row(axes.x, least.x, texel.x * size);
-    projection.clipRows[1] = row(axes.y, least.y, texel.y * size);
+    projection.clipRows[0] = row(axes.x, min.x, texel.x * size);
+    projection.clipRows[1] = row(axes.y, min.y, texel.y * size);
     projection.texel = static_cast<float>(std::max(texel.x, texel.y));
 }
 
@@ -295,8 +295,8 @@ glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint
 
 }  // namespace
 
-std::uint32_t mostPointsPerSample(std::size_t maps) {
-    return static_cast<std::uint32_t>(std::max<std::size_t>(mostShadowMaps / std::max<std::size_t>(maps, 1), 1));
+std::uint32_t maxPointsPerSample(std::size_t maps) {
+    return static_cast<std::uint32_t>(std::max<std::size_t>(maxShadowMaps / std::max<std::size_t>(maps, 1), 1));
 }
 
 glm::dvec2 diskPoint(const glm::dvec2& point) {
@@ -407,7 +407,7 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
         boxes.push_back(box);
         shadows.casters.push_back(object);
     }
-    if (boxes.size() > mostBoxes) {
+    if (boxes.size() > maxBoxes) {
         Bounds all;
         for (const Bounds& box : boxes) all.extend(box);
         boxes = {all};
@@ -426,7 +426,7 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     shadows.seen = seenCorners(plan);
 
     // As many texels across the scene as the image has pixels, and levels that they can't tell from full detail.
-    shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), leastMapSize, mostMapSize);
+    shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), minMapSize, maxMapSize);
     const double texel = glm::length(boundsOfCorners(shadows.corners).size()) / shadows.size;
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
     for (ObjectPlan& caster : shadows.casters) {

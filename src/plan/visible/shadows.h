@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 inline constexpr int surroundings = -1;  // as a light
 // A sample: weaker lights cast no shadow. What they leave is for several points on each light, where samples are few.
-inline constexpr std::size_t mostShadowMaps = 8;
+inline constexpr std::size_t maxShadowMaps = 8;
 
 // Directions to the surroundings, the brighter the more often: of an equirectangular grid, cell by cell.
 class EnvironmentDirections {
@@ -49,7 +49,7 @@ struct ShadowProjection {
 };
 
 // On each light, without more maps a sample than `mostShadowMaps`; `maps`: one of each light's.
-std::uint32_t mostPointsPerSample(std::size_t maps);
+std::uint32_t maxPointsPerSample(std::size_t maps);
 
 // Chooses lights, points, size and casters. `objects`: all of the world's, as the plan places them, drawn or not.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);

@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 int cellSide(int pixels) {
-    const int cells = (pixels + mostCellPixels - 1) / mostCellPixels;
+    const int cells = (pixels + maxCellPixels - 1) / maxCellPixels;
     return (pixels + cells - 1) / cells;
 }
 

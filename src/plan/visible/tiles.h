@@ -27,7 +27,7 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
-inline constexpr int mostCellPixels = 8192;  // of a cell's width and of its height
+inline constexpr int maxCellPixels = 8192;  // of a cell's width and of its height
 
 // The cells of an image, row by row. All have the same size, but the last of a row or column may be smaller.
 std::vector<PixelRectangle> cellsOf(int width, int height);

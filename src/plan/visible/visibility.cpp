@@ -24,10 +24,10 @@ constexpr double transformation = 0x1p-21;  // of a position's terms: what singl
 constexpr double storage = 1e-6;            // relative: of a cluster's values
 constexpr double guardBand = 1.8;           // images from the middle beyond which triangles may be clipped
 constexpr int shutterParts = 4;             // of the way between two moments, each with one bound of the motion
-constexpr std::size_t mostMoments = 64;     // of the shutter: with more, all clusters are drawn
-constexpr std::size_t mostPosedVertices = 100'000;  // of a level, at all moments: as many take some 10 ms
-constexpr double leastSaving = 1.0 / 8;             // of a level's triangles, below which it is drawn whole
-constexpr std::uint32_t leastGap = 128;             // triangles: to hide fewer costs more than a further run of indices
+constexpr std::size_t maxMoments = 64;      // of the shutter: with more, all clusters are drawn
+constexpr std::size_t maxPosedVertices = 100'000;  // of a level, at all moments: as many take some 10 ms
+constexpr double minSaving = 1.0 / 8;              // of a level's triangles, below which it is drawn whole
+constexpr std::uint32_t minGap = 128;              // triangles: to hide fewer costs more than a further run of indices
 
 // The lens in object space during a part of the exposure.
 struct LensRange {
@@ -43,7 +43,7 @@ struct ObjectViews {
     std::vector<LensRange> lenses;           // empty: no cluster is taken to face away
     double lensRadius = 0;                   // m, of the disk that stands for the lens
     double shapeLoss = 1;      // a triangle's altitude in px shrinks by a tilted focus plane's shear, at most
-    double leastVolume = 0;    // of a unit of the object's space, m³
+    double minVolume = 0;      // of a unit of the object's space, m³
     double largestSize = 0;    // bound of the matrices' norms
     double largestOffset = 0;  // m, of the object's origin from the camera
     OwnBlur own;               // what the object's surfaces make of the blur
@@ -70,12 +70,12 @@ std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to,
     if (!(turn < 0.5)) return {};
     const glm::dvec3 velocity = inverse * (glm::dvec3(0.5 * (to[3] - from[3])) + change * range.eye);
     range.motion = (glm::length(velocity) + turn * range.inverseSize * views.lensRadius) / (1 - turn);
-    views.leastVolume = std::min(views.leastVolume, std::abs(determinant) * std::pow(1 - turn, 3));
+    views.minVolume = std::min(views.minVolume, std::abs(determinant) * std::pow(1 - turn, 3));
     return range;
 }
 
 void addLenses(ObjectViews& views, const ObjectPlan& object, const World& world) {
-    views.leastVolume = infinity;
+    views.minVolume = infinity;
     std::vector<LensRange> lenses;
     const auto add = [&](const glm::dmat4& from, const glm::dmat4& to) {
         const std::optional<LensRange> range = lensRange(from, to, object.mirrored, views);
@@ -113,7 +113,7 @@ ObjectViews objectViews(const ObjectPlan& object, const World& world, const Fram
     }
     views.own = object.own;
     if (views.own.varies() || plan.coc.aberrates()) return views;
-    const double factor = views.own.factorMost;
+    const double factor = views.own.factorMax;
     const double reach = lensReach(plan);
     const ClipCircleOfConfusion& coc = plan.coc;
     const double slope = reach * factor * (coc.front + coc.chromatic) * std::hypot(coc.tilt.x, coc.aspect * coc.tilt.y);
@@ -143,22 +143,22 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
 // corners are rounded: a triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px², f
 // px a unit at distance 1 and h the distance from its plane, and edges of at most f·L·‖A‖·distance/w². Infinity where
 // it might.
-double leastPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
-    const double least = -box.maximum.z;
-    const double most = -box.minimum.z;
-    if (!(least > plan.view.nearPlane * (1 + storage)) || !(cluster.leastAltitude > 0)) return infinity;
+double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
+    const double min = -box.maximum.z;
+    const double max = -box.minimum.z;
+    if (!(min > plan.view.nearPlane * (1 + storage)) || !(cluster.minAltitude > 0)) return infinity;
     const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
     const double terms =
         views.largestSize * (glm::length(glm::dvec3(cluster.centre)) + cluster.radius) + views.largestOffset;
-    const double lost = views.shapeLoss * (snapping + focal / least * transformation * terms);
+    const double lost = views.shapeLoss * (snapping + focal / min * transformation * terms);
     const double distance = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum))) + views.lensRadius;
-    return lost * views.largestSize * distance * most * most * most /
-           (focal * cluster.leastAltitude * views.leastVolume * least * least);
+    return lost * views.largestSize * distance * max * max * max /
+           (focal * cluster.minAltitude * views.minVolume * min * min);
 }
 
 // All of the lens lies behind all planes of the cluster by `margin` or more.
 bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius, double margin) {
-    const double cosine = cluster.leastCosine;
+    const double cosine = cluster.minCosine;
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     const glm::dvec3 axis(cluster.axis);
     const glm::dvec3 toCentre = glm::dvec3(cluster.centre) - lens.eye;
@@ -177,7 +177,7 @@ bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius,
 bool staysWhole(const CocBox& coc, const FramePlan& plan) {
     const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
                                          std::max(1.0, plan.coc.aspect);
-    return std::max({-coc.ndcLeast.x, coc.ndcMost.x, -coc.ndcLeast.y, coc.ndcMost.y}) < reach;
+    return std::max({-coc.ndcMin.x, coc.ndcMax.x, -coc.ndcMin.y, coc.ndcMax.y}) < reach;
 }
 
 // C is one linear function of the place all over the box.
@@ -188,8 +188,8 @@ bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
 }
 
 bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
-    if (views.lenses.empty() || !(cluster.leastCosine > 0)) return false;
-    const double margin = leastPlaneDistance(cluster, box, views, plan);
+    if (views.lenses.empty() || !(cluster.minCosine > 0)) return false;
+    const double margin = minPlaneDistance(cluster, box, views, plan);
     if (!(margin < infinity)) return false;
     const bool away = std::all_of(views.lenses.begin(), views.lenses.end(), [&](const LensRange& lens) {
         return facesAway(cluster, lens, views.lensRadius, margin);
@@ -241,7 +241,7 @@ bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& w
     if (!bends && !plan.usesCocControls) return false;
     if (object.refinement != Refinement::none || object.nearestDepth <= plan.view.nearPlane) return false;
     const PyramidLevel& own = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level];
-    return own.vertexCount * std::max<std::size_t>(object.motion.size(), 1) <= mostPosedVertices;
+    return own.vertexCount * std::max<std::size_t>(object.motion.size(), 1) <= maxPosedVertices;
 }
 
 Bounds viewBoxOf(const IndexRange& range, const Pyramid& pyramid, const LevelCorners& corners, const FramePlan& plan) {
@@ -264,26 +264,25 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
 
 // By how much the determinant must be below 0 so that rounded corners can't turn the triangle over. Twice its area in
 // px² is W·H/4·det/(w₀w₁w₂); corners that move by r px change it by 2r·(sum of two edges) + 8r² at most.
-double leastDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
-    double least = infinity;
-    double most = 0;
+double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
+    double min = infinity;
+    double max = 0;
     double edge = 0;
     for (const LensTriangle* triangle : {&from, &to})
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
             const glm::dvec3& p = triangle->places[i];
             const glm::dvec3& q = triangle->places[j];
-            least = std::min(least, p.z);
-            most = std::max(most, p.z);
+            min = std::min(min, p.z);
+            max = std::max(max, p.z);
             const glm::dvec2 step = glm::abs(glm::dvec2(p) / p.z - glm::dvec2(q) / q.z);
             const double blur = std::abs(triangle->coc[i] / p.z - triangle->coc[j] / q.z);
             edge = std::max(edge, plan.view.width * (step.x / 2 + blur) + plan.view.height * step.y / 2);
         }
     const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
-    const double rounded = snapping + focal / least * transformation * terms;
-    const double stretched = edge * (most / least) * (most / least);
-    return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * most * most *
-           most;
+    const double rounded = snapping + focal / min * transformation * terms;
+    const double stretched = edge * (max / min) * (max / min);
+    return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * max * max * max;
 }
 
 // Two corners are one.
@@ -301,7 +300,7 @@ bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners
                 std::swap(triangle->places[1], triangle->places[2]);
                 std::swap(triangle->coc[1], triangle->coc[2]);
             }
-        const double margin = leastDeterminant(from, to, corners.terms, plan);
+        const double margin = minDeterminant(from, to, corners.terms, plan);
         for (int part = 0; part < parts; ++part) {
             const LensTriangle begin = between(from, to, static_cast<double>(part) / parts);
             const LensTriangle end = between(from, to, static_cast<double>(part + 1) / parts);
@@ -357,7 +356,7 @@ public:
     explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
 
     void show(const IndexRange& range) {
-        if (!runs_->empty() && (away_ + outside_) < leastGap)  // not worth a further run
+        if (!runs_->empty() && (away_ + outside_) < minGap)  // not worth a further run
             runs_->back().count += 3 * (away_ + outside_) + range.count;
         else {
             leaveOut();
@@ -419,12 +418,12 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
     box.own = own;
     const double aspect = static_cast<double>(plan.view.width) / plan.view.height;
     const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, aspect / plan.tanHalfHorizontal);
-    box.ndcLeast = glm::dvec2(infinity);
-    box.ndcMost = -box.ndcLeast;
+    box.ndcMin = glm::dvec2(infinity);
+    box.ndcMax = -box.ndcMin;
     for (const glm::dvec3& corner : viewBox.corners()) {
         const glm::dvec2 ndc = glm::dvec2(corner) * perTangent / -corner.z;
-        box.ndcLeast = glm::min(box.ndcLeast, ndc);
-        box.ndcMost = glm::max(box.ndcMost, ndc);
+        box.ndcMin = glm::min(box.ndcMin, ndc);
+        box.ndcMax = glm::max(box.ndcMax, ndc);
     }
     return box;
 }
@@ -434,10 +433,10 @@ namespace {
 // The largest |factor·(a + b·w) + added·w| of any wavelength: linear in each of the two, so that their ends bound it.
 double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
     double reach = 0;
-    for (const double factor : {own.factorLeast, own.factorMost})
-        for (const double added : {own.addedLeast, own.addedMost})
+    for (const double factor : {own.factorMin, own.factorMax})
+        for (const double added : {own.addedMin, own.addedMax})
             reach = std::max(reach, std::abs(factor * (coc.a + coc.front * w) + added * w));
-    return reach + own.factorMost * std::abs(w) * coc.chromatic;
+    return reach + own.factorMax * std::abs(w) * coc.chromatic;
 }
 
 }  // namespace
@@ -482,7 +481,7 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const O
 }
 
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan) {
-    if (object.motion.size() > mostMoments) return;
+    if (object.motion.size() > maxMoments) return;
     ObjectViews views;
     views.own = object.own;
     if (!object.deformed && !object.skinned) views = objectViews(object, world, plan);
@@ -492,7 +491,7 @@ void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& p
         VisibleLevel visible = levelWithoutHidden(views, object, draw->level, world, plan);
         const std::uint32_t all = pyramid.levels[draw->level].triangleCount;
         const std::uint32_t saved = visible.facingAway + visible.outside;
-        if (saved == 0 || saved < leastSaving * all) continue;
+        if (saved == 0 || saved < minSaving * all) continue;
         draw->triangleCount = all - saved;
         object.visible.push_back(std::move(visible));
     }

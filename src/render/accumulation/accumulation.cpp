@@ -28,7 +28,7 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
                          bool shares) {
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t shadowBytes =
-        shares ? shadowMapBytes(plan) * (2 + mostPointsPerSample(plan.shadows.maps.size())) / 3 : shadowMapBytes(plan);
+        shares ? shadowMapBytes(plan) * (2 + maxPointsPerSample(plan.shadows.maps.size())) / 3 : shadowMapBytes(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop

@@ -15,10 +15,10 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int mostDrawn = 7;  // drawnClasses of shaders/include/cells.glsl
+constexpr int maxDrawn = 7;  // drawnClasses of shaders/include/cells.glsl
 
 // A point of the largest class: sides of all classes' points divide it.
-constexpr int largestPoint = 4 << (mostCellClasses - 1);
+constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
 // Squares of single pixels, around whose corners the means of class 0 lie, and so one more than pixels.
 glm::ivec2 squaresOf(const TextureInfo& image) {
@@ -46,7 +46,7 @@ CellPasses::CellPasses(const LensCells& cells, const std::filesystem::path& shad
     : defines({{"LENS_CELLS", "1"},
                {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
                {"CELLS_BEHIND", std::to_string(cells.behind)},
-               {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", leastCellVariance)}}) {
+               {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", minCellVariance)}}) {
     const auto pass = [&](const char* fragment, const ShaderDefines& own) {
         return Program({{fullscreenShader, fragment}, own, shaderFolder});
     };
@@ -78,7 +78,7 @@ CellSums::CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], cons
       meanTargets_{Target::ofLayer({&shownMeans_, &openMeans_}, 0), Target::ofLayer({&shownMeans_, &openMeans_}, 1)} {
     sums_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     for (int i = 0; i < 2; ++i)
-        addingTargets_[i] = Target::ofImageAndLayers(blockSums[i], sums_, std::min(cells.classes(), mostDrawn));
+        addingTargets_[i] = Target::ofImageAndLayers(blockSums[i], sums_, std::min(cells.classes(), maxDrawn));
 }
 
 void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,

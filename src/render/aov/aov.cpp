@@ -129,7 +129,7 @@ Image levelColourMap(const Image& level) {
 }
 
 Image rateColourMap(const Image& rate) {
-    return colourMapOf(rate, [](float value) { return std::log2(value) / std::log2(leastShownRate); });
+    return colourMapOf(rate, [](float value) { return std::log2(value) / std::log2(minShownRate); });
 }
 
 }  // namespace defocus::engine

@@ -57,7 +57,7 @@ AovImages renderAovs(const World& world, const FramePlan& plan, const std::files
 inline constexpr float coarsestShownLevel = 8;
 
 // Images a lens sample from which on rates look alike in colour maps.
-inline constexpr float leastShownRate = 1.0f / 4;
+inline constexpr float minShownRate = 1.0f / 4;
 
 // Rates as colours that a person can read: an image for each lens sample dark violet, one for two in the middle, and
 // one for four or more yellow (viridis), black where nothing is.

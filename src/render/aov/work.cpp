@@ -63,14 +63,14 @@ Image renderWork(const World& world, const FramePlan& plan, const std::filesyste
 Image workColourMap(const Image& work, std::uint32_t samples) {
     Image shares = work;
     for (float& value : shares.pixels)
-        value = std::log2(1 + value / static_cast<float>(samples)) / std::log2(1 + mostShownWork);
+        value = std::log2(1 + value / static_cast<float>(samples)) / std::log2(1 + maxShownWork);
     return colourMapped(shares);
 }
 
 WorkSummary workSummary(const Image& work, std::uint32_t samples) {
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    const float most = *std::max_element(work.pixels.begin(), work.pixels.end());
-    return {sum / (static_cast<double>(work.pixels.size()) * samples), static_cast<double>(most) / samples};
+    const float max = *std::max_element(work.pixels.begin(), work.pixels.end());
+    return {sum / (static_cast<double>(work.pixels.size()) * samples), static_cast<double>(max) / samples};
 }
 
 }  // namespace defocus::engine

@@ -42,7 +42,7 @@ private:
 Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
 // Triangles a lens sample from which on pixels look alike in the colour map.
-inline constexpr float mostShownWork = 15;
+inline constexpr float maxShownWork = 15;
 
 // Work over `samples` lens samples as colours that a person can read and compare between frames: black where nothing
 // is, then purple, red, orange and pale yellow (magma) at 1, 3, 7 and 15 triangles a lens sample.
@@ -50,7 +50,7 @@ Image workColourMap(const Image& work, std::uint32_t samples);
 
 struct WorkSummary {
     double mean = 0;  // triangles a pixel and lens sample
-    double most = 0;  // the same, of the pixel with the most
+    double max = 0;   // the same, of the pixel with the most
 };
 
 WorkSummary workSummary(const Image& work, std::uint32_t samples);

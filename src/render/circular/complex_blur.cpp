@@ -18,13 +18,13 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int mostTargets = 8;
+constexpr int maxTargets = 8;
 constexpr int reduction = 8;  // of the search for the largest value, a side
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
-constexpr int mostFittedInHalf = 5;     // components
-constexpr int mostPublishedInHalf = 3;  // whose weights are larger, and cancel
-constexpr double outermostTap = 2;      // in radii: taps within radius + 1/2 of radii above 1/2
+constexpr int maxFittedInHalf = 5;     // components
+constexpr int maxPublishedInHalf = 3;  // whose weights are larger, and cancel
+constexpr double outermostTap = 2;     // in radii: taps within radius + 1/2 of radii above 1/2
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // on each side
 
@@ -51,7 +51,7 @@ int targetsFor(int components, ComplexStorage storage) {
 }
 
 int componentsAtOnce(ComplexStorage storage) {
-    return storage == ComplexStorage::rgb10A2 ? (mostTargets - 1) / 3 : mostTargets / 2;
+    return storage == ComplexStorage::rgb10A2 ? (maxTargets - 1) / 3 : maxTargets / 2;
 }
 
 ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
@@ -90,8 +90,8 @@ Bracket bracketOfSum(const std::vector<double>& taps) {
 
 // Of taps that lie among these values.
 Bracket bracketOfRange(const std::vector<double>& taps) {
-    const auto [least, greatest] = std::ranges::minmax(taps);
-    return {least, greatest - least};
+    const auto [min, greatest] = std::ranges::minmax(taps);
+    return {min, greatest - min};
 }
 
 void setKernel(const Program& program, std::span<const CircularComponent> kernel) {
@@ -119,8 +119,8 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
     constexpr float black[4] = {};
     glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
-    const int mostInHalf = info_.constants == KernelConstants::published ? mostPublishedInHalf : mostFittedInHalf;
-    if (info_.storage == ComplexStorage::half && info_.components > mostInHalf) info_.storage = ComplexStorage::float32;
+    const int maxInHalf = info_.constants == KernelConstants::published ? maxPublishedInHalf : maxFittedInHalf;
+    if (info_.storage == ComplexStorage::half && info_.components > maxInHalf) info_.storage = ComplexStorage::float32;
     if (info_.direct) {
         direct_ = Program(
             {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});

@@ -64,7 +64,7 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
     const int cocWidth = inputs.coc != nullptr ? inputs.coc->info().width : width;
     glProgramUniform1f(program, 3, static_cast<float>(width) / static_cast<float>(cocWidth));
     glProgramUniform2f(program, 4, 1 / static_cast<float>(inputs.workSamples),
-                       1 / std::log2(1 + static_cast<float>(mostShownWork)));
+                       1 / std::log2(1 + static_cast<float>(maxShownWork)));
     fullscreen_.draw(chosen);
 }
 

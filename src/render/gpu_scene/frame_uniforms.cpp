@@ -16,11 +16,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr double unlimitedBlur = 1e9;  // widths of the image: finite, so that 0 times it is 0
-constexpr std::size_t mostConstantLights = 4;
+constexpr std::size_t maxConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
 // The uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
-constexpr int mostLights = 64;
+constexpr int maxLights = 64;
 constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes: GL_MAX_UNIFORM_BLOCK_SIZE is that or more
 
 struct GpuLight {
@@ -37,13 +37,13 @@ struct GpuFrame {
     glm::vec4 cocOther;
     glm::vec4 window;
     glm::mat4 worldFromView;
-    std::array<glm::vec4, mostLights> lightPositions;
+    std::array<glm::vec4, maxLights> lightPositions;
 };
 
 struct GpuLighting {
     std::array<glm::vec4, 3> environment;
     std::array<glm::vec4, 9> irradiance;
-    std::array<GpuLight, mostLights> lights;
+    std::array<GpuLight, maxLights> lights;
 };
 static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= everyDriversBlock);
 
@@ -92,7 +92,7 @@ GlTexture environmentTexture(const Image& map) {
 
 // Whether the same lights shine on each frame of the world. Many would make long programs.
 bool staysLitAlike(const World& world) {
-    return world.lights.size() <= mostConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
+    return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
 
 // A file may hold any number; only those have a text that shaders understand.
@@ -133,8 +133,8 @@ bool barrelCuts(const FramePlan& plan) {
 }  // namespace
 
 void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint32_t layerCount) {
-    if (world.lights.size() > mostLights)
-        fail("the scene has {} lights; at most {} can light one image", world.lights.size(), mostLights);
+    if (world.lights.size() > maxLights)
+        fail("the scene has {} lights; at most {} can light one image", world.lights.size(), maxLights);
     const EnvironmentType type = world.environment.type;
     const int levels = type == EnvironmentType::map
                            ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1
@@ -186,7 +186,7 @@ void FrameUniforms::uploadLighting(const World& world) {
     for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i]);
     const bool constant = staysLitAlike(world) && isFinite(block);
     defines_.emplace_back("MAX_LIGHTS",
-                          std::to_string(constant ? std::max<std::size_t>(world.lights.size(), 1) : mostLights));
+                          std::to_string(constant ? std::max<std::size_t>(world.lights.size(), 1) : maxLights));
     if (constant) defines_.emplace_back("LIGHTING_VALUES", lightingText(block, world.lights.size()));
     lightingBlock_ = constant ? Buffer() : Buffer(sizeof block, &block);
 }

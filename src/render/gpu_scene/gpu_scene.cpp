@@ -48,16 +48,16 @@ GLenum minificationFilter(const Texture& texture) {
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
-constexpr float leastAttenuation = 1e-6f;  // of a colour channel, whose logarithm is taken
+constexpr float minAttenuation = 1e-6f;  // of a colour channel, whose logarithm is taken
 
 constexpr float rangeRounding = 1e-3f;  // in 1/255: so much of a step outwards is none
 
 void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
     if (colors.empty()) return;
-    level.leastColor = level.mostColor = colors.front();
+    level.minColor = level.maxColor = colors.front();
     for (const glm::vec4& color : colors) {
-        level.leastColor = glm::min(level.leastColor, color);
-        level.mostColor = glm::max(level.mostColor, color);
+        level.minColor = glm::min(level.minColor, color);
+        level.maxColor = glm::max(level.maxColor, color);
     }
 }
 
@@ -81,22 +81,22 @@ glm::dvec3 meshOrigin(const Bounds& bounds) {
 std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
                                             std::span<const std::uint32_t> indices) {
     if (colors.empty()) return {};
-    std::vector<glm::vec4> least = colors;
-    std::vector<glm::vec4> most = colors;
+    std::vector<glm::vec4> min = colors;
+    std::vector<glm::vec4> max = colors;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::vec4 &a = colors[indices[i]], &b = colors[indices[i + 1]], &c = colors[indices[i + 2]];
         const glm::vec4 low = glm::min(glm::min(a, b), c);
         const glm::vec4 high = glm::max(glm::max(a, b), c);
         for (std::size_t k = i; k < i + 3; ++k) {
-            least[indices[k]] = glm::min(least[indices[k]], low);
-            most[indices[k]] = glm::max(most[indices[k]], high);
+            min[indices[k]] = glm::min(min[indices[k]], low);
+            max[indices[k]] = glm::max(max[indices[k]], high);
         }
     }
     std::vector<glm::u16vec4> ranges;
     ranges.reserve(colors.size());
     for (std::size_t v = 0; v < colors.size(); ++v)
-        ranges.push_back(glm::u16vec4(glm::ceil(255.0f * most[v] - rangeRounding)) * std::uint16_t{256} +
-                         glm::u16vec4(glm::floor(255.0f * least[v] + rangeRounding)));
+        ranges.push_back(glm::u16vec4(glm::ceil(255.0f * max[v] - rangeRounding)) * std::uint16_t{256} +
+                         glm::u16vec4(glm::floor(255.0f * min[v] + rangeRounding)));
     return ranges;
 }
 
@@ -323,7 +323,7 @@ GpuMaterial GpuScene::materialBlock(int index) const {
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * world_->scene->metresPerUnit;
     block.absorption =
-        glm::vec4(-glm::log(glm::max(material.attenuationColor, leastAttenuation)) / static_cast<float>(distance), 0);
+        glm::vec4(-glm::log(glm::max(material.attenuationColor, minAttenuation)) / static_cast<float>(distance), 0);
     block.coat = {material.clearcoatFactor, material.clearcoatRoughnessFactor, material.clearcoatNormalScale, 0};
     block.sheen = glm::vec4(material.sheenColorFactor, material.sheenRoughnessFactor);
     const auto uses = textureUses(material);

@@ -45,8 +45,8 @@ struct GpuLevel {
     std::size_t colorOffset = 0;            // bytes into the colours buffer
     std::size_t uvOffset = 0;               // bytes into the buffer of either set of texture coordinates
     std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
-    glm::vec4 leastColor{0.0f};             // of the level's vertices, 1 is white
-    glm::vec4 mostColor{0.0f};
+    glm::vec4 minColor{0.0f};               // of the level's vertices, 1 is white
+    glm::vec4 maxColor{0.0f};
 };
 
 // What moves a mesh's vertices against each other; empty where the mesh doesn't have it.

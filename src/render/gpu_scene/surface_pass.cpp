@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t mostBackdrops = 8;  // a frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 17;       // of shaders/accumulation/object.frag
-constexpr GLint shadowSlotLocation = 3;   // of shaders/accumulation/object.vert
+constexpr std::size_t maxBackdrops = 8;  // a frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 17;      // of shaders/accumulation/object.frag
+constexpr GLint shadowSlotLocation = 3;  // of shaders/accumulation/object.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -200,8 +200,8 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     bindLevel(mesh, item.level);
     mesh.vertexArray.indices(indices);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
-        glUniform4fv(0, 1, &level.leastColor.x);
-        glUniform4fv(1, 1, &level.mostColor.x);
+        glUniform4fv(0, 1, &level.minColor.x);
+        glUniform4fv(1, 1, &level.maxColor.x);
     }
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
@@ -209,8 +209,8 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
 
 // A sample draws so many triangles; drawSamples(first, count) draws several.
 void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
-    const std::uint64_t most = pacer_.mostTriangles();
-    const std::uint64_t step = most == 0 ? end - first : std::max<std::uint64_t>(1, most / triangles);
+    const std::uint64_t max = pacer_.maxTriangles();
+    const std::uint64_t step = max == 0 ? end - first : std::max<std::uint64_t>(1, max / triangles);
     for (std::uint64_t at = first; at < end; at += step) {
         const std::uint64_t count = std::min(step, end - at);
         drawSamples(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count));
@@ -341,7 +341,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
             continue;
         }
         if (shown != item.object) {
-            if (!shown || left <= mostBackdrops) backdrop_.take(colors, count, blursBackdrop_);
+            if (!shown || left <= maxBackdrops) backdrop_.take(colors, count, blursBackdrop_);
             shown = item.object;
             --left;
         }

@@ -21,8 +21,8 @@ namespace {
 int borderOf(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
-    const int most = (std::max(plan.view.width, plan.view.height) + 1) / 2;
-    return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, most)) : 0;
+    const int max = (std::max(plan.view.width, plan.view.height) + 1) / 2;
+    return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
 // K: as many images of lens samples as the memory allows, at most a run: a power of two, so that runs are whole waves.
@@ -69,7 +69,7 @@ public:
         rays_->prepare(plan_, frame_);
         if (drawsSky()) prepareSky();
         peeled_.reset();
-        mostLayers_ = 0;
+        maxLayers_ = 0;
         stats_.trianglesDrawn = 0;
         stats_.peakBytes =
             std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + pinholeFrame_.bytes() + frame_.bytes() +
@@ -107,7 +107,7 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.figures = {{"depth layers", static_cast<double>(mostLayers_)}};
+        stats.figures = {{"depth layers", static_cast<double>(maxLayers_)}};
         return stats;
     }
 
@@ -162,7 +162,7 @@ private:
         layers_->peel(pinhole);
         rays_->bound(*layers_);
         peeled_ = pinhole;
-        mostLayers_ = std::max(mostLayers_, layers_->count());
+        maxLayers_ = std::max(maxLayers_, layers_->count());
         const std::uint32_t passes = std::min(layers_->count() + 1, layers_->info().layers);
         stats_.trianglesDrawn += pinholes_.trianglesDrawn / pinholeCount_ * passes;
     }
@@ -205,7 +205,7 @@ private:
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> sky_;
     std::optional<std::uint32_t> peeled_;  // pinhole whose layers there are
-    std::uint32_t mostLayers_ = 0;
+    std::uint32_t maxLayers_ = 0;
     mutable FrameClock clock_;
     RenderStats stats_;
 };
@@ -217,12 +217,7 @@ Method layeredMethod() {
     pinholes.description =
         "Pinholes, each with its layers and its share of the lens samples: antialiasing; 1 as published";
     const std::vector<MethodSetting> settings = {
-        {.name = "layers",
-         .standard = "8",
-         .description = "Depth layers at most",
-         .choices = {},
-         .least = 1,
-         .most = 16},
+        {.name = "layers", .standard = "8", .description = "Depth layers at most", .choices = {}, .min = 1, .max = 16},
         pinholes,
     };
     return {.name = "layered",

@@ -72,10 +72,10 @@ void LensRays::prepare(const FramePlan& plan, const FrameUniforms& frame) {
         samples_.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
         samples_.bind(bandShiftLocation, frame.bandShifts(), 0, sizeof(float));
     }
-    const double most = std::hypot(info_.width + 2 * info_.border, info_.height + 2 * info_.border);
-    const double largest = std::isfinite(plan.largestBlur) ? 0.5 * plan.largestBlur + 2 : most;
+    const double max = std::hypot(info_.width + 2 * info_.border, info_.height + 2 * info_.border);
+    const double largest = std::isfinite(plan.largestBlur) ? 0.5 * plan.largestBlur + 2 : max;
     glProgramUniform1i(bound_.name(), 0, info_.border);
-    glProgramUniform1f(bound_.name(), 1, static_cast<float>(std::min(largest, most)));
+    glProgramUniform1f(bound_.name(), 1, static_cast<float>(std::min(largest, max)));
     glProgramUniform1f(bound_.name(), 2, static_cast<float>(plan.coc.chromatic * plan.view.width));
     glProgramUniform1i(trace_.name(), 1, info_.border);
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after 65,535 rounds in all.
-constexpr std::uint32_t mostTilesAtOnce = 50'000;   // of a triangle, which a thread walks over
-constexpr std::uint32_t mostSortedAtOnce = 65'536;  // triangles of a tile, which takes 136 · 256 rounds of a thread
+constexpr std::uint32_t maxTilesAtOnce = 50'000;   // of a triangle, which a thread walks over
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // triangles of a tile, which takes 136 · 256 rounds of a thread
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // of shaders/lens_space/shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // of shaders/lens_space/vertex.vert
 
@@ -64,10 +64,10 @@ void checkDrawable(const FramePlan& plan, const World& world, const std::string&
 }  // namespace
 
 void dispatchOver(std::uint64_t count) {
-    constexpr std::uint64_t most = 65535;  // groups along an axis that every driver has
+    constexpr std::uint64_t max = 65535;  // groups along an axis that every driver has
     const std::uint64_t needed = (count + 255) / 256;
     if (needed == 0) return;
-    glDispatchCompute(static_cast<GLuint>(std::min(needed, most)), static_cast<GLuint>((needed + most - 1) / most), 1);
+    glDispatchCompute(static_cast<GLuint>(std::min(needed, max)), static_cast<GLuint>((needed + max - 1) / max), 1);
 }
 
 LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
@@ -277,10 +277,10 @@ void LensFront::countTiles() {
     statistics_ = {.tiles = tiles};
     tilePlaces_.assign(tiles, 0);
     std::vector<std::uint32_t> ends(tiles, 0);
-    const std::uint64_t most = entryBytes_ / sizeof(std::uint32_t);
+    const std::uint64_t max = entryBytes_ / sizeof(std::uint32_t);
     TileBand band;
     for (std::uint32_t tile = 0; tile < tiles; ++tile) {
-        if (band.entries > 0 && band.entries + counts[tile] > most) {
+        if (band.entries > 0 && band.entries + counts[tile] > max) {
             band.end = tile;
             bands_.push_back(band);
             band = {tile, tile, 0};
@@ -322,9 +322,9 @@ void LensFront::fill(const TileBand& band) {
 void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
     glUniform2i(0, plan_.view.width, plan_.view.height);
     glUniform1ui(1, triangleCount_);
-    for (std::uint32_t first = firstTile; first < endTile; first += mostTilesAtOnce) {
+    for (std::uint32_t first = firstTile; first < endTile; first += maxTilesAtOnce) {
         glUniform1ui(2, first);
-        glUniform1ui(3, std::min(endTile - first, mostTilesAtOnce) + first);
+        glUniform1ui(3, std::min(endTile - first, maxTilesAtOnce) + first);
         dispatchOver(triangleCount_);
     }
 }
@@ -341,7 +341,7 @@ void LensFront::sort(const TileBand& band) {
         glDispatchCompute(band.end - band.first, 1, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    if (statistics_.largestTile <= mostSortedAtOnce)
+    if (statistics_.largestTile <= maxSortedAtOnce)
         dispatch(0, 0);
     else
         for (std::uint32_t block = 2; block / 2 < statistics_.largestTile; block *= 2)

@@ -115,8 +115,8 @@ private:
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
         const std::uint64_t bytes = std::min(options_.waveBytes, largestStorage());
-        const std::uint64_t most = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
-        return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : most, most, blockSamples}));
+        const std::uint64_t max = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : max, max, blockSamples}));
     }
 
     // The part of the exposure in which ray `ray` of each pixel sees the scene.

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t mostVariants = 64;
-constexpr std::uint32_t leastVariants = 4;
-constexpr std::uint32_t mostRays = 1u << 18;  // of all variants together
+constexpr std::uint32_t maxVariants = 64;
+constexpr std::uint32_t minVariants = 4;
+constexpr std::uint32_t maxRays = 1u << 18;  // of all variants together
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;
@@ -34,7 +34,7 @@ void sortIntoParts(std::span<LensSample> samples, int axis, int axes) {
 }  // namespace
 
 std::uint32_t variantCount(std::uint32_t rays) {
-    return std::clamp(std::bit_floor(std::max(mostRays / std::max(rays, 1u), 1u)), leastVariants, mostVariants);
+    return std::clamp(std::bit_floor(std::max(maxRays / std::max(rays, 1u), 1u)), minVariants, maxVariants);
 }
 
 std::vector<std::uint32_t> spreadOrder(std::uint32_t count) {

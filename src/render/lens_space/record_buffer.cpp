@@ -6,9 +6,9 @@
 namespace defocus::engine {
 
 std::uint64_t largestStorage() {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    return static_cast<std::uint64_t>(most);
+    GLint64 max = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
+    return static_cast<std::uint64_t>(max);
 }
 
 Buffer storage(std::uint64_t bytes, const char* what) {
@@ -17,7 +17,7 @@ Buffer storage(std::uint64_t bytes, const char* what) {
     return Buffer(bytes);
 }
 
-std::uint64_t RecordBuffer::most() {
+std::uint64_t RecordBuffer::maxRecords() {
     return largestStorage() / recordBytes;
 }
 

@@ -18,7 +18,7 @@ Buffer storage(std::uint64_t bytes, const char* what);
 class RecordBuffer {
 public:
     // The most that fit into a buffer.
-    static std::uint64_t most();
+    static std::uint64_t maxRecords();
     // Makes room for `count` records; what the buffer held may be lost.
     void reserve(std::uint64_t count);
     void bind() const;

@@ -20,11 +20,11 @@ constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
 constexpr std::size_t jobRanges = 2;  // of a job
 // Mesa's software driver ends the loops of a thread after 65,535 rounds in all. Kernels stop at twice this number.
 constexpr std::uint32_t softwareRounds = 30'000;
-constexpr std::size_t stateBytes = 32u << 20;    // of jobs that go on from dispatch to dispatch, about
-constexpr std::uint64_t expectedRecords = 6;     // of a line; there is more room where a wave needs it
-constexpr std::uint32_t mostShadingPoints = 16;  // of a piece
-constexpr std::uint32_t firstCapacity = 48;      // pieces of an exact line
-constexpr std::uint32_t mostCapacity = 1536;
+constexpr std::size_t stateBytes = 32u << 20;   // of jobs that go on from dispatch to dispatch, about
+constexpr std::uint64_t expectedRecords = 6;    // of a line; there is more room where a wave needs it
+constexpr std::uint32_t maxShadingPoints = 16;  // of a piece
+constexpr std::uint32_t firstCapacity = 48;     // pieces of an exact line
+constexpr std::uint32_t maxCapacity = 1536;
 constexpr std::uint32_t sharedBytes = 24;  // of a segment in the buffer
 constexpr float lightUnit = 1.0f / 1024;   // of droppedLight
 
@@ -81,21 +81,20 @@ public:
         lightOverRadius_ = {static_cast<float>(lens.sphericalAberration),
                             static_cast<float>(lens.obstruction * lens.obstruction)};
         defines_ = defines;
-        mostRounds_ = currentIsSoftware() ? softwareRounds : 0;
+        maxRounds_ = currentIsSoftware() ? softwareRounds : 0;
         totals_ = {};
         lines_ = 0;
         if (exact_) {
             build(capacity_);
             return;
         }
-        GLint most = 0;
-        glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &most);
+        GLint max = 0;
+        glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &max);
         const auto beside =
             static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 2 * sizeof(std::uint32_t)) + 64);
-        const GLint fit = (most - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
+        const GLint fit = (max - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
         if (static_cast<GLint>(segments_) > fit)
-            fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit,
-                 most);
+            fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit, max);
         build(segments_);
     }
 
@@ -103,19 +102,19 @@ public:
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
         boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
-        records_.reserve(std::min(pixels * wave.count * expectedRecords, RecordBuffer::most()));
+        records_.reserve(std::min(pixels * wave.count * expectedRecords, RecordBuffer::maxRecords()));
         while (true) {
             const Counters counters = draw(front, wave);
-            if (exact_ && counters.droppedSegments > 0 && capacity_ < mostCapacity) {
+            if (exact_ && counters.droppedSegments > 0 && capacity_ < maxCapacity) {
                 build(capacity_ *= 2);
                 continue;
             }
-            if (counters.records > RecordBuffer::most()) {
+            if (counters.records > RecordBuffer::maxRecords()) {
                 if (wave.count == 1)
                     fail(
                         "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
                         "read at most {} of one buffer; choose a smaller image or a longer shading step",
-                        counters.records, RecordBuffer::most());
+                        counters.records, RecordBuffer::maxRecords());
                 wave.count /= 2;
                 continue;
             }
@@ -167,7 +166,7 @@ private:
         ShaderDefines all = defines_;
         all.emplace_back("TILE", std::to_string(lineTile));
         all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
-        all.emplace_back("MOST_SHADING_POINTS", std::to_string(mostShadingPoints));
+        all.emplace_back("MOST_SHADING_POINTS", std::to_string(maxShadingPoints));
         all.emplace_back("SEGMENTS", std::to_string(segments));
         if (exact_) all.emplace_back("EXACT", "1");
         if (program_ && built_ == all) return;
@@ -185,7 +184,7 @@ private:
         // Room for ranges, and where jobs may be put off, for those and the states of some of them.
         const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
                                    static_cast<std::uint32_t>(imageSize_.y) * wave.count;
-        const std::size_t jobs = mostRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
+        const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
         const std::size_t slotBytes = stateRanges() * rangeBytes * lineTile * lineTile;
         const std::size_t slots = jobs > 0 ? std::clamp<std::size_t>(stateBytes / slotBytes, 1, jobs) : 0;
         const Places places{rays, rays + jobRanges * jobs, slots};
@@ -201,7 +200,7 @@ private:
             front.fill(band);
             use(front, wave, band);
             dispatch({0, 0, 0, places.jobs}, band.end - band.first, wave.count);
-            if (mostRounds_ > 0) finishJobs(places);
+            if (maxRounds_ > 0) finishJobs(places);
         }
         return readCounters();
     }
@@ -230,7 +229,7 @@ private:
         glUniform1ui(3, static_cast<GLuint>(records_.capacity()));
         glUniform2f(4, lightOverRadius_.x, lightOverRadius_.y);
         glUniform1f(5, shadingStep_);
-        glUniform1ui(6, mostRounds_);
+        glUniform1ui(6, maxRounds_);
     }
 
     // `jobs` as shaders/line/visible.comp has them.
@@ -264,7 +263,7 @@ private:
     Program program_;
     Buffer boundBlock_, output_;
     RecordBuffer records_;
-    std::uint32_t mostRounds_ = 0;  // of a dispatch; 0: any number
+    std::uint32_t maxRounds_ = 0;  // of a dispatch; 0: any number
     Totals totals_;
     std::uint64_t lines_ = 0;
 };
@@ -281,8 +280,8 @@ Method lineMethod() {
          .standard = std::to_string(standardSegments),
          .description = "Segments of a line that the published buffer holds",
          .choices = {},
-         .least = 2,
-         .most = 64,
+         .min = 2,
+         .max = 64,
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
@@ -290,8 +289,8 @@ Method lineMethod() {
              "Pixels that a surface moves along a line under one shading point; 0: one point a segment, in its "
              "middle, as published",
          .choices = {},
-         .least = 0,
-         .most = 64},
+         .min = 0,
+         .max = 64},
         shadingSetting(),
         {.name = "wheel",
          .standard = "turned",

@@ -19,7 +19,7 @@ public:
 private:
     struct Level {
         int columns = 0, rows = 0;
-        std::vector<float> least;
+        std::vector<float> min;
     };
     std::vector<Level> levels_;  // of tiles of 4, 8, 16, … px; the last has one tile
 };

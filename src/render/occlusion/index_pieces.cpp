@@ -9,7 +9,7 @@ std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level,
     for (const Cluster& cluster : own.clusters) {
         if (cluster.indices.first < all.first || cluster.indices.first >= all.first + all.count) continue;
         const std::uint32_t triangles = cluster.indices.count / 3;
-        const std::uint32_t parts = (triangles + mostPieceTriangles - 1) / mostPieceTriangles;
+        const std::uint32_t parts = (triangles + maxPieceTriangles - 1) / maxPieceTriangles;
         for (std::uint32_t part = 0; part < parts; ++part) {
             const std::uint32_t first = cluster.indices.first + 3 * (triangles * part / parts);
             const std::uint32_t end = cluster.indices.first + 3 * (triangles * (part + 1) / parts);

@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t mostPieceTriangles = 8;
+inline constexpr std::uint32_t maxPieceTriangles = 8;
 
 struct IndexPiece {
     IndexRange indices;   // of Pyramid::indices

@@ -60,11 +60,11 @@ std::optional<SeenBox> LensSight::of(const glm::vec3& centre, const glm::vec3& r
         const double low = middle[axis] - half[axis];
         const double high = middle[axis] + half[axis];
         const double margin = snapping + scale_[axis] * lost_ / nearest;
-        const double least = middle_[axis] + scale_[axis] * low / (low < 0 ? nearest : farthest) - margin;
-        const double most = middle_[axis] + scale_[axis] * high / (high < 0 ? farthest : nearest) + margin;
+        const double min = middle_[axis] + scale_[axis] * low / (low < 0 ? nearest : farthest) - margin;
+        const double max = middle_[axis] + scale_[axis] * high / (high < 0 ? farthest : nearest) + margin;
         const auto size = static_cast<double>(layer_[axis]);
-        from = static_cast<int>(std::floor(std::clamp(least, 0.0, size)));
-        to = static_cast<int>(std::ceil(std::clamp(most, 0.0, size)));
+        from = static_cast<int>(std::floor(std::clamp(min, 0.0, size)));
+        to = static_cast<int>(std::ceil(std::clamp(max, 0.0, size)));
     };
     SeenBox seen;
     bounds(0, seen.left, seen.right);

@@ -13,9 +13,9 @@ namespace defocus::engine {
 namespace {
 
 // What is hidden of fewer takes less time than to read depths and to sort.
-constexpr std::uint64_t leastTriangles = 50'000;  // of a sample
-constexpr std::uint64_t leastInAll = 500'000;     // of all samples but the first
-constexpr double mostShown = 0.8;                 // of all triangles: with more it is faster to draw all
+constexpr std::uint64_t minTriangles = 50'000;  // of a sample
+constexpr std::uint64_t minInAll = 500'000;     // of all samples but the first
+constexpr double maxShown = 0.8;                // of all triangles: with more it is faster to draw all
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {
     std::uint64_t triangles = 0;
@@ -55,7 +55,7 @@ void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>
     sortedBlock_ = -1;
     hidesMuch_ = false;
     const std::uint64_t triangles = trianglesOfSample(plan);
-    if (triangles < leastTriangles || triangles * (plan.samples.size() - 1) < leastInAll || !seesBoxes(plan)) return;
+    if (triangles < minTriangles || triangles * (plan.samples.size() - 1) < minInAll || !seesBoxes(plan)) return;
     for (const OccludableDraw& draw : draws) {
         const ObjectPlan& object = plan.objects[draw.object];
         const VisibleLevel* visible = visibleLevel(object, draw.level);
@@ -109,7 +109,7 @@ void Occlusion::gatherShown() {
         shown += static_cast<double>(count) * sorted.draw.sampleCount;
         if (count > 0) shown_.draws.push_back({i, sorted.draw.firstSample, sorted.draw.sampleCount, first, count});
     }
-    hidesMuch_ = shown < mostShown * all;
+    hidesMuch_ = shown < maxShown * all;
 }
 
 RemainingDraws Occlusion::uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,

@@ -22,8 +22,8 @@ public:
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
         plan_ = pinholePlan(scene_.world(), plan, static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes")));
-        const auto most = static_cast<std::uint32_t>(numberOf(options_.settings, "transparency-buckets"));
-        const std::vector<TransparencyBucket> buckets = transparencyBuckets(plan_, most);
+        const auto max = static_cast<std::uint32_t>(numberOf(options_.settings, "transparency-buckets"));
+        const std::vector<TransparencyBucket> buckets = transparencyBuckets(plan_, max);
         prepareTargets(!buckets.empty());
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, 1);
@@ -160,8 +160,8 @@ MethodSetting pinholesSetting() {
             .standard = "4",
             .description = "Pinhole images a frame, spread over the pixel: antialiasing",
             .choices = {},
-            .least = 1,
-            .most = 64};
+            .min = 1,
+            .max = 64};
 }
 
 MethodSetting transparencyBucketsSetting(const char* standard) {
@@ -171,8 +171,8 @@ MethodSetting transparencyBucketsSetting(const char* standard) {
                 "Alpha-blended surfaces are blurred apart from what lies behind them, in as many groups by depth at "
                 "most; 0: with it, by their own blur",
             .choices = {},
-            .least = 0,
-            .most = 8};
+            .min = 0,
+            .max = 8};
 }
 
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,

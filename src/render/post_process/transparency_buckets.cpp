@@ -15,8 +15,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double leastStep = 1;  // px of diameter
-constexpr double margin = 24;    // px: small images and pre-blurred copies have wide pixels
+constexpr double minStep = 1;  // px of diameter
+constexpr double margin = 24;  // px: small images and pre-blurred copies have wide pixels
 
 // Signed px; no more than a disk as wide as the image.
 double middleOf(const CocRange& coc, double width) {
@@ -27,7 +27,7 @@ bool overlapInTheImage(const ObjectPlan& a, const ObjectPlan& b, const FramePlan
     if (std::min(a.nearestDepth, b.nearestDepth) <= plan.view.nearPlane) return true;
     const CocBox boxA = cocBoxOf(a.viewBox, a.own, plan);
     const CocBox boxB = cocBoxOf(b.viewBox, b.own, plan);
-    return glm::all(glm::lessThan(boxA.ndcLeast, boxB.ndcMost)) && glm::all(glm::lessThan(boxB.ndcLeast, boxA.ndcMost));
+    return glm::all(glm::lessThan(boxA.ndcMin, boxB.ndcMax)) && glm::all(glm::lessThan(boxB.ndcMin, boxA.ndcMax));
 }
 
 // Front to back, without those that stay with what transmits: behind it, or behind one that stays.
@@ -47,8 +47,8 @@ std::vector<std::size_t> blendedObjects(const FramePlan& plan) {
 
 }  // namespace
 
-std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t most) {
-    if (most == 0 || !plan.usesBlending || !plan.usesLens) return {};
+std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max) {
+    if (max == 0 || !plan.usesBlending || !plan.usesLens) return {};
     const std::vector<std::size_t> blended = blendedObjects(plan);
     if (blended.empty()) return {};
 
@@ -59,10 +59,9 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };
     for (std::size_t i = 1; i < blended.size(); ++i)
-        if (const double height = std::abs(blurOf(i) - blurOf(i - 1)); height >= leastStep)
-            steps.push_back({height, i});
+        if (const double height = std::abs(blurOf(i) - blurOf(i - 1)); height >= minStep) steps.push_back({height, i});
     std::ranges::stable_sort(steps, std::ranges::greater{}, &Step::height);
-    steps.resize(std::min<std::size_t>(steps.size(), most - 1));
+    steps.resize(std::min<std::size_t>(steps.size(), max - 1));
     std::ranges::sort(steps, std::ranges::greater{}, &Step::behind);
     steps.push_back({0, 0});
 
@@ -78,24 +77,24 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 
 TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) {
     const glm::dvec2 size(plan.view.width, plan.view.height);
-    glm::dvec2 least(std::numeric_limits<double>::infinity());
-    glm::dvec2 most = -least;
+    glm::dvec2 min(std::numeric_limits<double>::infinity());
+    glm::dvec2 max = -min;
     double diameter = 0;
     for (const std::size_t index : bucket) {
         const ObjectPlan& object = plan.objects[index];
         diameter = std::max(diameter, object.coc.largest);
         const bool everywhere = object.nearestDepth <= plan.view.nearPlane;
         const CocBox box = everywhere ? CocBox{} : cocBoxOf(object.viewBox, object.own, plan);
-        least = everywhere ? glm::dvec2(0) : glm::min(least, (box.ndcLeast + 1.0) * 0.5 * size);
-        most = everywhere ? size : glm::max(most, (box.ndcMost + 1.0) * 0.5 * size);
+        min = everywhere ? glm::dvec2(0) : glm::min(min, (box.ndcMin + 1.0) * 0.5 * size);
+        max = everywhere ? size : glm::max(max, (box.ndcMax + 1.0) * 0.5 * size);
     }
     // What is blurred in front is gathered as widely as the widest blur in front.
     for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
     const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
-    least = glm::clamp(glm::floor(least - reach), glm::dvec2(0), size);
-    most = glm::clamp(glm::ceil(most + reach), glm::dvec2(0), size);
-    const glm::ivec2 extent(glm::max(most - least, glm::dvec2(0)));
-    return {static_cast<int>(least.x), static_cast<int>(least.y), extent.x, extent.y};
+    min = glm::clamp(glm::floor(min - reach), glm::dvec2(0), size);
+    max = glm::clamp(glm::ceil(max + reach), glm::dvec2(0), size);
+    const glm::ivec2 extent(glm::max(max - min, glm::dvec2(0)));
+    return {static_cast<int>(min.x), static_cast<int>(min.y), extent.x, extent.y};
 }
 
 }  // namespace defocus::engine

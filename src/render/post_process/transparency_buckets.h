@@ -17,7 +17,7 @@ using TransparencyBucket = std::vector<std::size_t>;
 // differs most from that of the next. Objects whose blurs differ by less than a pixel share a bucket. What may be seen
 // through a transmitting surface is in none, as that surface shows what is drawn with it; nor is anything where the
 // lens blurs nothing.
-std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t most);
+std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max);
 
 // The part of the image, in px from its lower left corner, where a blur may show something of a bucket; empty where
 // nothing is.

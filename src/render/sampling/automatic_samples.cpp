@@ -26,10 +26,10 @@ double largestBoundedBlur(const FramePlan& plan) {
 std::uint32_t samplesForBlur(const FramePlan& plan) {
     const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
     const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
-    const std::uint32_t still = plan.shadows.maps.empty() ? leastAutomaticSamples : shadowSamples;
-    const std::uint32_t least = plan.moments.empty() ? still : movingSamples;
-    if (!(filling > least)) return least;
-    const double blocks = std::ceil(std::min(filling, double{mostAutomaticSamples}) / blockSamples);
+    const std::uint32_t still = plan.shadows.maps.empty() ? minAutomaticSamples : shadowSamples;
+    const std::uint32_t min = plan.moments.empty() ? still : movingSamples;
+    if (!(filling > min)) return min;
+    const double blocks = std::ceil(std::min(filling, double{maxAutomaticSamples}) / blockSamples);
     return static_cast<std::uint32_t>(blocks) * blockSamples;
 }
 

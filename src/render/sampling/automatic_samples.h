@@ -8,8 +8,8 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t leastAutomaticSamples = 32;
-inline constexpr std::uint32_t mostAutomaticSamples = 1024;
+inline constexpr std::uint32_t minAutomaticSamples = 32;
+inline constexpr std::uint32_t maxAutomaticSamples = 1024;
 // RMSE of the display-encoded image, as StopSettings has it: half a step of 8 bits.
 inline constexpr double automaticError = 0.002;
 

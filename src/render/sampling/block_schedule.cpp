@@ -12,8 +12,8 @@ namespace {
 
 constexpr double levelShare = 0.5;       // of the error aimed at: the whole is then 1.12 times the samples'
 constexpr double withoutLevelError = 4;  // times the samples expected
-constexpr double mostThresholdSamples = 1e8;
-constexpr double mostLevelPower = 1.4;
+constexpr double maxThresholdSamples = 1e8;
+constexpr double maxLevelPower = 1.4;
 // Two blocks make the first estimate.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 
@@ -42,28 +42,28 @@ double LevelError::at(double thresholdSamples) const {
     if (!(atCoarse > 0)) return 0;
     // Thresholds that were given don't follow: the power is 0 then.
     const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
-    return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, mostLevelPower));
+    return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, maxLevelPower));
 }
 
-double LevelError::samplesFor(double error, double least) const {
-    double samples = least;
-    while (at(samples) > error && samples < mostThresholdSamples) samples *= 1.1;
+double LevelError::samplesFor(double error, double min) const {
+    double samples = min;
+    while (at(samples) > error && samples < maxThresholdSamples) samples *= 1.1;
     return samples;
 }
 
 BlockSchedule::BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels)
     : settings_(settings), stop_(stop), levels_(levels), nextEstimate_(blockSamples), expected_(firstEstimate) {}
 
-BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, std::uint32_t most) {
-    BlockSchedule schedule(settings, {.targetError = automaticError, .timeLimit = {}, .sampleLimit = most});
+BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, std::uint32_t max) {
+    BlockSchedule schedule(settings, {.targetError = automaticError, .timeLimit = {}, .sampleLimit = max});
     schedule.automatic_ = true;
     return schedule;
 }
 
 std::uint32_t BlockSchedule::expectedSamples() const {
     if (stopped_) return samples_;
-    const auto most = static_cast<double>(stop_.sampleLimit);
-    return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, most), most)));
+    const auto max = static_cast<double>(stop_.sampleLimit);
+    return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
 // The number of samples whose default thresholds the next block gets.

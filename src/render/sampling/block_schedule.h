@@ -29,7 +29,7 @@ struct LevelError {
 
     [[nodiscard]] double at(double thresholdSamples) const;
     // The fewest, `least` or more, at which it is `error` or less.
-    [[nodiscard]] double samplesFor(double error, double least) const;
+    [[nodiscard]] double samplesFor(double error, double min) const;
 };
 
 class BlockSchedule {
@@ -39,7 +39,7 @@ public:
     // not drawn.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Of a frame whose number of samples is automatic, up to `most`: with the levels that as many samples would have.
-    static BlockSchedule automatic(const RenderSettings& settings, std::uint32_t most);
+    static BlockSchedule automatic(const RenderSettings& settings, std::uint32_t max);
 
     // Those of the block that comes next: its samples, as many as the limit leaves, and its thresholds.
     [[nodiscard]] RenderSettings nextBlock() const;

@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double mostPixelsSeen = 1 << 20;
+constexpr double maxPixelsSeen = 1 << 20;
 
 // Chooses the pixel of a tile that is looked at: never the same place of a pattern.
 std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
@@ -24,7 +24,7 @@ std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
 
 std::vector<float> encodedPixels(const ImageView& image) {
     const auto tile = static_cast<std::uint32_t>(
-        std::max(1.0, std::ceil(std::sqrt(static_cast<double>(image.width) * image.height / mostPixelsSeen))));
+        std::max(1.0, std::ceil(std::sqrt(static_cast<double>(image.width) * image.height / maxPixelsSeen))));
     const auto across = static_cast<std::uint32_t>(image.width);
     const auto down = static_cast<std::uint32_t>(image.height);
     const std::uint32_t columns = (across + tile - 1) / tile;

@@ -45,13 +45,13 @@ void ProgressiveImage::drawFrame(FramePlan plan) {
     glFinish();
 }
 
-void ProgressiveImage::begin(const View& view, const RenderSettings& settings, std::uint32_t most,
+void ProgressiveImage::begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                              std::optional<double> targetError) {
     view_ = view;
     settings_ = settings;
     settings_.sampleCount = blockSamples;
     block_ = 0;
-    blocks_ = std::max(1u, (most + blockSamples - 1) / blockSamples);
+    blocks_ = std::max(1u, (max + blockSamples - 1) / blockSamples);
     schedule_.reset();
     if (targetError && sumsBlocks_)
         schedule_.emplace(

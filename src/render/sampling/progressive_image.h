@@ -25,7 +25,7 @@ public:
     // follow the samples that are in the sum after each block.
     // With `targetError`, of methods that sum blocks, the image is finished once its estimated error is below it, and
     // the levels follow the samples that are expected until then (render/block_schedule.h).
-    void begin(const View& view, const RenderSettings& settings, std::uint32_t most,
+    void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
     // Draws waves for about `milliseconds`, at least one. False once the image is finished.
     bool grow(double milliseconds);

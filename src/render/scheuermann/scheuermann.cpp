@@ -24,12 +24,12 @@ constexpr double publishedLargest = 10;       // px, diameter
 constexpr float publishedSmallRadius = 0.4f;  // of the taps in the small image, whose pixels are 4 times as wide
 constexpr float trueSmallRadius = 0.25f;      // the same distance in both images
 constexpr int smallReduction = 4;             // of the small image, a side
-constexpr std::uint32_t mostTaps = 64;
+constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
 // std140, of shaders/scheuermann/gather.frag.
 struct GpuTaps {
-    glm::vec4 taps[mostTaps];
+    glm::vec4 taps[maxTaps];
 };
 
 double largestBlur(const FramePlan& plan) {
@@ -141,7 +141,7 @@ private:
         preblur_ = pass("scheuermann/preblur.frag", {});
         ShaderDefines gather = {
             {"TAPS", std::to_string(taps_)},
-            {"MOST_TAPS", std::to_string(mostTaps)},
+            {"MOST_TAPS", std::to_string(maxTaps)},
             {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
             {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}};
         if (bytes_) gather.emplace_back("ENCODED", "1");
@@ -243,13 +243,13 @@ std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
 }
 
 Method scheuermannMethod() {
-    const auto byHand = [](const char* name, const char* description, double most) {
+    const auto byHand = [](const char* name, const char* description, double max) {
         return MethodSetting{.name = name,
                              .standard = "0",
                              .description = description,
                              .choices = {},
-                             .least = 0,
-                             .most = most,
+                             .min = 0,
+                             .max = max,
                              .whole = false,
                              .ofTheScene = true,
                              .keyed = true};
@@ -263,8 +263,8 @@ Method scheuermannMethod() {
          .standard = "8",
          .description = "Taps of the Poisson disk; 8 as published",
          .choices = {},
-         .least = 8,
-         .most = mostTaps},
+         .min = 8,
+         .max = maxTaps},
         {.name = "max-coc",
          .standard = "published",
          .description = "Largest blur: 10 px as published, or what the scene asks for",

@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t pointTile = 8;                                // px
-constexpr std::uint32_t mostEntries = 40'000;                         // of a tile's list that a dispatch walks over
+constexpr std::uint32_t maxEntries = 40'000;                          // of a tile's list that a dispatch walks over
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
 
 class StochasticKernel final : public VisibilityKernel {
@@ -52,8 +52,8 @@ public:
             glUniform2i(0, imageSize_.x, imageSize_.y);
             glUniform1ui(1, wave.first);
             glUniform1ui(2, band.first);
-            for (std::uint32_t first = 0; first == 0 || first < front.statistics().largestTile; first += mostEntries) {
-                glUniform2ui(3, first, first + mostEntries);
+            for (std::uint32_t first = 0; first == 0 || first < front.statistics().largestTile; first += maxEntries) {
+                glUniform2ui(3, first, first + maxEntries);
                 glDispatchCompute(band.end - band.first, wave.count, 1);
                 glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
             }

@@ -10,9 +10,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t mostLayers = 64;
+constexpr std::uint64_t maxLayers = 64;
 constexpr std::uint64_t shareOfLayers = 4;  // a quarter of the memory at most, so that bands stay high
-constexpr int leastRows = 16;
+constexpr int minRows = 16;
 
 std::uint64_t product(int a, int b) {
     return std::uint64_t{static_cast<std::uint32_t>(a)} * static_cast<std::uint32_t>(b);
@@ -48,8 +48,8 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
 
 // Of `length` rows, `most` of them in a band. Up to half as many more where that makes all of one height: sums of
 // another are made while drivers still hold those of before.
-int bandCount(int length, int most) {
-    const int fewest = (length + most - 1) / most;
+int bandCount(int length, int max) {
+    const int fewest = (length + max - 1) / max;
     for (int count = fewest; count <= fewest + fewest / 2; ++count)
         if (length % count == 0) return count;
     return fewest;
@@ -58,15 +58,14 @@ int bandCount(int length, int most) {
 [[noreturn]] void failForMemory(const TilingNeeds& needs, int cellWidth, std::uint64_t layers, int rows) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
-    const std::uint64_t least =
-        layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
+    const std::uint64_t min = layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
     // With a twentieth more, for what a run takes more than another.
     const std::string enough =
         needs.shared && needs.elsewhere > 0
-            ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(least + needs.elsewhere) * 1.05 / 0x1p20)
+            ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
             : "";
     fail("{} x {} px take at least {} beside the scene and the program, and {} is left{}", needs.width, needs.height,
-         bytesText(least), bytesText(needs.deviceMemory), enough);
+         bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
 // The tiles of rows that lie in one row of cells.
@@ -94,12 +93,12 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     const std::vector<PixelRectangle> cells = cellsFor(needs);
     const PixelRectangle& largest = cells.front();
     const std::uint64_t layer = product(largest.width, largest.height) * needs.layerPixel + needs.layerMaps;
-    const std::uint64_t most = std::min(needs.waveBytes, needs.deviceMemory / shareOfLayers);
+    const std::uint64_t max = std::min(needs.waveBytes, needs.deviceMemory / shareOfLayers);
     Tiling tiling;
-    const std::uint64_t wave = needs.askedWave > 0 ? needs.askedWave : most / layer;
-    tiling.wave = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wave, 1, mostLayers));
+    const std::uint64_t wave = needs.askedWave > 0 ? needs.askedWave : max / layer;
+    tiling.wave = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wave, 1, maxLayers));
     const std::uint64_t fitting = rowsThatFit(needs, static_cast<std::uint64_t>(largest.width), tiling.wave * layer);
-    const int wanted = std::min(leastRows, needs.rows.end - needs.rows.first);
+    const int wanted = std::min(minRows, needs.rows.end - needs.rows.first);
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 

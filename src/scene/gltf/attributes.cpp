@@ -112,20 +112,19 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-constexpr float mostBlur =
-    1e6f;  // of what a vertex may ask for: a kilometre on the sensor, or so many times the lens's
+constexpr float maxBlur = 1e6f;  // of what a vertex may ask for: a kilometre on the sensor, or so many times the lens's
 
 // A scalar of each vertex from `least` to mostBlur; empty where the primitive doesn't have it.
-std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float least,
+std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float min,
                                const std::string& what) {
     if (!reader.has(name)) return {};
     if (reader.components(name) != 1)
         fault(source.document, "{}: {} must hold one number a vertex, not {}", what, name, reader.components(name));
     std::vector<float> values;
     for (const glm::vec1& value : reader.read<glm::vec1>(name)) {
-        if (!(value.x >= least && value.x <= mostBlur))
+        if (!(value.x >= min && value.x <= maxBlur))
             fault(source.document, "{}: {} of vertex {} is {}; it must be from {} to {}", what, name, values.size(),
-                  value.x, least, mostBlur);
+                  value.x, min, maxBlur);
         values.push_back(value.x);
     }
     return values;
@@ -134,14 +133,14 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
 // _COC_SCALE times the lens's blur, or times _COC, or times what goes from _COC_0 to _COC_1; plus _COC_OFFSET.
 std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
-    const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -mostBlur, what);
+    const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);
     if (reader.has("_COC_0") != reader.has("_COC_1"))
         fault(source.document, "{}: _COC_0 and _COC_1 are a pair, at the opening and the closing of the shutter", what);
     const bool pair = reader.has("_COC_0");
     if (pair && reader.has("_COC"))
         fault(source.document, "{}: it has both _COC and the pair _COC_0 and _COC_1, which stand for the same", what);
-    const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", -mostBlur, what);
-    const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", -mostBlur, what) : opening;
+    const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", -maxBlur, what);
+    const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", -maxBlur, what) : opening;
     if (scales.empty() && offsets.empty() && opening.empty()) return {};
     std::vector<VertexBlur> blurs(reader.count());
     for (std::size_t i = 0; i < blurs.size(); ++i) {

@@ -17,7 +17,7 @@ namespace defocus::engine::gltf {
 namespace {
 
 constexpr double dielectricReflectance = 0.04;  // at normal incidence
-constexpr double leastShare = 1e-6;             // of a part of the colour that can be solved for
+constexpr double minShare = 1e-6;               // of a part of the colour that can be solved for
 
 // ---- materials ----------------------------------------------------------------------------------
 
@@ -103,9 +103,9 @@ void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material
     }
     const double left = 1 - std::max({specular.r, specular.g, specular.b});
     const double metalness = metalnessOf(diffuse, specular, left);
-    const glm::dvec3 fromDiffuse = diffuse * (left / (1 - dielectricReflectance) / std::max(1 - metalness, leastShare));
+    const glm::dvec3 fromDiffuse = diffuse * (left / (1 - dielectricReflectance) / std::max(1 - metalness, minShare));
     const glm::dvec3 fromSpecular =
-        (specular - dielectricReflectance * (1 - metalness)) / std::max(metalness, leastShare);
+        (specular - dielectricReflectance * (1 - metalness)) / std::max(metalness, minShare);
     const glm::dvec3 base = glm::clamp(glm::mix(fromDiffuse, fromSpecular, metalness * metalness), 0.0, 1.0);
     const double alpha = json.contains("diffuseFactor") ? json["diffuseFactor"][3].get<double>() : 1.0;
     material.baseColorFactor = {toFloat(base.r), toFloat(base.g), toFloat(base.b), toFloat(alpha)};

@@ -57,7 +57,7 @@ json viewJson(const SavedView& view) {
     const double* const matrix = glm::value_ptr(view.camera.worldFromCamera);
     json lens = json::object();
     for (const LensField& field : lensFields())
-        lens[field.name] = std::min(lensFieldValue(view.lens, field), field.most);
+        lens[field.name] = std::min(lensFieldValue(view.lens, field), field.max);
     return {{"name", view.name},
             {"worldFromCamera", std::vector<double>(matrix, matrix + 16)},
             {"pivotDistance", view.camera.pivotDistance},
@@ -75,7 +75,7 @@ std::optional<SavedView> viewOf(const json& object) try {
     view.nearPlane = object.at("nearPlane").get<double>();
     for (const LensField& field : lensFields())
         if (const auto found = object.at("lens").find(field.name); found != object.at("lens").end())
-            setLensField(view.lens, field, std::clamp(found->get<double>(), field.least, field.most));
+            setLensField(view.lens, field, std::clamp(found->get<double>(), field.min, field.max));
     checkLens(view.lens);
     const bool rigid = std::abs(glm::determinant(glm::dmat3(view.camera.worldFromCamera)) - 1) < 1e-3;
     if (!rigid || !(view.camera.pivotDistance > 0) || !(view.nearPlane > 0) || view.name.empty()) return std::nullopt;

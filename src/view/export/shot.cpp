@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 ordered_json valueJson(const LensField& field, double value) {
     if (std::holds_alternative<bool Lens::*>(field.member)) return value != 0;
     if (std::holds_alternative<int Lens::*>(field.member)) return static_cast<int>(value);
-    return std::min(value, field.most);
+    return std::min(value, field.max);
 }
 
 int frameOf(std::size_t key) {

@@ -158,7 +158,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.sides[0]));
     const double blur = plan.largestBlur / quality.resolution;  // px of the window
     // Without visible blur, one sample at full resolution looks better than many samples at half of it.
-    const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < leastBlur);
+    const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < minBlur);
     if (sharp) view = request.view;
     if (sharp || quality.samples == 1) {
         settings.sampleCount = 1;

@@ -133,7 +133,7 @@ bool lensFieldRow(Lens& lens, const LensField& field) {
     const bool isTime = field.name == std::string_view("exposureTime");
     const std::string first = isTime ? "0.008" : std::isinf(unset) ? "16" : "";
     Request request;
-    if (first.empty() || value != unset) giveLensValue(request, field, std::clamp(value, field.least, field.most));
+    if (first.empty() || value != unset) giveLensValue(request, field, std::clamp(value, field.min, field.max));
     ImGui::BeginDisabled(hasNoEffect(lens, field.name));
     const bool changed = settingRow(request, field.name, first);
     ImGui::EndDisabled();
@@ -164,8 +164,8 @@ void methodSettingRow(const MethodSetting& setting, std::string& value) {
                : setting.whole          ? SettingKind::integer
                                         : SettingKind::number;
     row.choices = setting.choices;
-    row.min = setting.least;
-    row.max = setting.most;
+    row.min = setting.min;
+    row.max = setting.max;
     std::string label = setting.name;
     std::ranges::replace(label, '-', ' ');
     label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));

@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 class Cache : public ProgramTest {
 protected:
     // A plan of two small fish, which are simplified for it. `--verbose` says how many pyramids came from the cache.
-    Outcome plan(std::vector<std::string> arguments = {}, std::size_t mostFileBytes = 0) const {
+    Outcome plan(std::vector<std::string> arguments = {}, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"plan", "--fish", "2", "--fish-triangles", "2000"});
-        const Outcome outcome = run(arguments, mostFileBytes);
+        const Outcome outcome = run(arguments, maxFileBytes);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return outcome;
     }

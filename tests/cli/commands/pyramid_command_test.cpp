@@ -56,7 +56,7 @@ TEST(PyramidCommand, JsonHoldsTheLevelsAndWhatWasMeasured) {
     const nlohmann::json& mesh = json["meshes"][0];
     ASSERT_EQ(mesh["levels"].size(), expected.levels.size());
     EXPECT_GT(mesh["buildSeconds"], 0);
-    EXPECT_EQ(mesh["end"], "leastTriangles");
+    EXPECT_EQ(mesh["end"], "minTriangles");
     for (std::size_t l = 0; l < expected.levels.size(); ++l) {
         const nlohmann::json& level = mesh["levels"][l];
         EXPECT_EQ(level["triangles"], expected.levels[l].triangleCount);

@@ -26,9 +26,9 @@ protected:
         writeTwoQuads(folder() / "quads.gltf");
     }
 
-    Outcome render(std::vector<std::string> arguments, std::size_t mostFileBytes = 0) const {
+    Outcome render(std::vector<std::string> arguments, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--samples", "4"});
-        return run(arguments, mostFileBytes);
+        return run(arguments, maxFileBytes);
     }
 };
 
@@ -319,7 +319,7 @@ TEST_F(Render, ratesAreThePixelsAndImagesThatALensSampleNeeds) {
               0);
     const Image pixels = readImage(folder() / "a.rate.exr");
     const double blur = 0.5 * (1 / 2.0 - 1 / 8.0) * 128 / 0.72;  // px; the aperture is 0.5 m wide
-    const double variance = std::pow(0.35 / 8 * blur, 2) - leastCellVariance;
+    const double variance = std::pow(0.35 / 8 * blur, 2) - minCellVariance;
     EXPECT_NEAR(*pixels.at(63, 21), 1 / (3 * (variance - 1.0 / 6)), 1e-4);
     EXPECT_EQ(*pixels.at(126, 48), 1);
     ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",

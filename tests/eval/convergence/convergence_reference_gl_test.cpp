@@ -142,10 +142,10 @@ TEST_F(ConvergenceReference, takesUpTheHalfOfAKilledRun) {
     };
     EXPECT_THROW(reference(32, killed), Error);
     EXPECT_TRUE(fs::exists(folder_ / "reference-half.exr"));
-    std::uint64_t least = 32;
+    std::uint64_t min = 32;
     const ReferenceImage rest =
-        reference(32, [&](std::string_view, std::uint64_t done, std::uint64_t) { least = std::min(least, done); });
-    EXPECT_EQ(least, 16u);
+        reference(32, [&](std::string_view, std::uint64_t done, std::uint64_t) { min = std::min(min, done); });
+    EXPECT_EQ(min, 16u);
     EXPECT_FALSE(fs::exists(folder_ / "reference-half.exr"));
     fs::remove(folder_ / "reference.exr");
     EXPECT_EQ(reference().image.pixels, rest.image.pixels);

@@ -106,18 +106,18 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
                 changed += x.object == y.object && x.fine.level != y.fine.level ? 1 : 0;
         return changed;
     };
-    int most = 0;
+    int max = 0;
     for (std::size_t first = 0; first + 5 <= frames.size(); ++first) {
         int within = 0;
         for (std::size_t i = first; i < first + 4; ++i) within += changes(frames[i].view, frames[i + 1].view);
-        most = std::max(most, within);
+        max = std::max(max, within);
     }
-    ASSERT_GT(most, 0);
+    ASSERT_GT(max, 0);
     const std::vector<MovementFrame> stretch = busiestStretch(frames, small->world, settings, 5);
     ASSERT_EQ(stretch.size(), 5u);
     int within = 0;
     for (std::size_t i = 0; i < 4; ++i) within += changes(stretch[i].view, stretch[i + 1].view);
-    EXPECT_EQ(within, most);
+    EXPECT_EQ(within, max);
     EXPECT_EQ(busiestStretch(frames, small->world, settings, 40).size(), 40u);
     EXPECT_THROW(busiestStretch(frames, small->world, settings, 41), Error);
 }

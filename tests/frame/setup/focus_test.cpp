@@ -15,8 +15,8 @@ namespace {
 // Points on the plane w + tan(swing)·X + tan(tilt)·Y = s give back what it was made of.
 TEST(FocusThrough, findsThePlaneOfThreePoints) {
     std::mt19937 generator(1);
-    const auto random = [&](double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(generator);
+    const auto random = [&](double min, double max) {
+        return std::uniform_real_distribution<double>(min, max)(generator);
     };
     for (int i = 0; i < 100; ++i) {
         const double swing = random(-0.8, 0.8);
@@ -56,8 +56,8 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
 // A focus surface as the lens has it, s(n) = s/(1 + κ·r² + t·n), is found from points that lie on it.
 TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     std::mt19937 generator(2);
-    const auto random = [&](double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(generator);
+    const auto random = [&](double min, double max) {
+        return std::uniform_real_distribution<double>(min, max)(generator);
     };
     for (int i = 0; i < 100; ++i) {
         Lens truth;
@@ -91,7 +91,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
 }
 
 // Of points that no such surface holds, the sum of the squares of the blurs is least: any change makes it larger.
-TEST(FocusThrough, leavesTheLeastBlur) {
+TEST(FocusThrough, leavesTheMinBlur) {
     const std::vector<glm::dvec3> points = {{-0.6, 0.2, -2}, {0.5, 0.4, -3},   {0.1, -0.3, -1.5}, {0.9, -0.4, -2.5},
                                             {-0.2, 0.5, -4}, {-0.8, -0.5, -3}, {0.3, 0.1, -2.2}};
     Lens fitted;
@@ -104,14 +104,14 @@ TEST(FocusThrough, leavesTheLeastBlur) {
             sum += std::pow(circleOfConfusion(coc, -point.z, 1000, glm::dvec2(point) / (-point.z * tanX)), 2);
         return sum;
     };
-    const double least = blurOf(fitted);
-    EXPECT_GT(least, 1);
+    const double min = blurOf(fitted);
+    EXPECT_GT(min, 1);
     for (const double step : {-1e-3, 1e-3})
         for (double Lens::*const member :
              {&Lens::focusDistance, &Lens::focusSwing, &Lens::focusTilt, &Lens::fieldCurvature}) {
             Lens other = fitted;
             other.*member += step;
-            EXPECT_GT(blurOf(other), least);
+            EXPECT_GT(blurOf(other), min);
         }
 }
 

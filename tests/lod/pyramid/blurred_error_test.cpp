@@ -187,12 +187,12 @@ TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     const Pyramid pyramid = buildPyramid(mesh);
     constexpr double pixelsPerUnit = 100, light = 0.3;
     constexpr double step = 1.001;
-    constexpr double most = 11 * (4 + 2) / 2 * (step - 1) * 1.05;
+    constexpr double max = 11 * (4 + 2) / 2 * (step - 1) * 1.05;
     double last = levelOfBlurredError(pyramid, std::array{1e-3, 2e-3}, pixelsPerUnit, light);
     double coarsest = last;
     for (double side = 1e-3; side < 50; side *= step) {
         const double level = levelOfBlurredError(pyramid, std::array{side, 2 * side}, pixelsPerUnit, light);
-        ASSERT_LE(std::abs(level - last), most) << "at " << side;
+        ASSERT_LE(std::abs(level - last), max) << "at " << side;
         last = level;
         coarsest = std::max(coarsest, level);
     }

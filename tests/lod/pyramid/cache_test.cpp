@@ -137,10 +137,10 @@ void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     ASSERT_FALSE(pyramid.levels.empty());
     ASSERT_EQ(pyramid.source.size(), pyramid.vertices.count());
     for (const std::uint32_t v : pyramid.source) ASSERT_LT(v, mesh.vertices.count());
-    std::uint32_t most = static_cast<std::uint32_t>(pyramid.vertices.count());
+    std::uint32_t max = static_cast<std::uint32_t>(pyramid.vertices.count());
     for (const PyramidLevel& level : pyramid.levels) {
-        ASSERT_LE(level.vertexCount, most);
-        most = level.vertexCount;
+        ASSERT_LE(level.vertexCount, max);
+        max = level.vertexCount;
         ASSERT_EQ(level.primitives.size(), mesh.primitives.size());
         ASSERT_EQ(level.positions.size(), level.vertexCount);
         ASSERT_EQ(level.normals.size(), level.vertexCount);
@@ -241,8 +241,8 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     const auto decodedWith = [&](PyramidKey key) { return decodePyramid(file.bytes, file.mesh, key).has_value(); };
     EXPECT_TRUE(decodedWith(file.key));
     EXPECT_FALSE(decodedWith({file.key.mesh + 1, {}}));
-    EXPECT_FALSE(decodedWith({file.key.mesh, {.leastTriangles = 65}}));
-    EXPECT_FALSE(decodedWith({file.key.mesh, {.mostLevels = 23}}));
+    EXPECT_FALSE(decodedWith({file.key.mesh, {.minTriangles = 65}}));
+    EXPECT_FALSE(decodedWith({file.key.mesh, {.maxLevels = 23}}));
     // The same key for another mesh, as if hashes had met.
     EXPECT_FALSE(decodePyramid(file.bytes, torus(24, 16), file.key));
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
@@ -319,7 +319,7 @@ TEST(PyramidFile, wrongCountsUnderARightChecksumAreMisses) {
     const std::size_t ranges = sectionBorders(file)[2];
     std::vector<std::size_t> counts = {
         offsetof(Header, magic),         offsetof(Header, version),        offsetof(Header, levelCount),
-        offsetof(Header, mesh),          offsetof(Header, leastTriangles), offsetof(Header, mostLevels),
+        offsetof(Header, mesh),          offsetof(Header, minTriangles),   offsetof(Header, maxLevels),
         offsetof(Header, indexCount),    offsetof(Header, indexCount) + 4, offsetof(Header, primitiveCount),
         offsetof(Header, triangleCount), offsetof(Header, vertexCount)};
     for (std::size_t l = 0; l < file.pyramid.levels.size(); ++l) {
@@ -456,7 +456,7 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(24, 16)};
     const std::vector<PyramidOptions> others = {
-        {.leastTriangles = 200}, {.vertices = LevelVertices::surviving}, {.vertices = LevelVertices::quarters}};
+        {.minTriangles = 200}, {.vertices = LevelVertices::surviving}, {.vertices = LevelVertices::quarters}};
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 0u);
     for (const PyramidOptions& other : others) EXPECT_EQ(cachedPyramids(meshes, scratch.path(), other).loaded, 0u);
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 1u);

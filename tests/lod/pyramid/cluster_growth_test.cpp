@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr std::uint32_t most = 64;
+constexpr std::uint32_t max = 64;
 
 struct Soup {
     std::vector<std::uint32_t> corners;
@@ -21,7 +21,7 @@ struct Soup {
 };
 
 GrownClusters grow(const Soup& soup) {
-    return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, most);
+    return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, max);
 }
 
 // A sheet of n × n unit squares, its rows in the plane z = 0; beyond half of them it is folded up by 90°.
@@ -50,7 +50,7 @@ void expectPartition(const Soup& soup, const GrownClusters& grown) {
     std::size_t sum = 0;
     for (const std::uint32_t size : grown.sizes) {
         EXPECT_GT(size, 0u);
-        EXPECT_LE(size, most);
+        EXPECT_LE(size, max);
         sum += size;
     }
     EXPECT_EQ(sum, sorted.size());
@@ -81,7 +81,7 @@ TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
     for (const Soup* soup : {&fan, &point}) {
         const GrownClusters grown = grow(*soup);
         expectPartition(*soup, grown);
-        EXPECT_LE(grown.sizes.size(), 1.2 * count / most);
+        EXPECT_LE(grown.sizes.size(), 1.2 * count / max);
     }
 }
 
@@ -107,7 +107,7 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
     // 32 unit squares fill a disk of radius 3.2.
-    const double fewest = static_cast<double>(grown.triangles.size()) / most;
+    const double fewest = static_cast<double>(grown.triangles.size()) / max;
     EXPECT_LT(static_cast<double>(grown.sizes.size()), 1.1 * fewest);
     std::size_t begin = 0;
     double radii = 0;
@@ -115,14 +115,14 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     for (const std::uint32_t size : grown.sizes) {
         const std::vector<glm::vec3> points = clusterPoints(sheet, grown, begin, size);
         begin += size;
-        glm::vec3 least = points[0];
+        glm::vec3 min = points[0];
         glm::vec3 largest = points[0];
         for (const glm::vec3& p : points) {
-            least = glm::min(least, p);
+            min = glm::min(min, p);
             largest = glm::max(largest, p);
         }
-        radii += 0.5 * glm::distance(least, largest);
-        creased += least.x < 39.5f && largest.z > 0.5f ? 1 : 0;
+        radii += 0.5 * glm::distance(min, largest);
+        creased += min.x < 39.5f && largest.z > 0.5f ? 1 : 0;
     }
     EXPECT_LT(radii / static_cast<double>(grown.sizes.size()), 2 * 3.2);
     EXPECT_LT(creased, 0.1 * fewest);
@@ -162,9 +162,9 @@ TEST(ClusterGrowth, looseTrianglesShareClustersWithThoseNearBy) {
     std::size_t begin = 0;
     for (const std::uint32_t size : grown.sizes) {
         const std::vector<glm::vec3> points = clusterPoints(row, grown, begin, size);
-        const auto [least, largest] =
+        const auto [min, largest] =
             std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-        EXPECT_LE(largest->x - least->x, 3.0f * static_cast<float>(size));
+        EXPECT_LE(largest->x - min->x, 3.0f * static_cast<float>(size));
         begin += size;
     }
 }

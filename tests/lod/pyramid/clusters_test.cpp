@@ -18,10 +18,10 @@ TEST(Clusters, conesAreNarrow) {
     const Pyramid pyramid = buildPyramid(sphere(200, 120));
     const PyramidLevel& level = pyramid.levels[0];
     std::size_t narrow = 0;
-    for (const Cluster& cluster : level.clusters) narrow += cluster.leastCosine > 0.9 ? 1 : 0;
+    for (const Cluster& cluster : level.clusters) narrow += cluster.minCosine > 0.9 ? 1 : 0;
     // 64 of 47,600 triangles of equal size would cover a disk of 4.2° about its middle.
     EXPECT_GT(static_cast<double>(narrow), 0.85 * static_cast<double>(level.clusters.size()));
-    EXPECT_LT(level.clusters.size() * mostClusterTriangles, 1.5 * level.triangleCount);
+    EXPECT_LT(level.clusters.size() * maxClusterTriangles, 1.5 * level.triangleCount);
 }
 
 TEST(Clusters, anEmptyMeshHasNone) {
@@ -32,10 +32,9 @@ TEST(Clusters, collapsedTrianglesDontCountAndNeedlesDo) {
     Vertices vertices;
     vertices.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5f, 0, 0}};
     vertices.normals.assign(5, {0, 0, 1});
-    EXPECT_NEAR(
-        buildPyramid(singlePrimitive(vertices, {0, 1, 2, 1, 3, 2, 1, 1, 2})).levels[0].clusters[0].leastAltitude,
-        std::sqrt(0.5), 1e-5);
-    EXPECT_EQ(buildPyramid(singlePrimitive(vertices, {0, 1, 2, 0, 4, 1})).levels[0].clusters[0].leastAltitude, 0);
+    EXPECT_NEAR(buildPyramid(singlePrimitive(vertices, {0, 1, 2, 1, 3, 2, 1, 1, 2})).levels[0].clusters[0].minAltitude,
+                std::sqrt(0.5), 1e-5);
+    EXPECT_EQ(buildPyramid(singlePrimitive(vertices, {0, 1, 2, 0, 4, 1})).levels[0].clusters[0].minAltitude, 0);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(Finish, texturesAreLinearBetweenTexelsAndWrap) {
 
 TEST(Finish, largeTexturesAreMeansOfLinearLight) {
     Scene scene = texturedBall();
-    scene.images[0] = {2 * FinishImage::mostSide, 1, {}};
+    scene.images[0] = {2 * FinishImage::maxSide, 1, {}};
     for (int x = 0; x < scene.images[0].width; ++x) {
         const std::uint8_t value = x % 2 == 0 ? 0 : 255;
         scene.images[0].rgba.insert(scene.images[0].rgba.end(), {value, value, value, 255});

@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 // Triangles of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs a vertex more).
-std::uint32_t leastOfGenus(std::uint32_t genus) {
+std::uint32_t minOfGenus(std::uint32_t genus) {
     const auto vertices = static_cast<std::uint32_t>(std::ceil((7 + std::sqrt(1 + 48.0 * genus)) / 2));
     return 2 * (vertices + (genus == 2 ? 1 : 0)) + 4 * genus - 4;
 }
@@ -19,16 +19,16 @@ TEST(PyramidEnd, SurfacesOfUpToFourHandlesComeDownToTheLeast) {
     for (const std::uint32_t genus : {1u, 2u, 3u, 4u}) {
         const Pyramid pyramid = buildPyramid(slab(genus, 4));
         EXPECT_LE(pyramid.levels.back().triangleCount, 64u) << genus;
-        EXPECT_EQ(pyramid.end, PyramidEnd::leastTriangles) << genus;
+        EXPECT_EQ(pyramid.end, PyramidEnd::minTriangles) << genus;
     }
-    EXPECT_EQ(buildPyramid(sphere(48, 32)).end, PyramidEnd::leastTriangles);
+    EXPECT_EQ(buildPyramid(sphere(48, 32)).end, PyramidEnd::minTriangles);
 }
 
 TEST(PyramidEnd, MoreHandlesEndWithinTwiceWhatTheyNeed) {
     for (const std::uint32_t genus : {8u, 20u, 40u}) {
         const Pyramid pyramid = buildPyramid(slab(genus, 4));
-        EXPECT_GE(pyramid.levels.back().triangleCount, leastOfGenus(genus)) << genus;
-        EXPECT_LE(pyramid.levels.back().triangleCount, 2 * leastOfGenus(genus)) << genus;
+        EXPECT_GE(pyramid.levels.back().triangleCount, minOfGenus(genus)) << genus;
+        EXPECT_LE(pyramid.levels.back().triangleCount, 2 * minOfGenus(genus)) << genus;
         EXPECT_EQ(pyramid.end, PyramidEnd::topology) << genus;
     }
 }
@@ -36,7 +36,7 @@ TEST(PyramidEnd, MoreHandlesEndWithinTwiceWhatTheyNeed) {
 TEST(PyramidEnd, ALevelThatSavesLessThanAQuarterIsNotMade) {
     const Mesh mesh = torus(24, 16);
     PyramidOptions options;
-    options.leastTriangles = static_cast<std::uint32_t>(mesh.triangleCount()) * 4 / 5;
+    options.minTriangles = static_cast<std::uint32_t>(mesh.triangleCount()) * 4 / 5;
     const Pyramid pyramid = buildPyramid(mesh, options);
     EXPECT_EQ(pyramid.levels.size(), 1u);
     EXPECT_EQ(pyramid.end, PyramidEnd::smallSaving);
@@ -49,21 +49,21 @@ TEST(PyramidEnd, NeitherTheWidestNorTheLargestPartGoes) {
     addPart(mesh, slab(30, 3), 4, {2, 0, 0});
     const Pyramid pyramid = buildPyramid(mesh);
     EXPECT_EQ(pyramid.end, PyramidEnd::largestParts);
-    EXPECT_GT(pyramid.levels.back().triangleCount, leastOfGenus(30) + 20);
+    EXPECT_GT(pyramid.levels.back().triangleCount, minOfGenus(30) + 20);
 }
 
 TEST(PyramidEnd, WithoutASurfaceThereIsNothingToSimplify) {
     Mesh mesh = sphere(12, 8);
     for (glm::vec3& p : mesh.vertices.positions) p = glm::vec3(1);
     EXPECT_EQ(buildPyramid(mesh).end, PyramidEnd::noSurface);
-    EXPECT_EQ(buildPyramid(Mesh{}).end, PyramidEnd::leastTriangles);
+    EXPECT_EQ(buildPyramid(Mesh{}).end, PyramidEnd::minTriangles);
 }
 
 TEST(PyramidEnd, AsManyLevelsAsAskedFor) {
     PyramidOptions options;
-    options.mostLevels = 3;
-    EXPECT_EQ(buildPyramid(sphere(48, 32), options).end, PyramidEnd::mostLevels);
-    EXPECT_EQ(fullDetail(sphere(48, 32)).end, PyramidEnd::mostLevels);
+    options.maxLevels = 3;
+    EXPECT_EQ(buildPyramid(sphere(48, 32), options).end, PyramidEnd::maxLevels);
+    EXPECT_EQ(fullDetail(sphere(48, 32)).end, PyramidEnd::maxLevels);
 }
 
 }  // namespace

@@ -135,17 +135,17 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
     const Surface surface = surfaceOf(mesh);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 p(2 * std::sin(1.1 * i), 2 * std::sin(1.7 * i + 1), std::sin(2.3 * i + 2));
-        double least = infinity;
+        double min = infinity;
         const auto& indices = mesh.primitives[0].indices;
         for (std::size_t t = 0; t < indices.size(); t += 3)
-            least = std::min(
-                least, distanceTo(triangle(mesh.vertices.positions[indices[t]], mesh.vertices.positions[indices[t + 1]],
-                                           mesh.vertices.positions[indices[t + 2]]),
-                                  p));
-        ASSERT_DOUBLE_EQ(distanceTo(surface, p), least) << i;
+            min = std::min(
+                min, distanceTo(triangle(mesh.vertices.positions[indices[t]], mesh.vertices.positions[indices[t + 1]],
+                                         mesh.vertices.positions[indices[t + 2]]),
+                                p));
+        ASSERT_DOUBLE_EQ(distanceTo(surface, p), min) << i;
         // The torus itself is |(√(x² + y²) − 1, z)| − 0.4 away; its faces are inside by at most both sagittas.
         const double exact = std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - 0.4);
-        ASSERT_NEAR(least, exact,
+        ASSERT_NEAR(min, exact,
                     1.4 * (1 - std::cos(std::numbers::pi / 24)) + 0.4 * (1 - std::cos(std::numbers::pi / 12)))
             << i;
     }

@@ -22,7 +22,7 @@ namespace {
 
 // A finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
 Finish showingCoordinates() {
-    constexpr int side = FinishImage::mostSide;
+    constexpr int side = FinishImage::maxSide;
     const auto ramp = std::make_shared<FinishImage>();
     ramp->width = ramp->height = side;
     for (int y = 0; y < side; ++y)
@@ -86,7 +86,7 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
 // The smallest patch (object units) over which a blur averages when half of `samples` samples or more draw the level;
 // none if no patch of the pyramid's table is large enough. A patch is a pixel at least, and the more pixels it is, the
 // longer are the edges and the finer the level.
-std::optional<double> leastPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
+std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
         return levelOfBlurredError(pyramid, std::vector{side}, 1 / side, light) >= static_cast<double>(level) - 0.5;
@@ -123,7 +123,7 @@ TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
         if (mesh.vertices.uv0.empty()) continue;
         const Pyramid pyramid = buildPyramid(mesh, {.finishes = &finishes});
         for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
-            const std::optional<double> patch = leastPatch(pyramid, l, 16);
+            const std::optional<double> patch = minPatch(pyramid, l, 16);
             if (!patch) break;
             const Shift shift = shiftOf(pyramid, l);
             EXPECT_LT(shift.mean, *patch) << mesh.name << ", level " << l;

@@ -91,12 +91,12 @@ TEST(Decimater, collapsesTheCheapestFirst) {
     });
     Decimated run(mesh);
     ASSERT_EQ(run.decimater.decimate(1), 1u);
-    const float least = *std::min_element(costs.begin(), costs.end());
+    const float min = *std::min_element(costs.begin(), costs.end());
     std::size_t gone = 0;
     for (std::size_t v = 0; v < costs.size(); ++v) {
         if (mesh.isAlive(VertexHandle(static_cast<int>(v)))) continue;
         ++gone;
-        EXPECT_EQ(costs[v], least);
+        EXPECT_EQ(costs[v], min);
     }
     EXPECT_EQ(gone, 1u);
     expectWedgesInPlace(surface, mesh);

@@ -37,8 +37,8 @@ TEST(Contact, theGapIsTheLargestOfTheDistances) {
 // Against all ways between all objects (Floyd 1962).
 TEST(Contact, valuesSpreadAlongTheShortestWay) {
     std::mt19937 random(7);
-    const auto uniform = [&](double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(random);
+    const auto uniform = [&](double min, double max) {
+        return std::uniform_real_distribution<double>(min, max)(random);
     };
     // Scattered, and in a heap.
     for (const auto& [count, side] : {std::pair(1u, 400.0), {2u, 400.0}, {40u, 400.0}, {150u, 400.0}, {150u, 30.0}}) {
@@ -86,13 +86,13 @@ TEST(Contact, boundsHoldEveryVertex) {
             const glm::dvec2 seen =
                 glm::dvec2(plan.view.width, plan.view.height) / 2.0 + glm::dvec2(at) / -at.z * pixels;
             for (int axis = 0; axis < 2; ++axis) {
-                EXPECT_GE(seen[axis], bounds.seenLeast[axis] - 1e-9);
-                EXPECT_LE(seen[axis], bounds.seenMost[axis] + 1e-9);
-                EXPECT_GE(at[axis], bounds.least[axis] * bounds.unit - 1e-9);
-                EXPECT_LE(at[axis], bounds.most[axis] * bounds.unit + 1e-9);
+                EXPECT_GE(seen[axis], bounds.seenMin[axis] - 1e-9);
+                EXPECT_LE(seen[axis], bounds.seenMax[axis] + 1e-9);
+                EXPECT_GE(at[axis], bounds.min[axis] * bounds.unit - 1e-9);
+                EXPECT_LE(at[axis], bounds.max[axis] * bounds.unit + 1e-9);
             }
-            EXPECT_GE(-at.z, bounds.least.z * bounds.unit - 1e-9);
-            EXPECT_LE(-at.z, bounds.most.z * bounds.unit + 1e-9);
+            EXPECT_GE(-at.z, bounds.min.z * bounds.unit - 1e-9);
+            EXPECT_LE(-at.z, bounds.max.z * bounds.unit + 1e-9);
         }
     }
 }

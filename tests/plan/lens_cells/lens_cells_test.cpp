@@ -85,11 +85,11 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
 TEST(LensCells, middlesKeepApart) {
     const auto small = muchBlurred();
     const auto nearest = [](const auto& points, const auto& place) {
-        double least = 2;
+        double min = 2;
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
-                least = std::min<double>(least, glm::length(place(points[i]) - place(points[j])));
-        return least;
+                min = std::min<double>(min, glm::length(place(points[i]) - place(points[j])));
+        return min;
     };
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });

@@ -95,7 +95,7 @@ TEST(Rates, allOfAGroupHasItsImagesPixelOffset) {
         EXPECT_EQ(pixel, block.groups.samples[i / 4].pixel);
         offsets.emplace(pixel.x, pixel.y);
     }
-    EXPECT_EQ(offsets.size(), leastLensGroups);
+    EXPECT_EQ(offsets.size(), minLensGroups);
 }
 
 TEST(Rates, onlyWhatIsHardlyBlurredShares) {
@@ -106,7 +106,7 @@ TEST(Rates, onlyWhatIsHardlyBlurredShares) {
     for (const ObjectPlan& object : plan.objects) {
         const bool shares = std::ranges::any_of(block.groups.objects,
                                                 [&](const ObjectPlan& group) { return group.object == object.object; });
-        EXPECT_EQ(shares, object.coc.largest < leastShareBlur - 0.1) << object.coc.largest;
+        EXPECT_EQ(shares, object.coc.largest < minShareBlur - 0.1) << object.coc.largest;
         sharing += shares ? 1 : 0;
     }
     EXPECT_GE(sharing, 1u);

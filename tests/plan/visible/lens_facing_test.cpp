@@ -18,9 +18,7 @@ constexpr double aspect = 1.5;
 class TriangleSource {
 public:
     explicit TriangleSource(std::uint32_t seed) : engine_(seed) {}
-    double operator()(double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(engine_);
-    }
+    double operator()(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
 
 private:
     std::mt19937 engine_;

@@ -16,7 +16,7 @@ TEST(Cells, coverTheImageOnceAndFollowFromItsSize) {
     for (const auto& [width, height] : {std::pair{640, 480}, {8192, 8192}, {8193, 16}, {16384, 10001}}) {
         std::int64_t pixels = 0;
         for (const PixelRectangle& cell : cellsOf(width, height)) {
-            EXPECT_LE(std::max(cell.width, cell.height), mostCellPixels);
+            EXPECT_LE(std::max(cell.width, cell.height), maxCellPixels);
             EXPECT_GE(std::min({cell.left, cell.top, cell.width - 1, cell.height - 1}), 0);
             EXPECT_LE(cell.left + cell.width, width);
             EXPECT_LE(cell.top + cell.height, height);

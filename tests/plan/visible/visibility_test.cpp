@@ -19,9 +19,7 @@ namespace {
 class Random {
 public:
     explicit Random(std::uint32_t seed) : engine_(seed) {}
-    double operator()(double least, double most) {
-        return std::uniform_real_distribution<double>(least, most)(engine_);
-    }
+    double operator()(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
     glm::dvec3 inBall() {
         for (;;) {
             const glm::dvec3 p((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1));

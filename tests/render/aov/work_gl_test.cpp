@@ -95,9 +95,7 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double perMetre = 96 / (0.72 * depth);
     const double blur = circleOfConfusion(plan.coc, depth, 96);
     ASSERT_LT(blur, -5);
-    const auto centresIn = [](double least, double most) {
-        return std::floor(most - 0.5) - std::ceil(least - 0.5) + 1;
-    };
+    const auto centresIn = [](double min, double max) { return std::floor(max - 0.5) - std::ceil(min - 0.5) + 1; };
     double expected = 0;
     for (const LensSample& sample : plan.samples) {
         const glm::dvec2 shift = 0.5 * blur * glm::dvec2(sample.lens) - glm::dvec2(sample.pixel);
@@ -161,7 +159,7 @@ TEST_F(Work, coloursAndSummaryFollowTheNumbers) {
     EXPECT_LT(colours.at(1, 0)[1], colours.at(2, 0)[1]);
     const WorkSummary summary = workSummary(work, samples);
     EXPECT_DOUBLE_EQ(summary.mean, 8);
-    EXPECT_DOUBLE_EQ(summary.most, 20);
+    EXPECT_DOUBLE_EQ(summary.max, 20);
 }
 
 }  // namespace

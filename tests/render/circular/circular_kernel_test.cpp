@@ -139,15 +139,15 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
         {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}}};
     for (const Kernel& kernel : published) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (double extent = 1; extent < 2; extent += 0.01) {
             for (double radius = 0.9; radius < 1.4; radius += 0.005) {
-                least = std::min(least, diskProfileError(kernel, extent, radius));
+                min = std::min(min, diskProfileError(kernel, extent, radius));
             }
         }
         const auto ours = circularKernel(static_cast<int>(kernel.size()));
-        EXPECT_LE(diskProfileError(ours, circularKernelExtent, 1), least) << kernel.size();
-        EXPECT_LT(least, 0.25) << "not a disk: a published constant is mistyped";
+        EXPECT_LE(diskProfileError(ours, circularKernelExtent, 1), min) << kernel.size();
+        EXPECT_LT(min, 0.25) << "not a disk: a published constant is mistyped";
     }
 }
 

@@ -182,16 +182,16 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
-        double most = 0;
+        double max = 0;
         for (int c = 0; c < 4; ++c) {
             double worst = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
                     worst = std::max<double>(worst, std::abs(exact.at(x, y)[c] - stored.at(x, y)[c]));
-            most = std::max(most, c == 3 ? worst : worst / 50);
+            max = std::max(max, c == 3 ? worst : worst / 50);
         }
-        EXPECT_GT(most, 1e-6);
-        EXPECT_LT(most, 0.03) << components;
+        EXPECT_GT(max, 1e-6);
+        EXPECT_LT(max, 0.03) << components;
     }
 }
 

@@ -39,7 +39,7 @@ Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples 
     return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
 }
 
-double mostBetween(const Image& a, const Image& b) {
+double maxBetween(const Image& a, const Image& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
@@ -89,10 +89,10 @@ Pane wallAt(double depth, const glm::vec4& color) {
 TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
-    EXPECT_LT(mostBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
+    EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
     // Every lens sample sees that; a sky alone differs within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
-    EXPECT_LT(mostBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
+    EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
 
 TEST_F(Layered, aConstantSceneStaysConstant) {

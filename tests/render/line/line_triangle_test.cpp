@@ -30,9 +30,9 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
     const double w = 1 / (weights.x + weights.y + weights.z);
     const glm::dvec3 barycentric = w * weights;
     const double margin = 1e-6;
-    const double least = std::min({barycentric.x, barycentric.y, barycentric.z});
-    if (std::abs(least) < margin || std::abs(w - nearPlane) < margin) return {};
-    return least > 0 && w > nearPlane && (determinant > 0) == front;
+    const double min = std::min({barycentric.x, barycentric.y, barycentric.z});
+    if (std::abs(min) < margin || std::abs(w - nearPlane) < margin) return {};
+    return min > 0 && w > nearPlane && (determinant > 0) == front;
 }
 
 LensVertex vertexAt(double x, double y, double w) {
@@ -46,15 +46,15 @@ LensLine lineAt(double angle, const glm::dvec2& place) {
 
 struct Depths {
     const char* name;
-    double least;
-    double most;
+    double min;
+    double max;
 };
 
 class LineTriangles : public testing::TestWithParam<Depths> {};
 
 TEST_P(LineTriangles, coverTheLineWhereTheirPointsDo) {
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> depth(GetParam().least, GetParam().most), side(-1.5, 1.5), unit(0, 1);
+    std::uniform_real_distribution<double> depth(GetParam().min, GetParam().max), side(-1.5, 1.5), unit(0, 1);
     int compared = 0, seenPoints = 0, backs = 0;
     for (int trial = 0; trial < 4000; ++trial) {
         std::array<LensVertex, 3> corners;

@@ -24,11 +24,11 @@ TEST(LineWeights, areThePapersKappa) {
 
 TEST(LineWeights, addUp) {
     for (const LineLight& light : {LineLight{}, LineLight{0.8, 0.6, 0, 0}, LineLight{1, 0.5, 0.7, 0.2}}) {
-        const double least = -light.backward;
-        EXPECT_NEAR(lightBetween(light, least, 1), 1, 1e-15);
+        const double min = -light.backward;
+        EXPECT_NEAR(lightBetween(light, min, 1), 1, 1e-15);
         double sum = 0;
         for (int i = 0; i < 50; ++i)
-            sum += lightBetween(light, least + (1 - least) * i / 50, least + (1 - least) * (i + 1) / 50);
+            sum += lightBetween(light, min + (1 - min) * i / 50, min + (1 - min) * (i + 1) / 50);
         EXPECT_NEAR(sum, 1, 1e-12);
     }
 }

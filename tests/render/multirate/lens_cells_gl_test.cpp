@@ -280,16 +280,16 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     const auto small = blurredSpheres();
     std::vector<double> changes;
     Image before;
-    int most = 0;
+    int max = 0;
     for (double fStop = 2; fStop > 0.15; fStop *= 0.98) {
         small->view.lens.fStop = fStop;
-        most = std::max(most, lensCellsOf(*small, ratedSettings(16)).behind);
+        max = std::max(max, lensCellsOf(*small, ratedSettings(16)).behind);
         Image image = drawnBy("multirate", *small, ratedSettings(16));
         if (!before.empty()) changes.push_back(compareImages(before, image).rmse);
         before = std::move(image);
     }
-    ASSERT_GE(most, 2);
-    ASSERT_EQ(lensCellsOf(*small, ratedSettings(16)).behind, most);
+    ASSERT_GE(max, 2);
+    ASSERT_EQ(lensCellsOf(*small, ratedSettings(16)).behind, max);
     for (std::size_t i = 2; i + 2 < changes.size(); ++i) {
         const double around = (changes[i - 2] + changes[i - 1] + changes[i + 1] + changes[i + 2]) / 4;
         EXPECT_LT(changes[i], 2 * around) << i;

@@ -175,7 +175,7 @@ TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHav
         const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.15);
         ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), sharpInFront ? 12u : 1u);
         for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
-            ASSERT_TRUE(object.coc.largest < 1 || object.coc.largest > 2 * leastShareBlur);
+            ASSERT_TRUE(object.coc.largest < 1 || object.coc.largest > 2 * minShareBlur);
         const Image truth = convergedImage(*small);
         const auto worst = [&](const char* method) {
             return compareImages(truth, drawnBy(method, *small, ratedSettings(1024))).maxError;

@@ -12,11 +12,11 @@ struct DepthRows {
     int width, height;
     std::vector<float> values;
 
-    [[nodiscard]] float least(int left, int right, int bottom, int top) const {
-        float least = 1;
+    [[nodiscard]] float min(int left, int right, int bottom, int top) const {
+        float min = 1;
         for (int y = bottom; y < top; ++y)
-            for (int x = left; x < right; ++x) least = std::min(least, values[static_cast<std::size_t>(y * width + x)]);
-        return least;
+            for (int x = left; x < right; ++x) min = std::min(min, values[static_cast<std::size_t>(y * width + x)]);
+        return min;
     }
 };
 
@@ -40,7 +40,7 @@ TEST(DepthTiles, neverFartherThanAnyPixelAsked) {
                                                     std::uniform_int_distribution(0, width - 1)(random)});
             const auto [bottom, top] = std::minmax({std::uniform_int_distribution(0, height - 1)(random),
                                                     std::uniform_int_distribution(0, height - 1)(random)});
-            ASSERT_LE(tiles.farthest(left, right + 1, bottom, top + 1), depths.least(left, right + 1, bottom, top + 1));
+            ASSERT_LE(tiles.farthest(left, right + 1, bottom, top + 1), depths.min(left, right + 1, bottom, top + 1));
         }
     }
 }

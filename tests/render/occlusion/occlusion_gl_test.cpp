@@ -102,13 +102,13 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     small->view.lens.dofEnabled = false;
     FramePlan plan = planFrame(small->world, small->view, sharpLevels(16));
     ASSERT_FALSE(plan.usesLens);
-    const auto imageOf = [&](double leastHidden) {
+    const auto imageOf = [&](double minHidden) {
         const auto renderer = methodNamed("accumulation").make(small->world, {});
         renderer->start(plan);
         while (renderer->advance()) {
         }
         const RenderStats stats = renderer->stats();
-        EXPECT_GE(static_cast<double>(stats.trianglesHidden), leastHidden * static_cast<double>(stats.trianglesDrawn));
+        EXPECT_GE(static_cast<double>(stats.trianglesHidden), minHidden * static_cast<double>(stats.trianglesDrawn));
         return renderer->image();
     };
     const Image seen = imageOf(0.2);

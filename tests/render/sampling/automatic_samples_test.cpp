@@ -20,17 +20,17 @@ FramePlan planOf(double blur) {
 }
 
 TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
-    EXPECT_EQ(samplesForBlur(planOf(0)), leastAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(planOf(0)), minAutomaticSamples);
     std::uint32_t before = 0;
     for (double blur = 1; blur < 200; blur *= 1.1) {
         const std::uint32_t samples = samplesForBlur(planOf(blur));
         EXPECT_GE(samples, before);
         before = samples;
         const auto gap = [&](double count) { return blur * std::sqrt(std::numbers::pi / (4 * count)); };
-        EXPECT_TRUE(gap(samples) <= 2 || samples == mostAutomaticSamples) << blur;
+        EXPECT_TRUE(gap(samples) <= 2 || samples == maxAutomaticSamples) << blur;
         EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "no block too many at " << blur;
     }
-    EXPECT_EQ(before, mostAutomaticSamples);
+    EXPECT_EQ(before, maxAutomaticSamples);
 }
 
 TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
@@ -45,9 +45,9 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     plan.objects.push_back(plan.objects.front());
     plan.objects.back().nearestDepth = 0;
     plan.objects.back().coc.largest = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(samplesForBlur(plan), leastAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(plan), minAutomaticSamples);
     plan.view.lens.dofEnabled = false;
-    EXPECT_EQ(samplesForBlur(plan), leastAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(plan), minAutomaticSamples);
 }
 
 TEST(SamplesForBlur, followMotion) {

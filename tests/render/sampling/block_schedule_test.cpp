@@ -15,13 +15,13 @@ namespace {
 // Means of 64 · n samples whose error is `first` · n^(−0.6), and each step to the limit independent of the last.
 class MadeFrame {
 public:
-    explicit MadeFrame(double first) : means_(most) {
+    explicit MadeFrame(double first) : means_(max) {
         std::mt19937 random(7);
         std::normal_distribution<double> normal;
         std::vector<double> value(size, 0.5);
         const auto squared = [&](int n) { return first * first * std::pow(n, -2 * lensSampleExponent); };
-        for (int n = most; n >= 1; --n) {
-            const double step = n == most ? squared(n) : squared(n) - squared(n + 1);
+        for (int n = max; n >= 1; --n) {
+            const double step = n == max ? squared(n) : squared(n) - squared(n + 1);
             for (double& v : value) v += std::sqrt(step) * normal(random);
             means_[static_cast<std::size_t>(n - 1)] = value;
         }
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    static constexpr int most = 128;
+    static constexpr int max = 128;
     static constexpr std::size_t size = 3000;
     std::vector<std::vector<double>> means_;
 };

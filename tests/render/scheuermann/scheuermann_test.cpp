@@ -79,15 +79,15 @@ TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
         const std::vector<glm::vec2> points = poissonDisk(count);
         ASSERT_EQ(points.size(), count);
         EXPECT_EQ(points.front(), glm::vec2(0));
-        double least = 2;
+        double min = 2;
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_LE(glm::length(points[i]), 1.0f + 1e-6f);
             for (std::size_t j = 0; j < i; ++j)
-                least = std::min(least, static_cast<double>(glm::distance(points[i], points[j])));
+                min = std::min(min, static_cast<double>(glm::distance(points[i], points[j])));
         }
-        const double filled = count * least * least / 4;
+        const double filled = count * min * min / 4;
         EXPECT_GT(filled, 0.3) << count;
-        EXPECT_LE(filled, std::numbers::pi / std::sqrt(12.0) * std::pow(1 + least / 2, 2)) << count;
+        EXPECT_LE(filled, std::numbers::pi / std::sqrt(12.0) * std::pow(1 + min / 2, 2)) << count;
         double widestGap = 0;
         constexpr int steps = 100;
         for (int y = -steps; y <= steps; ++y)
@@ -99,7 +99,7 @@ TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
                     nearest = std::min(nearest, static_cast<double>(glm::distance(place, point)));
                 widestGap = std::max(widestGap, nearest);
             }
-        EXPECT_LE(widestGap, 1.1 * least) << count;
+        EXPECT_LE(widestGap, 1.1 * min) << count;
     }
 }
 

@@ -21,18 +21,18 @@ TilingNeeds needsOf(int width, int height, std::uint64_t memory) {
 
 // Bytes of the largest tile with its layers, and of its band.
 std::uint64_t bytesOf(const TilingNeeds& needs, const Tiling& tiling) {
-    std::uint64_t most = 0;
+    std::uint64_t max = 0;
     for (const Band& band : tiling.bands)
         for (const Tile& tile : band.tiles) {
             const auto pixels = [](const PixelRectangle& area) {
                 return static_cast<std::uint64_t>(area.width) * static_cast<std::uint64_t>(area.height);
             };
-            most = std::max(most, pixels(tile.cell) * needs.layerPixel * tiling.wave +
-                                      pixels(tile.area) * (sumPixelBytes + tilePixelBytes) +
-                                      static_cast<std::uint64_t>(needs.width) *
-                                          static_cast<std::uint64_t>(band.rows.end - band.rows.first) * bandPixelBytes);
+            max = std::max(max, pixels(tile.cell) * needs.layerPixel * tiling.wave +
+                                    pixels(tile.area) * (sumPixelBytes + tilePixelBytes) +
+                                    static_cast<std::uint64_t>(needs.width) *
+                                        static_cast<std::uint64_t>(band.rows.end - band.rows.first) * bandPixelBytes);
         }
-    return most;
+    return max;
 }
 
 TEST(Tiling, coversTheRowsOnceWithinTheMemory) {

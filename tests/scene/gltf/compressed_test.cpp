@@ -46,19 +46,19 @@ double areaOf(const Posed& posed) {
 // How far the most distant vertex of `from` is from the nearest of `to` that has its colour, at most two of 255 off in
 // any channel, and its normal, at most three degrees off: seams have several vertices in one place.
 double farthest(const Posed& from, const Posed& to) {
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < to.positions.size(); ++k) {
             const glm::ivec4 a(glm::round(255.0f * from.mesh.vertices.colors[i]));
             const glm::ivec4 b(glm::round(255.0f * to.mesh.vertices.colors[k]));
             const int apart = std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
             if (apart <= 2 && glm::dot(from.normals[i], to.normals[k]) > 0.9986f)
-                least = std::min(least, glm::length(from.positions[i] - to.positions[k]));
+                min = std::min(min, glm::length(from.positions[i] - to.positions[k]));
         }
-        most = std::max(most, least);
+        max = std::max(max, min);
     }
-    return most;
+    return max;
 }
 
 struct CompressedCase {
@@ -80,9 +80,9 @@ TEST_P(Compressed, isTheOriginalToItsPrecision) {
         const glm::dvec3 size = original.bounds.size();
         const double step = std::max({size.x, size.y, size.z}) / ((1 << 14) - 1);
         const bool bends = deformed(poseAt(loadGltf(originalPath), time).objects.at(0));
-        const double most = (bends ? 4 : 0.9) * step;
-        EXPECT_LT(farthest(compressed, original), most) << time;
-        EXPECT_LT(farthest(original, compressed), most) << time;
+        const double max = (bends ? 4 : 0.9) * step;
+        EXPECT_LT(farthest(compressed, original), max) << time;
+        EXPECT_LT(farthest(original, compressed), max) << time;
         EXPECT_NEAR(areaOf(compressed), areaOf(original), 1e-3 * areaOf(original)) << time;
     }
 }

@@ -79,7 +79,7 @@ TEST_F(WindowMemory, viewsComeBackAsTheyWere) {
         EXPECT_EQ(read[i].camera.pivotDistance, kept[i].camera.pivotDistance);
         for (const LensField& field : lensFields())
             EXPECT_DOUBLE_EQ(lensFieldValue(read[i].lens, field),
-                             std::min(lensFieldValue(kept[i].lens, field), field.most))
+                             std::min(lensFieldValue(kept[i].lens, field), field.max))
                 << field.name;
     }
     writeSavedViews(views(), "a", {});

@@ -166,8 +166,8 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
                     field.name == std::string_view("exposureTime") || field.name == std::string_view("iso");
                 if (brightness && !ofLens) continue;
                 // No limit is the largest that a file can say.
-                EXPECT_DOUBLE_EQ(std::min(field.most, lensFieldValue(again, field)),
-                                 std::min(field.most, lensFieldValue(keys[i].view.lens, field)))
+                EXPECT_DOUBLE_EQ(std::min(field.max, lensFieldValue(again, field)),
+                                 std::min(field.max, lensFieldValue(keys[i].view.lens, field)))
                     << field.name;
             }
             const glm::dmat4 upright =
