@@ -57,8 +57,7 @@ int run() {
     for (const EnvironmentType type : {EnvironmentType::uniform, EnvironmentType::gradient}) {
         const glm::vec3 colour(0.2f, 0.3f, 0.4f);
         world.environment = {type, colour, colour, colour, nullptr, 1};
-        for (const LayerFormat format :
-             {LayerFormat::rgba8, LayerFormat::rgb9e5, LayerFormat::rgba16f, LayerFormat::rgba32f})
+        for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f})
             for (const std::uint32_t wave : {8u, 0u}) {
                 RendererOptions options;
                 options.layerFormat = format;

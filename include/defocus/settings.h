@@ -1,88 +1,90 @@
 #pragma once
-// Values that a Request chooses from: samples, levels of detail, shadows, shutter, layers. docs/settings.md explains
-// each value and gives its range and default.
+// Enumerations and limits for Request: samples, levels of detail, shadows, shutter and layers. docs/settings.md
+// explains each value with its range and default.
 
 #include <cstdint>
 #include <variant>
 
 namespace defocus {
 
-inline constexpr std::uint32_t maxSamples = 65'536;  // lens samples of a frame
-inline constexpr int maxImageSide = 16'384;          // px, of an image's width and of its height
+inline constexpr std::uint32_t maxSamples = 65'536;  // maximum number of lens samples per frame
+inline constexpr int maxImageSide = 16'384;          // px, maximum width and height of an image
 
-// Low-discrepancy sequences for points on the lens, in the pixel and in the exposure. All are infinite, and each prefix
-// is well spread.
+// Low-discrepancy sequences for sample points on the lens, in the pixel and in the exposure. All are infinite, and
+// every prefix is well distributed.
 enum class Sequence {
-    halton,           // bases 2, 3 on the lens and 5, 7 in the pixel, as in Jeong, Kim and Lee 2011; then 11 and 13
-    scrambledHalton,  // Halton with random digit permutations, each dependent on the digits before it
-    sobol,            // six dimensions, Owen-scrambled
-    r2,               // additive recurrence by powers of the plastic number
+    // Halton points: bases 2, 3 on the lens and 5, 7 in the pixel (Jeong, Kim and Lee 2011), then 11, 13, 17 and 19 in
+    // the exposure time, in the spectrum and on the lights.
+    halton,
+    scrambledHalton,  // Halton with random digit permutations; each depends on the digits before it
+    sobol,            // Owen-scrambled Sobol points
+    r2,               // additive recurrence based on powers of the plastic number
 };
 
-// Simplified meshes for objects whose blur or size hides the difference (Jeong, Kim and Lee 2011).
+// Level-of-detail mode. Simplified meshes replace objects whose blur or size hides the difference (Jeong, Kim and Lee
+// 2011). λ is the fractional level of an object.
 enum class LodMode {
-    fractional,  // samples split between levels ⌊λ⌋ and ⌊λ⌋ + 1
-    continuous,  // like fractional, and the sample at the boundary is split over its pixels
+    fractional,  // samples are divided between levels ⌊λ⌋ and ⌊λ⌋ + 1
+    continuous,  // like fractional, but the sample at the boundary draws both levels, each at some pixels
     nearest,     // all samples draw level round(λ)
     off,         // full detail
 };
 
-// The measure by which levels are chosen.
+// Measure by which the level of an object is chosen.
 enum class LodMetric {
     automatic,  // `size` if a blur or size threshold is given, else `measured`
-    size,       // target edge length in px, against the levels' mean edges
+    size,       // target edge length in px, compared with each level's mean edge length
     error,      // target geometric deviation in px
-    halving,    // target edge length in px, assuming that each level halves the triangles (Jeong, Kim and Lee 2011)
-    measured,   // target error of the light that a blur leaves, relative to its variation
-    score,      // target edge length by blur alone, against the edges at the object's centre (Tzeng et al. 2012)
+    halving,    // target edge length in px; assumes that each level halves the triangles (Jeong, Kim and Lee 2011)
+    measured,   // target error of the blurred light, relative to the light's variation
+    // Target edge length from the blur alone, compared with the edges at the object's centre (Tzeng et al. 2012).
+    score,
 };
 
-// The circle of confusion that an object's level may count on.
+// Circle of confusion that determines an object's level.
 enum class LodCoc {
-    smallest,  // over the object's bounding box
-    centre,    // at the box's centre (Jeong, Kim and Lee 2011)
+    smallest,  // smallest one in the object's bounding box
+    centre,    // that of the bounding box's centre (Jeong, Kim and Lee 2011)
 };
 
-// Vertices of coarser levels.
+// Source of the vertices of coarser levels.
 enum class LevelVertices {
-    fitted,     // positions, normals, colours and texture coordinates are fitted to full detail
-    surviving,  // vertices of full detail, unchanged
-    quarters,   // surviving vertices, in three levels of 100, 75 and 50 % (Tzeng et al. 2012)
+    fitted,     // positions, normals, colours and texture coordinates fitted to full detail
+    surviving,  // unchanged vertices of the full-detail mesh
+    quarters,   // like surviving, with three levels of 100, 75 and 50 % (Tzeng et al. 2012)
 };
 
-// Whether lights and surroundings cast shadows.
+// Shadows from lights and from the environment.
 enum class Shadows {
     automatic,  // on if the request has a ground
     on,
     off,
 };
 
-// Where the frame's time lies in the exposure.
+// Position of the frame's time within the exposure.
 enum class ShutterPosition { start, centre, end };
 
-// Each lens sample has its own pose of the scene, instead of vertices that move along straight segments.
+// Exact motion: the scene is posed separately for each lens sample. Vertices do not follow straight segments.
 struct ExactMotion {
     bool operator==(const ExactMotion&) const = default;
 };
 
-// Straight segments of a vertex's path while the shutter is open, 1 … 64.
+// Number of straight segments in a vertex's path during the exposure, 1 … 64, or ExactMotion.
 using MotionSegments = std::variant<std::uint32_t, ExactMotion>;
 
-// Pixel format of the layer that a lens sample is drawn into.
+// Pixel format of the layer that each lens sample is drawn into.
 enum class LayerFormat {
     automatic,  // rgba16f, or rgba32f if the scene's radiance may exceed 6e4
-    rgba16f,    // half floats: relative error 2⁻¹¹ a sample
-    rgba32f,    // for references
-    rgb9e5,
-    rgba8,
+    rgba16f,    // half floats: relative error 2⁻¹¹ per sample
+    rgba32f,    // floats, for reference images
 };
 
-// Why a frame got no more samples.
+// Reason why a frame stopped adding samples.
 enum class StopReason {
     sampleCount,     // all requested samples are drawn
-    targetError,     // Request::targetError is reached
-    timeLimit,       // Request::timeLimit is over
-    nothingBlurred,  // more samples would only smooth edges further
+    targetError,     // the estimated error is below Request::targetError
+    timeLimit,       // Request::timeLimit has elapsed
+    nothingBlurred,  // nothing is blurred, and more samples would only smooth edges
 };
 
 }  // namespace defocus

@@ -88,7 +88,7 @@ class Keywords(TypedDict, total=False):
     cache_folder: Optional[Path]
     no_cache: Optional[bool]
     method: Optional[str]
-    layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
+    layer_format: Optional[Literal["automatic", "rgba16f", "rgba32f"]]
     tone_map: Optional[Literal["none", "aces", "agx", "neutral"]]
     exposure: Optional[Union[float, Literal["auto"]]]  # EV
     lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured", "score"]]

@@ -1,38 +1,40 @@
-// Composes each of the wave's layers over the environment and adds them, one after the other in order, to the compensated sum of
-// the block.
+// Composites each layer of the wave over the environment, and adds the layers in order to the block's compensated sum.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
-#include "include/layer_format.glsl"
 #include "include/compensated.glsl"
 #include "include/environment.glsl"
 
-#ifdef LAYER_RGB9E5
-layout(binding = 0) uniform usampler2DArray layers;
-#else
 layout(binding = 0) uniform sampler2DArray layers;
-#endif
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(binding = 2) uniform sampler2D compensationSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    vec4 sampleShifts[BLOCK_SAMPLES];   // of the sky on the image plane at distance 1; COC_CONTROLS: by C/w = 1, by jitter
+    // Shift of the sky on the image plane at distance 1. With COC_CONTROLS: the shifts for C/w = 1 and for the jitter.
+    vec4 sampleShifts[BLOCK_SAMPLES];
 };
 #if defined(CHROMATIC) || defined(CAT_EYE)
 layout(std140, binding = 4) uniform SampleBlock {
-    vec4 sampleBands[BLOCK_SAMPLES];    // colour weights; what the wavelength adds to b of C(w)
-    vec4 sampleLenses[BLOCK_SAMPLES];   // xy: points on the lens, in radii
+    // Colour weights, and the wavelength's change of b in C(w).
+    vec4 sampleBands[BLOCK_SAMPLES];
+    // xy: lens points, relative to the lens radius.
+    vec4 sampleLenses[BLOCK_SAMPLES];
 };
 #endif
 #ifdef LENS_CELLS
 #include "include/cells.glsl"
 layout(binding = 6) uniform sampler2DArray layerDepths;
-layout(binding = 7) uniform sampler2DArray drawnSums;   // what the target holds
-layout(rgba32f, binding = 0) uniform image2DArray cellSums;   // for those beyond
-layout(r32ui, binding = 1) uniform uimage2D heldClasses;   // of each tile
-layout(location = 3) uniform float cellBlur;   // σ of the blur of a sample's image, as a share of |c|
+// Sums that the render target holds.
+layout(binding = 7) uniform sampler2DArray drawnSums;
+// Sums that do not fit into the render target.
+layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+// Classes that each tile holds, as a bit mask.
+layout(r32ui, binding = 1) uniform uimage2D heldClasses;
+// σ of the blur of a sample's image, as a fraction of |c|.
+layout(location = 3) uniform float cellBlur;
 #endif
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-layout(location = 2) uniform ivec2 firstPixel;   // of the layers, that the sums begin with
+// Pixel of the layers where the sums begin.
+layout(location = 2) uniform ivec2 firstPixel;
 
 layout(location = 0) out vec4 sumOut;
 #ifdef LENS_CELLS
@@ -42,10 +44,10 @@ layout(location = 1) out vec4 compensationOut;
 #endif
 
 #ifdef LENS_CELLS
-// Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
+// Threshold of stored alpha. Alpha-blended surfaces add their alpha to the 1 of opaque surfaces and sky.
 const float BLENDED_ALPHA = 1.001;
 
-// Adds what a pixel of a layer shows to the classes of its blur.
+// Adds a layer's pixel to the classes of its blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < BLENDED_ALPHA ? max(0.0, cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE) : 0.0;
@@ -56,7 +58,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += reachOfClass(behind, k) * value;
 }
 
-// The classes that hold a share of any of `samples`, one bit each: their sums count more samples than those beyond, or fewer.
+// Returns the classes that hold a share of any of `samples`, one bit each. Their sums differ from the next class's sum
+// in the number of samples.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < CELLS_IN_FRONT; ++k) held |= sums[k].a != (k + 1 < CELLS_IN_FRONT ? sums[k + 1].a : samples) ? 1u << k : 0u;
@@ -66,7 +69,7 @@ uint heldBy(vec4 sums[cellClasses], float samples) {
 #endif
 
 #if BACKGROUND == 2
-// The sky that a sample sees through this pixel.
+// Returns the sky radiance that a sample sees through this pixel.
 vec3 behind(vec2 imagePlane, int layer) {
 #ifdef COC_CONTROLS
 #ifdef CHROMATIC
@@ -97,15 +100,16 @@ void main() {
 #endif
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
 #ifdef LENS_CELLS
-    vec4 compensation = vec4(0.0);   // not kept: what is blurred has the precision of single floats
+    vec4 compensation = vec4(0.0);   // discarded: blurred sums need only single precision
 #else
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
 #endif
     ivec2 layerPixel = pixel + firstPixel;
     vec2 imagePlane = (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 #ifdef CAT_EYE
-    // The rim of the barrel: a circle as large as the aperture that moves over it the farther the pixel lies from the centre, by
-    // CAT_EYE radii at the image's corners. Light from the right meets it on the right.
+    // Clips the sample at the rim of the barrel, a circle as large as the aperture. The circle shifts across the
+    // aperture with the pixel's distance from the centre, by CAT_EYE radii at the image's corners. For light from the
+    // right, the circle shifts to the right.
     float aspect = frame.window.z / frame.window.w;
     vec2 rim = CAT_EYE * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
     float seen = 0.0;
@@ -129,14 +133,6 @@ void main() {
 #else
         const vec3 weight = vec3(1.0);
 #endif
-#ifdef LAYER_RGB9E5
-        uint bits = texelFetch(layers, ivec3(layerPixel, layer), 0).r;
-        vec4 value = decodeLayer(bits);
-#if BACKGROUND == 1 || BACKGROUND == 2
-        if (bits == 0u) value.rgb = behind(imagePlane, layer);
-#endif
-        addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
-#else
         vec4 value = texelFetch(layers, ivec3(layerPixel, layer), 0);
 #if BACKGROUND == 1 || BACKGROUND == 2
         value.rgb += (1.0 - min(value.a, 1.0)) * behind(imagePlane, layer);
@@ -144,13 +140,12 @@ void main() {
         addCompensated(sum.a, compensation.a, value.a);
 #endif
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
-#endif
 #ifdef LENS_CELLS
         addToCells(cells, value, ivec3(layerPixel, layer), ndc);
 #endif
     }
 #if BACKGROUND != 0
-    sum.a += seen;   // whole numbers: exact
+    sum.a += seen;   // integers, hence exact
 #endif
 #ifdef LENS_CELLS
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];

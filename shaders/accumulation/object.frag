@@ -1,4 +1,4 @@
-// Shades one lens sample of a surface into its layer.
+// Shades a surface for one lens sample and writes it to the sample's layer.
 
 #include "include/frame.glsl"
 #if defined(TRANSMISSION) || defined(PEELED)
@@ -15,11 +15,7 @@ in Surface {
 } surface;
 flat in float ditherOffset;
 
-#ifdef LAYER_RGB9E5
-layout(location = 0) out uint layerOut;
-#else
 layout(location = 0) out vec4 layerOut;
-#endif
 
 #ifdef PEELED
 #include "layered/peel.glsl"
@@ -28,13 +24,14 @@ layout(location = 1) out vec4 ownBlurOut;
 #endif
 
 #ifdef LEVEL_COLOR_RANGE
-layout(location = 0) uniform vec4 levelMin;   // what the level's vertices have
+// Min of the level's vertex colours.
+layout(location = 0) uniform vec4 levelMin;
 layout(location = 1) uniform vec4 levelMax;
 #endif
 
-// Rasterisers round corners to a fraction of a pixel, so a triangle that is narrower than that can cover a pixel far outside its own
-// plane equations. What the corners have bounds what lies between them. Normals and directions need no bound, as only their way
-// counts, and texture coordinates that run as fast pick the smallest mipmap.
+// Clamps interpolated colours to the range of the corner values. Rasterizers round corners to a fraction of a pixel, so
+// a very narrow triangle may cover pixels far outside its plane equations. Normals need no clamp, because only their
+// direction counts. Texture coordinates need none, because steep ones select the smallest mip level.
 vec4 surfaceColor() {
 #if defined(VERTEX_COLOR_RANGES)
     return clamp(surface.color, surface.minColor, surface.maxColor);
@@ -49,22 +46,23 @@ vec4 surfaceColor() {
 #define SURFACE_SHOWS_FRONT gl_FrontFacing
 
 float surfaceFootprint(vec3 normal) {
-    vec3 right = dFdx(normal);   // of the surface's: what a normal texture's mean is, its mipmaps say
+    vec3 right = dFdx(normal);   // of the surface normal: mip levels give the mean of normal maps
     vec3 up = dFdy(normal);
     return dot(right, right) + dot(up, up);
 }
 
 #ifdef TRANSMISSION
-layout(binding = 17) uniform sampler2DArray backdrop;   // this layer and the others, as they were before this object
+// This layer and the others, as they were before this object.
+layout(binding = 17) uniform sampler2DArray backdrop;
 
 vec2 ndcThroughLens(vec3 viewPosition) {
     vec4 clip = throughLens(pinholePosition(viewPosition), vec2(1.0, 0.0), vec4(surface.lens, 0.0, 0.0));
     return clip.xy / clip.w;
 }
 
-// What this pixel shows at `offset` (m, along the world's axes) behind the surface. `roughness` 0 … 1 spreads it, as
-// KHR_materials_transmission's sample viewer does: 1 over the whole image. Mipmaps are made of squares; each lens sample shifts
-// them within a square, so that their sum has none.
+// Returns the colour seen through the surface at `offset` (m, along the world's axes). `roughness` in [0, 1] blurs it
+// as in KHR_materials_transmission's sample viewer; 1 blurs over the whole image. Each lens sample shifts the square
+// mip texels, so that they average out over the samples.
 vec4 seenBehind(vec3 offset, float roughness) {
 #ifdef CHROMATIC
     bandShift = surface.bandShift;
@@ -84,9 +82,10 @@ vec4 seenBehind(vec3 offset, float roughness) {
 #include "include/surface_shading.glsl"
 
 #ifdef SCREEN_DOOR
-// Does this pixel of a boundary sample belong to the coarser level? Roberts 2018, The Unreasonable Effectiveness of
-// Quasirandom Sequences: the R2 sequence as an ordered dither, x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1, in whole numbers
-// of 2⁻³² and so the same on each device. Any share of the pixels is spread evenly; each object has its own offset.
+// Returns true if this pixel of a boundary sample draws the coarser level. The ordered dither is the R2 sequence x/ρ +
+// y/ρ² modulo 1 with ρ³ = ρ + 1. Source: Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences. Integer
+// arithmetic in units of 2⁻³² gives identical results on all devices. The chosen pixels are evenly spread; each object
+// has its own offset.
 bool drawsCoarser() {
     uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
     uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
@@ -120,12 +119,8 @@ void main() {
 #if defined(OWN_BLUR) && defined(READS_OWN_BLUR) && !defined(PEELED)
     ownBlurOut = vec4(surface.ownBlur, 0.0, 1.0);
 #endif
-#ifdef LAYER_RGB9E5
-    layerOut = encodeLayer(light, ditherOffset);
-#else
     layerOut = light;
 #ifdef LAYER_LARGEST
     layerOut.rgb = roundedToHalf(layerOut.rgb);
-#endif
 #endif
 }

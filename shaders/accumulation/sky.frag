@@ -6,15 +6,11 @@
 in vec2 place;                // in normalised device coordinates
 flat in vec4 lensAndJitter;
 flat in float skyBandShift;
-flat in float ditherOffset;
 
-#ifdef LAYER_RGB9E5
-layout(location = 0) out uint layerOut;
-#else
 layout(location = 0) out vec4 layerOut;
-#endif
 
-// A pixel sees the direction that the lens moves there: a fixed point, as C at infinity may depend on the place.
+// Returns the direction of the sky that the lens moves to this pixel. A fixed-point iteration finds it, because C at
+// infinity may depend on the position.
 vec3 directionOfSky() {
 #ifdef CHROMATIC
     bandShift = skyBandShift;
@@ -39,9 +35,5 @@ void main() {
 #ifdef LAYER_LARGEST
     radiance.rgb = roundedToHalf(radiance.rgb);
 #endif
-#ifdef LAYER_RGB9E5
-    layerOut = encodeLayer(radiance, ditherOffset);
-#else
     layerOut = radiance;
-#endif
 }

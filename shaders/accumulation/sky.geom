@@ -3,17 +3,15 @@ layout(triangle_strip, max_vertices = 3) out;
 
 flat in vec4 lensAndJitterToGeometry[];
 flat in float bandShiftToGeometry[];
-flat in vec2 ditherAndLayer[];
+flat in int layerToGeometry[];
 out vec2 place;
 flat out vec4 lensAndJitter;
 flat out float skyBandShift;
-flat out float ditherOffset;
 
 void main() {
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
-        gl_Layer = int(ditherAndLayer[i].y);
-        ditherOffset = ditherAndLayer[i].x;
+        gl_Layer = layerToGeometry[i];
         place = gl_in[i].gl_Position.xy;
         lensAndJitter = lensAndJitterToGeometry[i];
         skyBandShift = bandShiftToGeometry[i];

@@ -1,4 +1,4 @@
-// A triangle over each sample's layer at infinite depth: what no surface covers shows the environment.
+// Draws a triangle at infinite depth over each sample's layer, so that uncovered pixels show the environment.
 #ifdef VERTEX_LAYER
 #extension GL_ARB_shader_viewport_layer_array : enable
 #extension GL_AMD_vertex_shader_layer : enable
@@ -18,11 +18,10 @@ const float bandShiftIn = 0.0;
 out vec2 place;                // in normalised device coordinates
 flat out vec4 lensAndJitter;
 flat out float skyBandShift;
-flat out float ditherOffset;
 #else
 flat out vec4 lensAndJitterToGeometry;
 flat out float bandShiftToGeometry;
-flat out vec2 ditherAndLayer;
+flat out int layerToGeometry;
 #endif
 
 void main() {
@@ -32,11 +31,10 @@ void main() {
     place = corner;
     lensAndJitter = lensAndJitterIn;
     skyBandShift = bandShiftIn;
-    ditherOffset = eyeAndDitherIn.z;
     gl_Layer = int(eyeAndDitherIn.w);
 #else
     lensAndJitterToGeometry = lensAndJitterIn;
     bandShiftToGeometry = bandShiftIn;
-    ditherAndLayer = eyeAndDitherIn.zw;
+    layerToGeometry = int(eyeAndDitherIn.w);
 #endif
 }

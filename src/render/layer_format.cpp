@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-
 namespace defocus::engine {
 
 namespace {
@@ -12,8 +10,8 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Radiance that a half float cannot hold: layers must be 32-bit floats then. What lights reflect is bounded for matt
-// surfaces under distant lights; beyond that, values end at 65,504.
+// Returns whether radiance may exceed a half float, so that layers must be 32-bit floats. Reflected light is bounded
+// for matt surfaces under distant lights. For other lighting, values above 65,504 are clamped.
 bool beyondHalfFloat(const World& world) {
     constexpr float limit = 6e4f;
     const Environment& e = world.environment;
@@ -31,19 +29,12 @@ bool beyondHalfFloat(const World& world) {
 
 }  // namespace
 
-LayerFormat chosenLayerFormat(const World& world, const FramePlan& plan, LayerFormat asked) {
-    if (asked == LayerFormat::automatic) return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
-    if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.usesTransmission || plan.needsAlpha))
-        fail(
-            "layer format {}: it holds no alpha, which blended and transmitting materials and a transparent background "
-            "need; choose "
-            "rgba16f",
-            layerFormatName(asked));
-    return asked;
+LayerFormat chosenLayerFormat(const World& world, LayerFormat asked) {
+    if (asked != LayerFormat::automatic) return asked;
+    return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
 }
 
 ShaderDefines layerFormatDefines(LayerFormat format) {
-    if (format == LayerFormat::rgb9e5) return {{"LAYER_RGB9E5", "1"}};
     if (format == LayerFormat::rgba16f) return {{"LAYER_LARGEST", "65504.0"}};
     return {};
 }
@@ -52,29 +43,16 @@ const char* layerFormatName(LayerFormat format) {
     switch (format) {
         case LayerFormat::automatic:
             return "automatic";
-        case LayerFormat::rgb9e5:
-            return "rgb9e5";
         case LayerFormat::rgba16f:
             return "rgba16f";
         case LayerFormat::rgba32f:
             return "rgba32f";
-        case LayerFormat::rgba8:
-            return "rgba8";
     }
     return "";
 }
 
 TextureFormat layerTextureFormat(LayerFormat format) {
-    switch (format) {
-        case LayerFormat::rgb9e5:
-            return TextureFormat::r32ui;
-        case LayerFormat::rgba32f:
-            return TextureFormat::rgba32f;
-        case LayerFormat::rgba8:
-            return TextureFormat::rgba8;
-        default:
-            return TextureFormat::rgba16f;
-    }
+    return format == LayerFormat::rgba32f ? TextureFormat::rgba32f : TextureFormat::rgba16f;
 }
 
 std::size_t layerPixelBytes(LayerFormat format) {

@@ -1,5 +1,5 @@
 #pragma once
-// How one sample's radiance is kept until it is summed.
+// Storage format of the radiance of single samples, before they are summed.
 
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -7,15 +7,14 @@
 
 namespace defocus::engine {
 
-// `asked`, or for automatic what the world's radiance needs. Throws Error for a format that can't hold what the plan
-// draws.
-LayerFormat chosenLayerFormat(const World& world, const FramePlan& plan, LayerFormat asked);
+// Returns `asked`, or for automatic the format that the world's radiance needs.
+LayerFormat chosenLayerFormat(const World& world, LayerFormat asked);
 
-// The defines that make shaders write or read `format` (not automatic).
+// Returns the defines with which shaders write or read `format`. Automatic is not allowed.
 ShaderDefines layerFormatDefines(LayerFormat format);
 const char* layerFormatName(LayerFormat format);
 TextureFormat layerTextureFormat(LayerFormat format);
-// Bytes a pixel of one layer, depth included.
+// Returns the bytes per pixel of one layer, depth included.
 std::size_t layerPixelBytes(LayerFormat format);
 
 }  // namespace defocus::engine

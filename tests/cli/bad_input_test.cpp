@@ -1,4 +1,4 @@
-// Whatever is wrong gives one line and an exit code, and leaves no file behind.
+// Every input error yields one line on stderr and an exit code, and leaves no file behind.
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -26,7 +26,8 @@ protected:
         writeTwoQuads(folder() / "quads.gltf");
     }
 
-    // A render of the quads with more `arguments` fails with this line's part, before anything is written.
+    // Expects that rendering the quads with `arguments` fails before it writes a file, with a line that contains
+    // `part`.
     void expectFault(int exitCode, const std::string& part, std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), {"render", "quads.gltf"});
         const Outcome outcome = run(arguments);
@@ -36,7 +37,8 @@ protected:
         EXPECT_EQ(fileCount(), 1u);
     }
 
-    // Whether `info` refuses the file with a line that names it; else it has something to say of it. So has `plan`.
+    // Expects that `plan` and `info` either refuse the file with one line that names it, or succeed with output.
+    // Returns whether `info` refuses.
     bool expectRefusedOrLoaded(const fs::path& model) const {
         SCOPED_TRACE(model);
         bool refused = false;
@@ -70,7 +72,7 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
     expectFault(2, "--blades", {"--blades", "1"});
     expectFault(2, "--blades", {"--blades", "2"});
-    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // the focus plane through the camera
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // a focus plane through the camera
     expectFault(2, "--focus-swing", {"--focus-swing=-90"});
     expectFault(2, "--exposure-time", {"--exposure-time=-1"});
     expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
@@ -89,7 +91,7 @@ TEST_F(BadInput, valuesOutOfRange) {
 
 TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
-    expectFault(2, "no settings", {"--taps", "16"});  // of scheuermann, but accumulation was meant
+    expectFault(2, "no settings", {"--taps", "16"});  // --taps belongs to scheuermann, but the method is accumulation
     expectFault(2, "far-components is an integer from 1 to 9", {"--method", "circular", "--far-components", "10"});
     expectFault(2, "storage is one of", {"--method", "circular:storage=double"});
     expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});
@@ -104,7 +106,6 @@ TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
                 {"--light-threshold", "0.1", "--size-threshold", "2"});
     expectFault(1, "levels by error take a blur and a size threshold",
                 {"--lod-metric", "error", "--light-threshold", "0.1"});
-    expectFault(1, "layer format", {"--method", "scheuermann", "--layer-format", "rgb9e5"});
 }
 
 TEST_F(BadInput, numbersThatAreNoneOrInfinite) {
@@ -176,7 +177,8 @@ TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
 TEST_F(BadInput, focusPlanesThatNoLensHas) {
     expectFault(1, "line", {"--focus-points", "512,160,512,170,512,180"});
     expectFault(1, "no surface", {"--focus-points", "0,767,512,170,512,180"});
-    // One point 0.3 m above the view axis on the near quad, two as high on the far one: the plane never meets the axis.
+    // One point lies 0.3 m above the view axis on the near quad, two at the same height on the far quad: the plane
+    // never meets the axis.
     expectFault(1, "view axis", {"--focus-points", "512,170,956,330,832,330"});
     expectFault(2, "--focus-points", {"--focus-points", "1,2,3,4"});
 }
@@ -247,7 +249,7 @@ TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
     Image image(4, 2, 3);
     *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
     writeImage(folder() / "nan.exr", image);
-    // Black there: another fault is found.
+    // NaN texels become black, so the file loads and the next error is reported.
     const Outcome black = run({"render", "quads.gltf", "--environment", "nan.exr", "--focus-node", "None"});
     EXPECT_NE(black.err.find("None"), std::string::npos) << black.err;
     EXPECT_EQ(black.err.find("nan.exr"), std::string::npos) << black.err;
@@ -299,7 +301,7 @@ TEST_F(BadInput, devicesAndPipesAreNoFiles) {
     }
 }
 
-// What is read stays, and of two outputs with one name neither is lost.
+// Outputs never overwrite inputs, and two outputs with the same name are refused.
 TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
     const std::string scene = textOf(folder() / "quads.gltf");
     expectOneLine(run({"render", "quads.gltf", "-o", "a.png", "--stats", "quads.gltf"}), 1);
@@ -316,7 +318,7 @@ TEST_F(BadInput, switchesTakeNoValue) {
         expectFault(2, std::string(word).substr(0, std::string(word).find('=')), {word});
 }
 
-// Neither waits for a pipe nor reads a device, nor what lies outside of the scene's folder.
+// Aperture images in the scene must be regular files inside its folder: pipes, devices and outside paths are refused.
 TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
     fs::create_directory(folder() / "scenes");
     writeImage(folder() / "outside.png", Image(4, 4, 3));
@@ -341,7 +343,7 @@ TEST_F(BadInput, shaderFolderThatIsNone) {
     expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
 }
 
-// The exit code tells all the same, and what is lost of the answer is a failure.
+// The exit code is correct even without stderr; an incomplete standard output is an error.
 TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     const auto exitCode = [&](const std::string& words) {
         const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
@@ -360,7 +362,7 @@ TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// A hostile file is refused with a line that names it, or loads; it never ends the program in another way.
+// A hostile file either loads or is refused with a line that names it; the program never crashes.
 TEST_F(BadInput, hostileModels) {
     DEFOCUS_MODEL_OR_SKIP(models, "invalid");
     for (const fs::directory_entry& entry : fs::directory_iterator(models)) {
@@ -370,7 +372,7 @@ TEST_F(BadInput, hostileModels) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// A fish of ours, cut short at many places, and with each word of its headers changed.
+// Damaged copies of one of the project's fish: truncated at many places, and with each word of the headers changed.
 TEST_F(BadInput, damagedCopiesOfAModel) {
     const std::string whole = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
     ASSERT_GT(whole.size(), 10'000u);
@@ -396,7 +398,7 @@ TEST_F(BadInput, damagedCopiesOfAModel) {
     }
 }
 
-// What can be drawn of a damaged file is, and what can't is counted.
+// The intact triangles of a damaged file are drawn, and the others are counted in a warning.
 TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     GltfBuilder builder;

@@ -108,7 +108,6 @@ void addValueCases(std::vector<StabilityCase>& cases) {
         add(fmt::format("a NaN texel in a blurred sky, {} layers", layers), "pixels spoiled elsewhere",
             "the map without it", 0, [format] { return skyTexelError(format); });
     };
-    addSky("shared-exponent", LayerFormat::rgb9e5);
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
     // The texel's share of all directions, weighted by the cosine, is 2e-4; of the smallest mip level it is 3e-5.

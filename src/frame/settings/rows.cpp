@@ -1,4 +1,4 @@
-// The rows of the table of settings, in the order in which --help shows them.
+// Rows of the settings table, in the order of --help.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,7 +24,7 @@ namespace {
 
 using Rows = std::vector<Setting>;
 
-// A member of Request, for the functions of row.h.
+// Callable that returns a member of a Request, for the functions of row.h.
 #define MEMBER(path)             \
     [](auto& request) -> auto& { \
         return request.path;     \
@@ -220,7 +220,7 @@ std::string unitOf(std::string_view metavar) {
     return "";
 }
 
-// Why a field of the lens has no effect.
+// Returns the function that says why a lens field has no effect.
 Setting::Unused unusedLensField(LensFeature feature) {
     switch (feature) {
         case LensFeature::camera:
@@ -313,8 +313,8 @@ Rows lensRows() {
 
 // ---- samples --------------------------------------------------------------------------------------------------------
 
-// A preset has no value of its own, see presets.h. It precedes all settings that it sets, so that options beside it
-// win.
+// A preset has no value of its own; see presets.h. Its row precedes the rows of all settings that it sets, so that
+// explicit options override the preset.
 Row presetRow() {
     std::vector<std::string> names;
     std::vector<std::string> lines;
@@ -434,10 +434,8 @@ Rows methodRows() {
             .inShot("/method"),
         rows::choice<LayerFormat>("layerFormat", "--layer-format",
                                   {{"automatic", LayerFormat::automatic},
-                                   {"rgb9e5", LayerFormat::rgb9e5},
                                    {"rgba16f", LayerFormat::rgba16f},
-                                   {"rgba32f", LayerFormat::rgba32f},
-                                   {"rgba8", LayerFormat::rgba8}},
+                                   {"rgba32f", LayerFormat::rgba32f}},
                                   MEMBER(layerFormat), "Pixel format of a sample's layer; rgba32f for references")
             .inShot("/layerFormat"),
     };
@@ -545,7 +543,7 @@ std::vector<Setting>& table() {
         add(SettingGroup::method, methodRows());
         add(SettingGroup::display, displayRows());
         add(SettingGroup::developer, developerRows());
-        rows.reserve(rows.size() + 16);  // addSetting leaves pointers to rows valid
+        rows.reserve(rows.size() + 16);  // keeps pointers to rows valid when addSetting adds rows
         return rows;
     }();
     return all;

@@ -22,8 +22,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Layers for the fewest equal parts of a block that the memory allows. What samples share takes at most half as many
-// again, each with the shadow maps of several samples.
+// Returns the number of layers per wave. A block is divided into the fewest equal waves that fit into the memory. With
+// shared images, layers get two thirds of it: shared layers take at most half as much again, and have more shadow maps.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          bool shares) {
     const LayerWindow window = layerWindow(plan);
@@ -31,7 +31,7 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
         shares ? shadowMapBytes(plan) * (2 + maxPointsPerSample(plan.shadows.maps.size())) / 3 : shadowMapBytes(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // with the backdrop
+                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop doubles the layers
                                      shadowBytes;
     const std::uint64_t block = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     if (asked > 0) return static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, block));
@@ -77,7 +77,8 @@ public:
     }
 
     bool advance() override {
-        const std::uint32_t first = sum_->samples() - samplesBefore_;  // of the plan's
+        // First sample of the wave, counted within the plan.
+        const std::uint32_t first = sum_->samples() - samplesBefore_;
         const auto total = static_cast<std::uint32_t>(plan_.samples.size());
         if (first >= total) return false;
         if (shared_ && first > 0 && first % blockSamples == 0) prepareDraws(first);
@@ -86,7 +87,7 @@ public:
         drawWave(first - drawsBegin_, count);
         clock_.endWave();
         if (first + count == total) {
-            sum_->makeMean();  // the blur of cells and the division are a part of the frame
+            sum_->makeMean();  // counted as frame time: the blur of cells and the division
             clock_.endFrame();
         }
         return first + count < total;
@@ -124,7 +125,8 @@ private:
         clock_.beginFrame();
     }
 
-    // What is drawn from the plan's sample `first` on, to the end or, where samples share, to the end of the block.
+    // Prepares the draws from the plan's sample `first` on: to the end of the plan, or with shared images to the end of
+    // the block.
     void prepareDraws(std::uint32_t first) {
         drawsBegin_ = first;
         const auto total = static_cast<std::uint32_t>(plan_.samples.size());
@@ -142,9 +144,9 @@ private:
     [[nodiscard]] bool blursCells() const { return shared_ && shared_->cells().classes() > 0; }
     [[nodiscard]] const FramePlan& draws() const { return shared_ ? block_ : plan_; }
 
-    // The sums and the pass that fills them, made anew only when size or format change.
+    // Reallocates the sums if size or format changed, and the passes if the format changed.
     void prepareTarget() {
-        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
+        const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         const LayerWindow window = layerWindow(plan_);
         const LayerSumInfo info{.width = window.layerWidth,
                                 .height = window.layerHeight,
@@ -157,7 +159,7 @@ private:
         const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
         if (!sameTarget) {
             if (shared_) shared_->releaseTarget();
-            sum_.reset();  // before the new one is made: both may not fit
+            sum_.reset();  // frees the old sums first: memory may not hold both
             sum_.emplace(info);
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
@@ -172,8 +174,8 @@ private:
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
 
-    // Simpler skies are composed when layers are added, unless something shows them through itself, or alpha says where
-    // something blended lies over them.
+    // Environments other than maps are composited when layers are added. They must be drawn earlier if a transmitting
+    // surface shows them. The same holds if alpha marks blended surfaces for the blur of cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -186,7 +188,7 @@ private:
         timer.end();
     }
 
-    // Samples [first, first + count) of draws().
+    // Draws samples [first, first + count) of the plan that draws() returns.
     void drawWave(std::uint32_t first, std::uint32_t count) {
         if (shared_) timed(sharedTimer_, [&] { stats_.trianglesDrawn += shared_->draw(first, count); });
         if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
@@ -208,17 +210,17 @@ private:
         stats_.trianglesHidden += surfaces_->drawOpaqueVisible(first, count, sum_->layerDepths(), layer);
     }
 
-    // A GPU draws what is hidden sooner than its depths come back.
+    // Returns whether to cull hidden triangles. A GPU draws them faster than it reads back the depths for the test.
     [[nodiscard]] bool leavesOutHidden() const { return currentIsSoftware() && !plan_.settings.keepAll; }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
+    std::uint32_t wave_;  // K requested; 0: as many as fit into waveBytes
     GpuScene scene_;
     FramePlan plan_;
-    std::uint32_t samplesBefore_ = 0;       // in the sum when the plan was begun
-    std::unique_ptr<SharedImages> shared_;  // null: every sample draws everything
-    FramePlan block_;                       // what the samples of the block draw by themselves, where they share
-    std::uint32_t drawsBegin_ = 0;          // the plan's sample that is the first of draws()
+    std::uint32_t samplesBefore_ = 0;       // samples in the sum when the plan was begun
+    std::unique_ptr<SharedImages> shared_;  // null: every sample draws all objects
+    FramePlan block_;                       // with shared images: the unshared draws of the current block
+    std::uint32_t drawsBegin_ = 0;          // index in the plan of the first sample of draws()
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<ShadowMaps> shadows_;

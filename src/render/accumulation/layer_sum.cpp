@@ -69,12 +69,8 @@ void LayerSum::beginWave() {
     glDepthMask(GL_TRUE);
     constexpr float farthest = 0;  // reversed depth
     constexpr float transparent[4] = {};
-    constexpr GLuint nothingDrawn[4] = {};
     glClearNamedFramebufferfv(layerTarget_.name(), GL_DEPTH, 0, &farthest);
-    if (info_.format == LayerFormat::rgb9e5)
-        glClearNamedFramebufferuiv(layerTarget_.name(), GL_COLOR, 0, nothingDrawn);
-    else
-        glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
+    glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
 }
 
 void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
@@ -162,8 +158,8 @@ void LayerSum::makeMean() {
         meanTarget_ = Target({&mean_});
     }
     const float divisor = countsInAlpha_ ? 0.0f : static_cast<float>(samples_);
-    // An unfinished block is added to a copy: the frame's own sum goes on at the block border. The first one is the
-    // whole sum.
+    // Adds an unfinished block to a copy of the frame's sum; the frame's sum itself continues at the block border. The
+    // first block needs no addition.
     const bool unfinished = samples_ % blockSamples != 0;
     const bool isFirst = samples_ < blockSamples;
     if (isFirst && blursCells_)

@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// px that rays see beyond the image, at most half of its longer side.
+// Returns how far rays see beyond the image, in px; at most half of its longer side.
 int borderOf(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
@@ -25,7 +25,8 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// K: as many images of lens samples as the memory allows, at most a run: a power of two, so that runs are whole waves.
+// Returns K: as many samples per wave as fit into the memory, at most `run`. K is a power of two, so that runs are
+// complete waves.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =
@@ -55,7 +56,8 @@ public:
         run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
         const int border = borderOf(plan);
         pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
-        // A ray begins somewhere in the pixel of its pinhole's layers, which themselves have a place in the pixel.
+        // A ray's position in the pixel is relative to the layers of its pinhole, which have an offset in the pixel
+        // themselves.
         plan_ = plan;
         plan_.moments.clear();
         for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;
@@ -112,15 +114,14 @@ public:
     }
 
 private:
-    // Each has runs of samples that follow each other, which are well spread over the lens.
+    // Returns the pinhole of a sample. Each pinhole has runs of consecutive samples, which are well distributed over
+    // the lens.
     [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
         return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());
     }
 
     void prepareTargets(int border) {
-        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
-        if (format != LayerFormat::rgba16f && format != LayerFormat::rgba32f)
-            fail("layer format {}: method layered needs rgba16f or rgba32f", layerFormatName(format));
+        const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         const View& view = plan_.view;
         const auto layers = static_cast<std::uint32_t>(numberOf(options_.settings, "layers"));
         const DepthLayersInfo depth{.width = view.width + 2 * border,
@@ -130,7 +131,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // before the new ones are made: both may not fit
+            layers_.reset();  // frees the old layers first: memory may not hold both
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,
@@ -167,7 +168,7 @@ private:
         stats_.trianglesDrawn += pinholes_.trianglesDrawn / pinholeCount_ * passes;
     }
 
-    // Simpler skies are composed when layers are added.
+    // Environments other than maps are composited when layers are added.
     [[nodiscard]] bool drawsSky() const {
         return !plan_.needsAlpha && scene_.world().environment.type == EnvironmentType::map;
     }
@@ -184,7 +185,7 @@ private:
         sky_->prepare(empty, frame_);
     }
 
-    // Behind what the layers already hold.
+    // Draws the sky behind the content of the layers.
     void drawSky(std::uint32_t first, std::uint32_t count) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
@@ -193,18 +194,18 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
+    std::uint32_t wave_;  // K requested; 0: as many as fit into waveBytes
     GpuScene scene_;
-    FramePlan plan_;      // whose samples' places are in the layers, with their pinhole's added
-    FramePlan pinholes_;  // widened, a sample each
+    FramePlan plan_;      // sample positions include the offset of their pinhole
+    FramePlan pinholes_;  // widened by the border; one sample per pinhole
     std::uint32_t pinholeCount_ = 1;
-    std::uint32_t run_ = 1;  // samples that see the same pinhole; it divides a block
+    std::uint32_t run_ = 1;  // consecutive samples with the same pinhole; divides a block
     FrameUniforms pinholeFrame_, frame_;
     std::optional<DepthLayers> layers_;
     std::optional<LensRays> rays_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> sky_;
-    std::optional<std::uint32_t> peeled_;  // pinhole whose layers there are
+    std::optional<std::uint32_t> peeled_;  // pinhole of the current layers
     std::uint32_t maxLayers_ = 0;
     mutable FrameClock clock_;
     RenderStats stats_;

@@ -77,7 +77,7 @@ private:
         pinhole.readAsCoverage(false);
     }
 
-    // Into the alpha of what is drawn.
+    // Writes the blurred coverage into the alpha of the layer.
     void drawCoverage() {
         blurCoverage(pinhole_->image());
         sum_->layers().bind();
@@ -87,7 +87,7 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    // A bucket over what is drawn.
+    // Composites a blurred bucket over the layer.
     void layOver(PinholeImage& bucket) {
         if (!process_->blursAsTheLens()) bucket.part.reset();
         process_->draw(bucket, frame_, radianceTarget_);
@@ -103,7 +103,7 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    // Makes an image that the process draws into, of the frame's size and format.
+    // Allocates an intermediate image of the frame's size and format, unless it exists.
     void prepareImage(GlTexture& image, Target& target) const {
         const LayerSumInfo& frame = sum_->info();
         const TextureFormat format = layerTextureFormat(frame.format);
@@ -118,14 +118,12 @@ private:
     }
 
     void prepareTargets(bool hasBuckets) {
-        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
-        if (format != LayerFormat::rgba16f && format != LayerFormat::rgba32f)
-            fail("layer format {}: post-process methods need rgba16f or rgba32f", layerFormatName(format));
+        const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         const View& view = plan_.view;
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            sum_.reset();  // before the new one is made: both may not fit
+            sum_.reset();  // frees the old sum first: memory may not hold both
             sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
             pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
@@ -144,8 +142,8 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred; empty where neither the background was transparent yet nor there was a bucket
-    GlTexture radiance_;  // of a bucket, blurred; likewise
+    GlTexture coverage_;  // blurred; allocated with a transparent background or buckets
+    GlTexture radiance_;  // blurred radiance of a bucket; allocated with buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;
     Fullscreen fullscreen_;

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// A software driver's own memory: its compiled programs, and the triangles that it bins until a layer is done.
+// Memory of a software driver itself: compiled programs, and the triangles that it bins until a layer is finished.
 constexpr std::uint64_t programBytes = 80u << 20;
 constexpr std::uint64_t binnedTriangleBytes = 96;
 constexpr std::uint64_t maxBinnedBytes = 256u << 20;
@@ -23,7 +23,7 @@ std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
 }
 
-// a − b, at least 0.
+// Returns a − b, clamped to 0.
 std::uint64_t remainder(std::uint64_t a, std::uint64_t b) {
     return a > b ? a - b : 0;
 }
@@ -32,7 +32,7 @@ std::uint64_t pixelsOf(int width, int height) {
     return std::uint64_t(width) * std::uint64_t(height);
 }
 
-// Bytes that a software driver takes for the plan's meshes, the scene's textures and its own programs.
+// Returns the bytes that a software driver needs for the plan's meshes, the scene's textures and its own programs.
 std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
     std::uint64_t bytes = programBytes;
     for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {
@@ -60,8 +60,8 @@ std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
     return bytes;
 }
 
-// What the frame needs and has, as the process is now. `drawn`: bytes of layers and sums that are about to be replaced.
-// `heldByDevice`: bytes that the scene takes on a GPU.
+// Returns the needs of the frame and the memory available to the process at this time. `drawn`: bytes of layers and
+// sums that are about to be replaced. `heldByDevice`: bytes of the scene on a GPU.
 TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
                          std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
     TilingNeeds needs;
@@ -69,7 +69,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.height = plan.view.height;
     needs.rows = {0, plan.view.height};
     const std::uint64_t backdropFactor = plan.usesTransmission ? 2 : 1;
-    needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, plan, limits.layerFormat)) * backdropFactor;
+    needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor;
     needs.layerMaps = shadowMapBytes(plan);
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = limits.wave;
@@ -90,14 +90,14 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     return needs;
 }
 
-// The first row of the plan's first cell, which costs all that a tile costs beside its own pixels.
+// Returns the first row of the plan's first cell. Drawing it costs everything that a tile needs except its pixels.
 Tile trialTile(const FramePlan& plan) {
     const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
     const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();
     return {{cell.left, cell.top, cell.width, 1}, cell};
 }
 
-// Bytes of the trial's layer, its shadow maps and its sums.
+// Returns the bytes of the trial's layer, shadow maps and sums.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
     return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
            pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;
@@ -140,7 +140,7 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     renderer.setWave(1);
     renderer.start(tileOf(plan, trial));
     renderer.advance();
-    static_cast<void>(renderer.image());  // drivers hold on to layers until what was drawn of them is read
+    static_cast<void>(renderer.image());  // drivers may hold layers until their result is read
     return currentNeeds(world, plan, limits, limit, drawn, remainder(renderer.stats().peakBytes, drawn));
 }
 

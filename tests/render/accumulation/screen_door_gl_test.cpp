@@ -67,7 +67,7 @@ TEST_F(ScreenDoor, waveSizeChangesNoBit) {
     small->view.height = 60;
     const FramePlan plan = planFrame(small->world, small->view, continuousFor(70));
     ASSERT_GE(sharingObjects(plan), 2);
-    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
+    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
         RendererOptions options;
         options.layerFormat = format;
         options.wave = 1;

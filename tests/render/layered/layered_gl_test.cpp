@@ -241,9 +241,6 @@ std::string layeredFault(const SmallWorld& small, const RendererOptions& options
 
 TEST_F(Layered, refusesByNameWhatItCannotDraw) {
     const auto small = fiveSpheres();
-    RendererOptions shared;
-    shared.layerFormat = LayerFormat::rgb9e5;
-    EXPECT_NE(layeredFault(*small, shared).find("layer format rgb9e5"), std::string::npos);
     small->view.lens.axialChromaticAberration = 0.1;
     EXPECT_EQ(layeredFault(*small), "");
     small->view.lens.focusTilt = 0.2;
