@@ -1,6 +1,6 @@
 #pragma once
-// Shapes of the aperture and their light, straight from the definitions: what maps, rasteriser and ray tracer must
-// show.
+// Aperture shapes and their light distribution, computed from the definitions. Tests compare aperture maps, the
+// rasterizer and the ray tracer with them.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@
 
 namespace defocus::engine {
 
-// The polygon's edge in the direction of `p`, as the blades' curvature has it; the first corner lies at the rotation.
+// Radius of the aperture polygon in the direction of `p`, with the curvature of the blades. The first corner lies at
+// the lens's rotation.
 inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     if (lens.bladeCount == 0) return 1;
     const double width = 2 * std::numbers::pi / lens.bladeCount;
@@ -23,11 +24,12 @@ inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
 }
 
-// The light's density at a point, up to a factor.
+// Density of the light at a point of the lens, up to a constant factor.
 inline double lightDensity(const Lens& lens, glm::dvec2 p) {
     p.x *= std::max(lens.anamorphicRatio, 1.0);
     p.y /= std::min(lens.anamorphicRatio, 1.0);
-    const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);  // share that lies nearer to the centre
+    // share of the aperture nearer to the centre than p
+    const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);
     const double hidden = lens.obstruction * lens.obstruction;
     if (area > 1 || area < hidden) return 0;
     return 1 + lens.sphericalAberration * (2 * (area - hidden) / (1 - hidden) - 1);
@@ -72,7 +74,7 @@ inline const ApertureShape apertureShapes[] = {
     {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
 };
 
-// The value of the pixel under a point of the lens, 0 outside the disk.
+// Value of the aperture image's pixel under a point of the lens; 0 outside the unit disk.
 inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     const double half = 0.5 * std::max(image.width, image.height);
     const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));
@@ -81,14 +83,15 @@ inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     return *image.at(x, y);
 }
 
-// Either of them, whichever the lens has; images are not turned or narrowed here.
+// Light distribution over the lens: the aperture image if the lens has one, else the density of its shape. Rotation and
+// squeeze of the image are ignored.
 inline auto lightOf(const Lens& lens) {
     return [lens](const glm::dvec2& p) {
         return lens.apertureImage ? apertureImageAt(*lens.apertureImage, p) : lightDensity(lens, p);
     };
 }
 
-// Wider than tall, with black parts, a black last row and a value far above 1.
+// Aperture image that is wider than tall, with black parts, a black last row and values far above 1.
 inline Image lopsidedImage() {
     Image image(9, 5, 1);
     const char* const rows[] = {"001230000", "000450021", "090002112", "003300220", "000000000"};

@@ -1,7 +1,7 @@
 #pragma once
-// A scene whose colours two renderers can't disagree about: every material unlit and opaque, textures dropped, Lambert
-// from one fixed direction baked into vertex colours, which both interpolate linearly. What is left to compare is
-// geometry, visibility, projection and the lens.
+// Bakes a scene's lighting so that two renderers must agree on its colours. Every material becomes unlit and opaque,
+// and textures are dropped. Lambert shading from one fixed direction goes into vertex colours, which both renderers
+// interpolate linearly. Remaining differences come from geometry, visibility, projection and the lens.
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// A textured material takes a colour of its own, so that its parts can still be told apart.
+// Textured materials get distinct colours from a palette, so that the parts of the scene remain distinguishable.
 inline glm::vec4 bakedColor(const Material& material, std::size_t index) {
     constexpr std::array<glm::vec3, 6> palette = {glm::vec3(0.80f, 0.35f, 0.20f), glm::vec3(0.25f, 0.55f, 0.75f),
                                                   glm::vec3(0.70f, 0.65f, 0.25f), glm::vec3(0.35f, 0.65f, 0.35f),
@@ -46,7 +46,7 @@ inline Scene bakedUnlit(Scene scene) {
         baked.unlit = true;
         scene.materials[i] = std::move(baked);
     }
-    // Primitives without a material get one too: glTF's default material is lit.
+    // Primitives without a material get an unlit one, since glTF's default material is lit.
     Material plain;
     plain.name = "baked default";
     plain.unlit = true;

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with closed-form images, and what is measured on them: a small emissive quad on black, through a lens.
+// Scenes with closed-form images, a small emissive quad on black through a lens, and measurements of their images.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace defocus::engine {
 
-// A camera at the origin, 50 mm on a 36 mm sensor, with a lens half a metre wide, so that small images show large
-// blurs: c = 0.694·W·|1/2 − 1/z| px, which is 0.231·W at 1.2 m and at 6 m.
+// A camera at the origin, 50 mm on a 36 mm sensor. Its lens is half a metre wide, so that small images show large
+// blurs: c = 0.694·W·|1/2 − 1/z| px, or 0.231·W at 1.2 m and at 6 m.
 inline View bokehView(int width, int height) {
     View view;
     view.width = width;
@@ -32,7 +32,7 @@ inline double tanHalf(const View& view) {
     return view.lens.horizontalAperture / (2 * view.lens.focalLength);
 }
 
-// The blur diameter in px by DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)).
+// Blur diameter in px by the formula of DESIGN, c = A·|1/s − 1/z|·W / (2 tan(θx/2)).
 inline double blurDiameter(const View& view, double depth) {
     const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
     return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width / (2 * tanHalf(view));
@@ -80,7 +80,7 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
     return scene;
 }
 
-// The world of a scene whose nodes are all roots without children; there are no pyramids yet.
+// World of a scene whose nodes are all roots without children; it has no pyramids.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
     world.scene = std::make_shared<const Scene>(scene);
@@ -101,11 +101,11 @@ inline Environment blackBackground() {
     return environment;
 }
 
-// The image of a square of `square` px around the image's middle, at a depth behind the focus, whose light adds up to
-// `energy`: `light` (of a point of the lens) spread over the blur, the square and the pixels.
+// Expected image of a centred square of `square` px at a depth behind the focus. The light sums to `energy`. `light`, a
+// function of the lens position, is convolved with the square and the pixels.
 template <typename Light>
 Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
-    constexpr int size = 400;  // places a side of the lens
+    constexpr int size = 400;  // grid points along each side of the lens
     const double radius = blurDiameter(view, depth) / 2;
     Image image(view.width, view.height, 1);
     double all = 0;
@@ -128,7 +128,7 @@ Image expectedBokeh(const View& view, double depth, double square, double energy
     return image;
 }
 
-// Which share of the light of `a` lies in other blocks of 2 × 2 px than that of `b`; of the first channel.
+// Share of the light that lies in different blocks of 2 × 2 px in `a` and `b`, measured in the first channel.
 inline double misplacedLight(const Image& a, const Image& b) {
     double sum = 0;
     double all = 0;

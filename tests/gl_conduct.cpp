@@ -1,18 +1,15 @@
-// Watches what the tests of an executable ask of OpenGL, whichever part of the library asks:
-// - Every context is a debug context. What the driver reports with high or medium severity fails the test that ran.
-// Those
-//   that do wrong on purpose say so with ExpectedGlMessages (gl_conduct.h).
-// - Every shader is kept and, once all tests are done, given to Khronos's glslangValidator, which takes nothing that
-// isn't
-//   GLSL 4.50 core or an extension that the shader names. A driver may take more.
+// Watches the OpenGL calls of all tests in an executable:
+// - Every context is a debug context. Driver messages of high or medium severity fail the running test. Tests that
+//   cause them on purpose use ExpectedGlMessages (gl_conduct.h).
+// - After all tests, Khronos's glslangValidator checks every shader. It accepts only GLSL 4.50 core and the extensions
+//   that the shader names; a driver may accept more.
+// - If DEFOCUS_EXPECTED_DRIVER is set in the environment, all tests skip on other drivers.
 //
-// - With DEFOCUS_EXPECTED_DRIVER in the environment all tests skip where another driver draws.
-//
-// libepoxy calls OpenGL and EGL through pointers. Those of a few functions lead here first.
+// libepoxy calls OpenGL and EGL through pointers. This file redirects the pointers of a few functions.
 
 #include "gl_conduct.h"
 
-// epoxy before EGL's own headers
+// epoxy must precede EGL's own headers
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -36,9 +33,9 @@ namespace defocus::engine {
 namespace {
 
 std::mutex mutex;
-int expected = 0;                                       // objects of ExpectedGlMessages that live
-std::set<std::pair<std::string, std::string>> shaders;  // extension of the stage, text
-std::map<GLuint, const char*> stages;                   // of the current shaders' names
+int expected = 0;                                       // live ExpectedGlMessages objects
+std::set<std::pair<std::string, std::string>> shaders;  // file extension of the stage, source
+std::map<GLuint, const char*> stages;                   // stage of each live shader object
 
 const char* extensionOf(GLenum stage) {
     switch (stage) {
@@ -57,8 +54,8 @@ const char* extensionOf(GLenum stage) {
     }
 }
 
-// A pointer of libepoxy's that leads to `mine`, and what it held before. That is at first a function of libepoxy's own,
-// which must be called through the pointer: it looks up the driver's function and leaves it there.
+// Redirects a pointer of libepoxy to `mine` and keeps its original value. Initially that is libepoxy's resolver, which
+// must be called through the pointer: it looks up the driver's function and stores it there.
 template <typename Function>
 class Detour {
 public:
@@ -126,7 +123,7 @@ void EPOXY_CALLSPEC report(GLenum /*source*/, GLenum type, GLuint id, GLenum sev
     if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
     const std::string_view said(text,
                                 length < 0 ? std::char_traits<char>::length(text) : static_cast<std::size_t>(length));
-    // NVIDIA's driver compiles a shader once more for the state that it is first drawn in, and says so.
+    // NVIDIA's driver recompiles a shader for the state of its first draw and reports that.
     if (type == GL_DEBUG_TYPE_PERFORMANCE && said.find("is being recompiled") != std::string_view::npos) return;
     const std::scoped_lock lock(mutex);
     if (expected > 0) return;
@@ -143,7 +140,7 @@ EGLBoolean EPOXY_CALLSPEC makeCurrent(EGLDisplay display, EGLSurface draw, EGLSu
     return made;
 }
 
-// What a command prints, and whether it went well.
+// Returns a command's output and whether it succeeded.
 std::pair<std::string, bool> outputOf(const std::string& command) {
     std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
     if (pipe == nullptr) return {"popen failed", false};
@@ -183,7 +180,7 @@ public:
             std::ofstream(folder / name) << text;
             files[name] = &text;
         }
-        // All at once; one by one only to tell which is wrong.
+        // Validates all shaders at once; after a failure one by one, to find the wrong ones.
         if (!outputOf(validate + "*.*").second)
             for (const auto& [name, text] : files) {
                 const auto [output, valid] = outputOf(validate + name);

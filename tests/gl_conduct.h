@@ -1,9 +1,9 @@
 #pragma once
-// See gl_conduct.cpp, which watches what the tests with "_gl" in their names ask of OpenGL.
+// gl_conduct.cpp watches the OpenGL calls of tests with "_gl" in their names.
 
 namespace defocus::engine {
 
-// While it lives, messages of the driver are expected, and shaders may be wrong.
+// During the lifetime of this object, driver messages are expected and shaders may be invalid.
 class ExpectedGlMessages {
 public:
     ExpectedGlMessages();

@@ -1,5 +1,5 @@
 #pragma once
-// How alike images and arrays are, for tests.
+// Measures how similar images and arrays are.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ inline bool sameBits(const Image& a, const Image& b) {
     return sameBits(a.pixels, b.pixels);
 }
 
-// Over all channels of all pixels; infinite if one is NaN. The images must have one size.
+// Max absolute difference over all channels and pixels; infinite if a value is NaN. The images must have the same size.
 inline double largestDifference(const Image& a, const Image& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
-// Finds the models for tests. The project's own (meshes/…) and small public ones (tests/data/models) are in the
-// repository. Larger public ones lie in $DEFOCUS_MODELS_DIR, else in a folder beside the checkout; a test that needs
-// one skips where it is absent.
+// Finds models for tests. The project's own (meshes/…) and small public ones (tests/data/models) are in the repository.
+// Larger public models lie in $DEFOCUS_MODELS_DIR, or in a folder beside the checkout by default. Tests skip if their
+// model is absent.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Public models in the repository, and all of them.
+// Folders of public models: those in the repository, and the complete set.
 inline std::filesystem::path keptModelsDirectory() {
     return std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models";
 }
@@ -22,7 +22,8 @@ inline std::filesystem::path modelsDirectory() {
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
 }
 
-// A name that begins with "meshes/" or "tests/" counts from the repository's root. Others are public models'.
+// A name that begins with "meshes/" or "tests/" is relative to the repository's root. Other names are those of public
+// models.
 inline std::filesystem::path modelPath(const std::filesystem::path& name) {
     if (!name.empty() && (*name.begin() == "meshes" || *name.begin() == "tests"))
         return std::filesystem::path(DEFOCUS_SOURCE_DIR) / name;
@@ -30,7 +31,7 @@ inline std::filesystem::path modelPath(const std::filesystem::path& name) {
     return std::filesystem::exists(kept) ? kept : modelsDirectory() / name;
 }
 
-// A test's name may have letters, digits and _ of ASCII only.
+// Replaces characters that a test's name may not contain: all except ASCII letters, digits and _.
 inline std::string testNameOf(std::string text) {
     std::ranges::replace_if(
         text, [](unsigned char c) { return c > 127 || std::isalnum(c) == 0; }, '_');

@@ -1,5 +1,5 @@
 #pragma once
-// What a running process holds, by /proc.
+// Memory and handles of a running process, from /proc.
 
 #include <sys/types.h>
 
@@ -12,8 +12,8 @@
 namespace defocus::engine {
 
 struct Held {
-    double megabytes = 0;  // resident, without pages of files, which the system drops and loads as it likes
-    int handles = 0;       // open descriptors
+    double megabytes = 0;  // resident memory without file pages, which the system drops and reloads at will
+    int handles = 0;       // open file descriptors
 };
 
 inline Held heldBy(pid_t process) {
@@ -29,7 +29,7 @@ inline Held heldBy(pid_t process) {
     return held;
 }
 
-// A number of rounds from the environment, where scripts/soak asks for more than the tests do.
+// Number of rounds from an environment variable, which scripts/soak sets higher than the default.
 inline int roundsOr(const char* variable, int standard) {
     const char* const text = std::getenv(variable);
     return text != nullptr ? std::atoi(text) : standard;

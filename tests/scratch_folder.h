@@ -1,5 +1,5 @@
 #pragma once
-// A folder of a test's own, removed at its end.
+// A temporary folder for one test, removed at its end.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ private:
     std::filesystem::path path_;
 };
 
-// The message of the Error that `body` throws; empty when it throws none.
+// Returns the message of the Error that `body` throws; empty if it throws none.
 template <typename ErrorType, typename Body>
 std::string messageOf(const Body& body) {
     try {

@@ -1,5 +1,5 @@
 #pragma once
-// Values that arithmetic meets at its ends, for tests.
+// Special and extreme floating-point values for tests.
 
 #include <limits>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The scenes on which the rasteriser is held against the ray tracer, baked to unlit, each with a view through a wide
-// lens; and the ways in which two images are compared beyond a single number.
+// Scenes on which the rasterizer is compared with the ray tracer, baked to unlit materials, each with a view through a
+// wide lens. Further functions compare two images in more detail than a single number.
 
 #include <algorithm>
 #include <array>
@@ -24,14 +24,14 @@ struct TruthScene {
     TruthScene(const TruthScene&) = delete;
     TruthScene& operator=(const TruthScene&) = delete;
 
-    Scene& scene;  // the world's
+    Scene& scene;  // the world's scene
     World world;
     View view;
 };
 
 namespace truth_detail {
 
-// Focus a third into the scene's depth; the f-number that blurs its nearest or farthest point by `blur` px.
+// Focuses at a third of the scene's depth, and sets the f-number that blurs the nearest or farthest point by `blur` px.
 inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
     View& view = truth.view;
     const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
@@ -53,8 +53,8 @@ inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
 
 }  // namespace truth_detail
 
-// A scene at full detail, `width` × `height` px; the camera's own lens where it has one, else blur up to 24 px at 512
-// px.
+// A scene at full detail, `width` × `height` px. The lens is the camera's own, if it has one. Otherwise the blur is at
+// most 24 px, for a width of 512 px.
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
     auto truth = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
     truth->world.pose = poseAt(truth->scene, 0, -1);
@@ -76,15 +76,15 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
     settings.sampleCount = samples;
     settings.seed = seed;
     settings.lod = LodMode::off;
-    settings.sequence = Sequence::halton;  // the limits of what uses these settings were found with its points
+    settings.sequence = Sequence::halton;  // the tests' limits were determined with the Halton sequence
     return settings;
 }
 
-// Mean signed difference b − a over blocks of 32×32 px and three colours.
+// Mean signed difference b − a over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
-    double mean = 0;     // over the image
-    double rms = 0;      // of the blocks' means
-    double largest = 0;  // greatest absolute mean of a block
+    double mean = 0;     // over the whole image
+    double rms = 0;      // RMS of the blocks' means
+    double largest = 0;  // max absolute mean of a block
 };
 
 inline BlockDifference blockDifference(const Image& a, const Image& b) {
@@ -110,8 +110,8 @@ inline BlockDifference blockDifference(const Image& a, const Image& b) {
     return result;
 }
 
-// By how many px (right, down) and by which share of growth about the centre `b` differs from `a`, by least squares on
-// the first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade 1981).
+// Shift in px (right, down) and relative growth about the centre of `b` against `a`. Least-squares fit of the
+// first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade 1981).
 struct Misplacement {
     double right = 0;
     double down = 0;
@@ -137,7 +137,7 @@ inline Misplacement misplacement(const Image& a, const Image& b) {
     return {solved.x, solved.y, solved.z};
 }
 
-// How much of the change `from` → `to` there is in a → b: the factor of the least-squares fit.
+// Share of the change `from` → `to` in the change a → b: the factor of the least-squares fit.
 inline double shareOfChange(const Image& a, const Image& b, const Image& from, const Image& to) {
     double along = 0;
     double square = 0;
@@ -149,7 +149,7 @@ inline double shareOfChange(const Image& a, const Image& b, const Image& from, c
     return along / square;
 }
 
-// The signed difference b − a times `gain` around middle grey, for people to look at.
+// Signed difference b − a times `gain` around middle grey, for visual inspection.
 inline Image differenceImage(const Image& a, const Image& b, float gain) {
     Image result(a.width, a.height, 3);
     for (int y = 0; y < a.height; ++y) {

@@ -9,6 +9,7 @@ COMMANDS = {  # each is a module of this package
     "report": "draw index.html from results of benches, as --report does",
     "tables": "write the tables of README.md and docs/ from bench/results",
     "plots": "draw docs/plots from bench/results",
+    "concepts": "draw docs/concepts, the figures of docs/concepts.md",
     "lens": "render bench/results/lens, with the page that shows it",
     "first-pictures": "render docs/first-pictures.jpg",
     "artefacts": "render known artefacts of image-space methods for a report",

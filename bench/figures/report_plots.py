@@ -80,8 +80,8 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
     rows = [row for rows in drawn.values() for row in rows]
     errors = [error for error in (*map(error_of, rows), *floors.values(), own_error) if error > 0]
     axes.set_ylim(min(errors) / 1.6, max(errors) * 1.6)
-    most = max(row["milliseconds"]["high"] for row in rows)
-    axes.set_xlim(min(row["milliseconds"]["low"] for row in rows) / 1.4, most * 1.6)
+    highest = max(row["milliseconds"]["high"] for row in rows)
+    axes.set_xlim(min(row["milliseconds"]["low"] for row in rows) / 1.4, highest * 1.6)
 
     ends, described = [], []
     for key, one in series.items():
@@ -90,8 +90,8 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
         times, errors = draw_series(axes, one, drawn[key], error_of, name)
         end = (times[-1], errors[-1])
         if floors.get(key, 0) > 0:
-            axes.plot([times[-1], most * 1.6], [floors[key]] * 2, "--", color=one["colour"], linewidth=1.3, zorder=2)
-            end = (most * 1.6, floors[key])
+            axes.plot([times[-1], highest * 1.6], [floors[key]] * 2, "--", color=one["colour"], linewidth=1.3, zorder=2)
+            end = (highest * 1.6, floors[key])
         ends.append((*end, one["label"], one["colour"], one["marker"]))
         described.append(f"{one['label']}: {errors[0]:.3g} in {time_text(times[0])}"
                          + (f" to {errors[-1]:.3g} in {time_text(times[-1])}" if len(times) > 1 else ""))

@@ -1,5 +1,5 @@
 #pragma once
-// Which camera a picture is taken with.
+// Choice of the camera that a picture is taken with.
 
 #include <array>
 #include <string>
@@ -9,18 +9,18 @@ namespace defocus {
 
 using Vector3 = std::array<double, 3>;
 
-// The file's first camera; a camera that frames the scene if the file has none.
+// Selects the file's first camera, or a camera that frames the scene if the file has no camera.
 struct FirstCamera {
     bool operator==(const FirstCamera&) const = default;
 };
 
-// The file's camera of this name.
+// Selects the camera with this name in the file.
 struct NamedCamera {
     std::string name;
     bool operator==(const NamedCamera&) const = default;
 };
 
-// A camera that frames the scene, whatever cameras the file has.
+// Selects a camera that frames the scene; cameras in the file are ignored.
 struct FramingCamera {
     bool operator==(const FramingCamera&) const = default;
 };

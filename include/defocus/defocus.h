@@ -1,5 +1,5 @@
 #pragma once
-// All of the library: scene, camera and lens, request, renderer, image, error.
+// Includes the complete public interface of the library. Example:
 //
 //   defocus::Request request;
 //   request.scene = "scene.glb";

@@ -1,6 +1,6 @@
 #pragma once
-// What defocus throws. A runtime failure (a file, a setting, a shader, the driver) is an Error whose text is ONE line:
-// what was being done, the file or name concerned, and what to do about it.
+// Exceptions of the library. Every runtime failure (file, setting, shader, driver) throws Error. The text of an Error
+// is one line: the failed action, the file or name concerned, and what to do about it.
 
 #include <stdexcept>
 
@@ -13,7 +13,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// What was asked for makes no sense by itself, whatever the files hold: a value out of its range, an unknown name.
+// An invalid request, whatever the files contain: a value out of its range or an unknown name.
 class DEFOCUS_API UsageError : public Error {
 public:
     using Error::Error;

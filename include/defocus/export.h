@@ -1,5 +1,5 @@
 #pragma once
-// What the shared library shows of itself: nothing but what these headers declare.
+// Symbol visibility: the shared library exports only what is marked DEFOCUS_API.
 
 #if defined(__GNUC__)
 #define DEFOCUS_API __attribute__((visibility("default")))

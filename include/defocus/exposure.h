@@ -1,21 +1,21 @@
 #pragma once
-// How bright PNG, JPEG and video are made of linear radiance.
+// Exposure of PNG, JPEG and video: the gain that is applied to linear radiance before tone mapping.
 
 #include <variant>
 
 namespace defocus {
 
-// From the lens's exposure time if it has one; otherwise metered if the scene has lights of its own; otherwise 0 EV.
+// Follows the lens's exposure time if it is set. Otherwise the scene is metered if it has lights, or else 0 EV applies.
 struct DefaultExposure {
     bool operator==(const DefaultExposure&) const = default;
 };
 
 struct ExposureValue {
-    double ev = 0;  // −60 … 60; each step doubles the brightness
+    double ev = 0;  // [−60, 60]; each step doubles the brightness
     bool operator==(const ExposureValue&) const = default;
 };
 
-// Metered from the scene, once for all frames of a film.
+// Exposure metered from the scene, once for all frames of a video.
 struct MeteredExposure {
     bool operator==(const MeteredExposure&) const = default;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Where a lens is focused.
+// Choice of the focus distance of a lens.
 
 #include <string>
 #include <variant>
@@ -9,35 +9,36 @@
 
 namespace defocus {
 
-// The camera's own focus distance; FocusAuto if the file gives none.
+// Uses the focus distance of the file's camera, or FocusAuto if the file gives none.
 struct CameraFocus {
     bool operator==(const CameraFocus&) const = default;
 };
 
 struct FocusDistance {
-    double metres = 1;  // along the view axis, > 0
+    double metres = 1;  // m along the view axis, > 0
     bool operator==(const FocusDistance&) const = default;
 };
 
-// The centre of a node.
+// Focuses on the centre of a node.
 struct FocusNode {
     std::string name;
     bool operator==(const FocusNode&) const = default;
 };
 
-// The surface that a pixel shows.
+// Focuses on the surface that a pixel shows.
 struct FocusPixel {
     Pixel pixel;
     bool operator==(const FocusPixel&) const = default;
 };
 
-// The surfaces that 3 … 16 pixels show: three define a focus plane, more a curved focus surface near them.
+// Focuses on the surfaces at 3 to 16 pixels. Three pixels define a focus plane; more pixels define a curved focus
+// surface that passes near the points.
 struct FocusPoints {
     std::vector<Pixel> pixels;
     bool operator==(const FocusPoints&) const = default;
 };
 
-// The median depth of the surfaces in the image's middle.
+// Focuses at the median depth of the surfaces in the middle of the image.
 struct FocusAuto {
     bool operator==(const FocusAuto&) const = default;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Float images: rendered, read from files, written to files, compared.
+// Float images: functions to read, write and compare them.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace defocus {
 
-// Row 0 is the TOP row, channels are interleaved, colours are linear Rec.709, alpha is premultiplied coverage.
+// An image of linear Rec.709 colour. Row 0 is the top row, channels are interleaved, and alpha is premultiplied
+// coverage.
 struct Image {
     int width = 0;
     int height = 0;
@@ -28,7 +29,7 @@ struct Image {
                  static_cast<std::size_t>(imageChannels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
-    // The first channel of the pixel in column x from the left and row y from the top.
+    // Returns a pointer to the first channel of the pixel in column x (from the left) and row y (from the top).
     [[nodiscard]] float* at(int x, int y) { return pixels.data() + offset(x, y); }
     [[nodiscard]] const float* at(int x, int y) const { return pixels.data() + offset(x, y); }
 
@@ -39,7 +40,7 @@ private:
     }
 };
 
-// Pixels that somebody keeps, read where they lie: an Image's, or others of the same layout.
+// Read-only view of pixels that are stored elsewhere, in the same layout as an Image. It must not outlive the pixels.
 struct ImageView {
     int width = 0;
     int height = 0;
@@ -49,12 +50,12 @@ struct ImageView {
     ImageView() = default;
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
         : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values) {}
-    // NOLINTNEXTLINE(google-explicit-constructor): an Image goes wherever pixels are only read
+    // NOLINTNEXTLINE(google-explicit-constructor): implicit, so that functions that only read pixels accept an Image
     ImageView(const Image& image)
         : ImageView(image.width, image.height, image.channels, std::span<const float>(image.pixels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
-    // As Image::at.
+    // Returns a pointer to the first channel of a pixel, like Image::at.
     [[nodiscard]] const float* at(int x, int y) const {
         return pixels.data() +
                (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
@@ -69,12 +70,12 @@ struct Pixel {
     bool operator==(const Pixel&) const = default;
 };
 
-// The curve from linear values to display values, before the sRGB encoding.
+// Curve from linear values to display values, applied before the sRGB encoding.
 enum class ToneMap {
     none,     // clip to [0, 1]
     aces,     // ACES filmic, fit by Stephen Hill (RRT and ODT)
-    agx,      // AgX, Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
-    neutral,  // Khronos PBR Neutral: colours stay as they are up to 0.8, and highlights roll off to white
+    agx,      // AgX by Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
+    neutral,  // Khronos PBR Neutral: keeps colours up to 0.8 and rolls highlights off to white
 };
 
 struct WriteOptions {
@@ -82,33 +83,36 @@ struct WriteOptions {
     double exposure = 0;              // EV; PNG and JPEG only
 };
 
-// Reads PNG, JPEG, OpenEXR, Radiance HDR or TIFF, told apart by content, as linear float with 1, 3 or 4 channels
-// (integer formats are decoded from sRGB, straight alpha is premultiplied, grey with alpha becomes RGBA). Of an EXR
-// with more channels R, G, B and A are taken. Throws Error naming the file and the fault.
+// Reads PNG, JPEG, OpenEXR, Radiance HDR or TIFF as linear float with 1, 3 or 4 channels. The content, not the
+// extension, determines the format. Integer formats are decoded from sRGB, straight alpha is premultiplied, and grey
+// with alpha becomes RGBA. From an EXR file with more channels, only R, G, B and A are read. Throws Error naming the
+// file and the fault.
 DEFOCUS_API Image readImage(const std::filesystem::path& path);
 
-// Writes by extension: .exr (32-bit float, ZIP, linear), .png (tone-mapped, sRGB-encoded, 8 bit; with 4 channels its
-// alpha is straight) and .jpg or .jpeg (the same over black). The file appears whole or not at all. Throws Error naming
-// the file and the fault.
+// Writes an image in the format of the file's extension:
+//   .exr: linear 32-bit float with ZIP compression;
+//   .png: tone-mapped, sRGB-encoded, 8 bits, with straight alpha if the image has 4 channels;
+//   .jpg, .jpeg: like .png, but composited over black.
+// The write is atomic: a failure leaves no partial file. Throws Error naming the file and the fault.
 DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& image,
                             const WriteOptions& options = {});
 
-// What tells two images apart, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped). A pixel that is NaN or
-// infinite in exactly one image counts as the largest difference there.
+// Error metrics between two images. They apply to display-encoded values in [0, 1]: EV 0, sRGB, clipped. A pixel that
+// is NaN or infinite in only one of the images counts as the largest possible difference.
 struct Difference {
     double mae = 0;                // mean absolute error over pixels and colour channels
     double rmse = 0;               // root mean squared error over pixels and colour channels
     double psnr = 0;               // dB; infinity for equal images
     double ssim = 1;               // mean structural similarity (Wang et al. 2004), on luma
-    double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels a degree
-    double maxError = 0;           // largest absolute difference of a channel
-    Pixel maxErrorPixel;           // the first one in reading order
-    std::uint64_t pixelCount = 0;  // pixels that counted
-    std::uint64_t nonFinite = 0;   // of these, with NaN or infinity in either image
+    double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels per degree
+    double maxError = 0;           // largest absolute difference in any channel
+    Pixel maxErrorPixel;           // first pixel with maxError, in reading order
+    std::uint64_t pixelCount = 0;  // number of compared pixels
+    std::uint64_t nonFinite = 0;   // compared pixels with NaN or infinity in either image
 };
 
-// Compares two linear images of one size. RGBA is composited over black; grey counts as RGB. Throws Error for sizes
-// that differ and for views of too few or too many pixels.
+// Compares two linear images of the same size. RGBA is composited over black; grey is expanded to RGB. Throws Error if
+// the sizes differ or if a view's pixel count doesn't match its size.
 DEFOCUS_API Difference compareImages(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus

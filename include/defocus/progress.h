@@ -1,5 +1,5 @@
 #pragma once
-// How long work reports where it stands.
+// Progress callback of long operations.
 
 #include <cstdint>
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace defocus {
 
-// Called with the name of the stage ("fish", "pyramids", "samples" …) and how much of it is done. An empty function
-// means that nobody listens. Several threads may call it, but never two at once. What it throws ends the work and
-// reaches the caller: this is how work is cancelled.
+// Receives the name of the stage ("fish", "pyramids", "samples" …) and its progress, `done` of `total`. An empty
+// function disables reporting. Calls may come from several threads, but never two at once. An exception from the
+// callback cancels the operation and propagates to the caller.
 using Progress = std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace defocus

@@ -1,9 +1,9 @@
 #pragma once
-// From a request to an image, at once or step by step.
+// Renders the image of a request, in one call or step by step.
 //
-// Rendering uses an OpenGL 4.5 context of the library's own, without a window (EGL); Mesa's llvmpipe serves where there
-// is no GPU. A context that the caller has current through EGL is current again when a call returns. An object is used
-// by one thread at a time; several objects may be used by several threads.
+// The library renders in its own windowless OpenGL 4.5 context (EGL). Without a GPU, Mesa's llvmpipe renders on the
+// CPU. If the caller has a current EGL context, it is current again when a call returns. Each object must be used by
+// one thread at a time; different objects may be used concurrently.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,72 +21,74 @@
 
 namespace defocus {
 
-// What a frame took. Times are wall clock, in milliseconds.
+// Cost of a frame. Times are wall-clock milliseconds.
 struct RenderStatistics {
-    std::uint32_t samples = 0;                // lens samples drawn
-    double loadMilliseconds = 0;              // the scene, read and placed
+    std::uint32_t samples = 0;                // number of lens samples drawn
+    double loadMilliseconds = 0;              // reading and placing the scene
     double pyramidMilliseconds = 0;           // simplified meshes, built or read from the cache
-    double setupMilliseconds = 0;             // uploads and shaders
+    double setupMilliseconds = 0;             // uploads and shader compilation
     double renderMilliseconds = 0;            // the frame, from start() to its last sample
-    std::uint64_t trianglesDrawn = 0;         // over all samples
-    std::uint64_t trianglesAtFullDetail = 0;  // what full detail would have drawn
-    std::uint64_t gpuBytes = 0;               // resources of the renderer at their peak
+    std::uint64_t trianglesDrawn = 0;         // sum over all samples
+    std::uint64_t trianglesAtFullDetail = 0;  // the same sum without level of detail
+    std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
-    StopReason stopped = StopReason::sampleCount;  // why there are no more samples
-    std::optional<double> estimatedError;          // with Request::stop: RMSE as StopSettings has it; none: one block
+    StopReason stopped = StopReason::sampleCount;  // why no more samples were drawn
+    std::optional<double> estimatedError;          // RMSE of the display-encoded image; none: not estimated
 };
 
-// What the nearest surface at each pixel is, through the pinhole at the pixel's centre: images of one channel.
+// Auxiliary images of the nearest surface at each pixel, seen through a pinhole at the pixel's centre. One channel
+// each.
 struct Aovs {
-    Image depth;  // m along the view axis; infinity where nothing is
+    Image depth;  // m along the view axis; infinity if the pixel is empty
     Image coc;    // signed diameter of the circle of confusion, px, > 0 behind the focus plane
-    Image level;  // the object's fractional level of detail; −1 where nothing is
+    Image level;  // fractional level of detail of the object; −1 if the pixel is empty
 };
 
-// Renders one scene, frame after frame. The scene and its simplified meshes are read and built once.
+// Renders frames of one scene. The scene and its simplified meshes are prepared only once.
 class DEFOCUS_API SceneRenderer {
 public:
-    // Opens what the request names, or takes a scene that is open already (Request::scene and the school's values then
-    // mean nothing). Throws Error for files, names and values that can't be rendered, and where there is no OpenGL 4.5;
-    // what `progress` throws passes through.
+    // Opens the scene that the request names, or takes a scene that is already open. With an open scene,
+    // Request::scene, fishCount and trianglesPerFish are ignored. Throws Error if a file, name or value is unusable, or
+    // if OpenGL 4.5 is not available. Exceptions from `progress` propagate.
     explicit SceneRenderer(const Request& request, const Progress& progress = {});
     SceneRenderer(const Scene& scene, const Request& request, const Progress& progress = {});
     ~SceneRenderer();
     SceneRenderer(SceneRenderer&&) noexcept;
     SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-    // Begins a frame: the constructor's request, or another one of the same scene: other camera, lens, moment, samples,
-    // levels or method. Throws Error as the constructor does, and for another scene.
+    // Begins a frame of the constructor's request, or of another request for the same scene. The other request may
+    // differ in camera, lens, time, samples, levels and method. Throws Error like the constructor, and if the request
+    // names another scene.
     void start();
     void start(const Request& request);
-    // Draws some more samples; false once the frame is done. A frame that doesn't fit into memory in one piece
-    // (Request::memory) is drawn in tiles from the top, each with all samples, to the same bits; start() throws Error
-    // where it can't be.
+    // Draws some more samples; returns false when the frame is complete. A frame that exceeds Request::memory is drawn
+    // in tiles from top to bottom, with bit-identical results. Each tile receives all its samples in turn. start()
+    // throws Error if tiles are not possible.
     bool advance();
-    // Samples in the image so far, and when the frame is done. With tiles, the mean over the image's rows, rounded
-    // down.
+    // Return the number of samples in the image so far, and in the complete frame. With tiles, the first is the mean
+    // over the image's rows, rounded down.
     [[nodiscard]] std::uint32_t samples() const;
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // The image of the samples so far, linear, 4 channels; with no sample yet it throws Error. Tiles that aren't
-    // finished are black and of no coverage.
+    // Returns the linear RGBA image of the samples so far. Throws Error before the first sample. Unfinished tiles are
+    // transparent black.
     [[nodiscard]] Image image();
     [[nodiscard]] RenderStatistics statistics() const;
 
-    // start(), advance() to the end or until `stop` is asked for, image().
+    // Renders a complete frame: start(), advance() until the frame is complete or `stop` is requested, then image().
     Image render(const Progress& progress = {}, std::stop_token stop = {});
     Image render(const Request& request, const Progress& progress = {}, std::stop_token stop = {});
 
-    // Of the frame that was started last; throws Error where it is drawn in tiles.
+    // Returns the auxiliary images of the latest frame. Throws Error if the frame is drawn in tiles.
     [[nodiscard]] Aovs aovs();
-    // The FramePlan of the frame that was started last as JSON, as `defocus plan --json` prints it: blur, level and
-    // samples of each object, and what is left out and why.
+    // Returns the plan of the latest frame as JSON, as `defocus plan --json` prints it. The plan lists the blur, level
+    // and samples of each object, and everything that is left out, with the reason.
     [[nodiscard]] std::string planJson() const;
-    // Writes an image of this renderer's frame with its metadata, tone-mapped and exposed as the request says where the
-    // file is a PNG or JPEG. A metered exposure is that of the first image that is written.
+    // Writes an image of this frame with its metadata. PNG and JPEG use the request's tone mapping and exposure.
+    // Metered exposure is measured on the first image written and kept for later ones.
     void write(const std::filesystem::path& path, const ImageView& image) const;
-    // What is worth knowing of the file, the request and the frame that was started, a line each: damage, what isn't
-    // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur, and that most of the PNG
-    // or JPEG that was written last is white or black.
+    // Returns warnings about the file, the request and the latest frame, one line each. Examples: damaged or
+    // unsupported parts of the file, unused settings, a lens without blur, or too few samples. A mostly white or black
+    // PNG or JPEG also causes a warning.
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] Scene scene() const;
 
@@ -95,18 +97,18 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// The image of a request. SceneRenderer does the same in steps.
+// Returns the image of a request. SceneRenderer does the same step by step.
 DEFOCUS_API Image render(const Request& request, const Progress& progress = {});
 
-// The plan of a request as JSON, without rendering and without a GPU.
+// Returns the plan of a request as JSON. Needs no GPU and renders nothing.
 DEFOCUS_API std::string planJson(const Request& request, const Progress& progress = {});
 
-// The levels of detail of each mesh of a request's scene as JSON: triangles, mean edge and error of each level, in the
-// mesh's units.
+// Returns the levels of detail of each mesh in a request's scene as JSON. Each level has its triangle count, mean edge
+// length and error, in the mesh's units.
 DEFOCUS_API std::string pyramidJson(const Request& request, const Progress& progress = {});
 
-// Sets a value of a request by its name in docs/settings.md ("fStop", "blurThreshold") from text as the command line
-// has it. For bindings and files. Throws UsageError naming the setting.
+// Sets one setting of a request from text, for bindings and files. `name` is a name in docs/settings.md, such as
+// "fStop" or "blurThreshold"; `text` has the command line's syntax. Throws UsageError naming the setting.
 DEFOCUS_API void setSetting(Request& request, const std::string& name, const std::string& text);
 
 }  // namespace defocus

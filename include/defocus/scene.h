@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of glTF files, opened once and rendered often.
+// glTF scenes that are opened once and rendered many times.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,27 +17,28 @@ namespace engine {
 struct Scene;
 }
 
-// What a scene holds, by the names that a Request takes.
+// Contents of a scene. The names are those that a Request accepts.
 struct SceneInfo {
     std::string name;
-    std::vector<std::string> cameras;  // empty strings for cameras without a name
+    std::vector<std::string> cameras;  // an unnamed camera has an empty string
     std::vector<std::string> nodes;
     std::vector<std::string> clips;    // animations
-    std::uint64_t triangles = 0;       // of all meshes, each counted once
-    std::vector<std::string> ignored;  // parts of the file that are not drawn, and why: a line each
+    std::uint64_t triangles = 0;       // sum over all meshes; instances are not counted again
+    std::vector<std::string> ignored;  // parts of the file that are not drawn, one line each with the reason
 };
 
-// A scene that never changes. Copies share it, and any number of renderers and threads may use it.
+// An immutable scene. Copies share their data. Any number of renderers and threads may use a scene concurrently.
 class DEFOCUS_API Scene {
 public:
     // Reads a glTF 2.0 file (.gltf or .glb). Throws Error naming the file and the fault.
     static Scene load(const std::filesystem::path& path, const Progress& progress = {});
-    // The built-in school: `fishCount` fish (1 … 10,000) of about `trianglesPerFish` triangles (200 … 10,000,000).
+    // Creates the built-in school of `fishCount` fish (1 … 10,000). Each fish has about `trianglesPerFish` triangles
+    // (200 … 10,000,000).
     static Scene schoolOfFish(int fishCount = 20, int trianglesPerFish = 90'000, const Progress& progress = {});
 
     [[nodiscard]] SceneInfo info() const;
 
-    // For the library: the scene behind the interface.
+    // Internal access to the scene data, for the library only.
     explicit Scene(std::shared_ptr<const engine::Scene> scene) : scene_(std::move(scene)) {}
     [[nodiscard]] const std::shared_ptr<const engine::Scene>& engineScene() const { return scene_; }
 

@@ -1,23 +1,27 @@
-// The block's sum with blurred cells: lays the classes over each other from the farthest to the nearest, each blurred by linear
-// interpolation between its means. What no class holds lies between what is in front of the focus and what is
-// behind it. Where all samples show what is in front, nothing is known of it, and it is what they show.
+// Computes the block's sum with blurred cells. It composites the classes from farthest to nearest, each blurred by
+// linear interpolation of its means. Unblurred samples lie between the classes behind the focus and those in front of
+// it. Where only foreground samples exist, the unknown background is replaced by the foreground.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Layer 0 is of what lies in front of the focus, layer 1 of what lies behind it: what a class shows, and the samples that are open to it.
+// Layer 0 is in front of the focus, layer 1 behind it. shownMeans holds a class's own samples; openMeans holds all
+// samples not hidden by nearer classes.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
-layout(location = 0) uniform ivec2 firstSquares;   // of class 0, columns and rows
-layout(location = 1) uniform float samples;        // of the block: writes their mean. 0: the mean of those that a pixel has. −1: the sum
+// Columns and rows of the squares of class 0.
+layout(location = 0) uniform ivec2 firstSquares;
+// Samples in the block: the output is their mean. 0: the mean over the samples that a pixel has. −1: the sum.
+layout(location = 1) uniform float samples;
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
-// Lays what class k of a side shows over `image`, as much as it does of what is open to it.
+// Composites class k of one side over `image`. Its coverage is the ratio of its own samples to those not hidden by
+// nearer classes.
 void layOver(inout vec3 image, int k, float side) {
-    // Single pixels have means around their corners.
+    // The means of single pixels (class 0) are centred at pixel corners.
     vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);
     vec3 place = vec3((square + vec2(meansOrigin(firstSquares, k))) / vec2(textureSize(openMeans, 0).xy), side);
     vec4 shown = textureLod(shownMeans, place, 0.0);
@@ -37,7 +41,8 @@ void main() {
     blurred = texelFetch(cellSums, ivec3(pixel, CELLS_IN_FRONT), 0);
 #endif
     vec3 image = vec3(0.0);
-    // Loops over the classes that are there cost less than branches around those that aren't: a software driver skips none.
+    // Looping over the existing classes is faster than branching around missing ones, because a software driver
+    // executes both sides of a branch.
     uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r & ((1u << cellClasses) - 1u);
     for (uint rest = spread >> CELLS_IN_FRONT; rest != 0u;) {
         int k = findMSB(rest);

@@ -1,19 +1,23 @@
-// Means around the middles of squares of pixels (of single pixels: around their corners), weighed by a tent that ends at the next ones:
-// of what a class of cells shows, and of the samples that are open to it. So what is blurred doesn't spread beneath what covers it,
-// nor does the cover's edge.
+// Computes tent-weighted means for one class of lens cells. Each mean is centred on a square of pixels and reaches the
+// neighbouring centres. For single pixels, the centres are pixel corners. One mean is of the class's own samples, the
+// other of the samples not hidden by nearer classes. Blurred surfaces therefore do not spread beneath their occluders,
+// and neither does the occluder's edge.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-layout(location = 0) uniform int classIndex;      // NEAREST: the last one in front of the focus, which all samples are open to
-layout(location = 1) uniform int side;            // px of the squares, a power of 2
-layout(location = 4) uniform ivec2 origin;        // of the means, where those of the class begin
+// NEAREST: the last class in front of the focus, which nothing hides.
+layout(location = 0) uniform int classIndex;
+// Side of the squares in px, a power of 2.
+layout(location = 1) uniform int side;
+// Texel where the means of the class begin.
+layout(location = 4) uniform ivec2 origin;
 
 layout(location = 0) out vec4 meanOut;
 layout(location = 1) out float openOut;
 
-// The samples that are open to the class, and those of them that don't show it.
+// Returns the samples that nearer classes don't hide, and those of them outside the class.
 vec4 openTo(vec2 place) {
 #ifdef NEAREST
     return textureLod(blockSum, place, 0.0);
@@ -39,7 +43,7 @@ void main() {
     if ((texelFetch(spreadClasses, tile, 0).r & 1u << classIndex) == 0u) return;
     vec4 mean = vec4(0.0);
     float open = 0.0;
-    // Two by two, by linear interpolation.
+    // Bilinear fetches read two by two pixels at once.
     vec2 perPixel = 1.0 / vec2(textureSize(blockSum, 0));
     for (int y = 0; y < 2 * side; y += 2) {
         for (int x = 0; x < 2 * side; x += 2) {

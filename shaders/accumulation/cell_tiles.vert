@@ -1,10 +1,13 @@
-// The tiles where a class of cells has means, and those around them, as points; the others lie outside the image.
+// Draws points over the tiles where a class of cells has means, and over their neighbours. Other tiles are placed
+// outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-layout(location = 1) uniform int side;            // px of the squares that have a mean each
-layout(location = 2) uniform int pointTiles;      // along a side of a point, so that even a point of large squares has some
+// Side in px of the squares that have one mean each.
+layout(location = 1) uniform int side;
+// Tiles along the side of a point, so that even a point of large squares contains some tiles.
+layout(location = 2) uniform int pointTiles;
 layout(location = 3) uniform ivec2 points;
 
 void main() {

@@ -1,4 +1,4 @@
-// Picks the layer where the vertex shader may not (no ARB_shader_viewport_layer_array).
+// Selects the layer on drivers without ARB_shader_viewport_layer_array, where the vertex shader cannot set it.
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;

@@ -1,5 +1,6 @@
-// How finely a triangle must be divided so that C is linear in each part to the tolerance: decided for each edge from that edge
-// alone, so that neighbours agree. OpenGL divides an edge into 64 parts at most: a triangle that needs more shows the rest.
+// Chooses tessellation levels that make C linear in each part, within the tolerance. Each level depends only on its
+// edge, so that neighbouring triangles agree. OpenGL divides an edge into at most 64 parts; triangles that need more
+// keep a visible error.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -25,14 +26,14 @@ out Unsheared {
 #define SURFACE_OUT toNext[gl_InvocationID]
 #include "include/surface_weighted.glsl"
 
-// The two smooth pieces of C.
+// Returns the two smooth pieces of C.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
 #ifdef ABERRATIONS
-// What they add for two rays of the lens's rim, in halves of the image's width.
+// Returns the aberration offsets for two rays at the lens rim, in halves of the image's width.
 vec4 aberrationPieces(vec3 pinhole) {
     float w = max(pinhole.z, frame.projection.z);
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
@@ -46,7 +47,8 @@ bool comesFirst(vec3 p, vec3 q) {
     return p.y != q.y ? p.y < q.y : p.z < q.z;
 }
 
-// Parts that the edge needs. A smooth function's distance from its chord falls with the square of their number.
+// Returns the number of parts that the edge needs. The deviation of a smooth function from its chord falls with the
+// square of that number.
 float partsOf(int first, int second) {
     if (comesFirst(unsheared[second].pinhole, unsheared[first].pinhole)) {
         int swapped = first;
@@ -57,7 +59,7 @@ float partsOf(int first, int second) {
     vec3 q = unsheared[second].pinhole;
     vec2 ownP = unsheared[first].ownBlur;
     vec2 ownQ = unsheared[second].ownBlur;
-    // Only what lies in front of the near plane counts.
+    // Only the part of the edge in front of the near plane counts.
     float near = frame.projection.z;
     if (p.z <= near && q.z <= near) return 1.0;
     float begin = p.z < near ? (near - p.z) / (q.z - p.z) : 0.0;

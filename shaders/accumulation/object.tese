@@ -1,4 +1,4 @@
-// A vertex of the divided triangle.
+// Evaluates a vertex of the tessellated triangle.
 
 layout(triangles, equal_spacing, ccw) in;
 

@@ -1,5 +1,5 @@
-// One lens sample an instance: the shear moves the object, gl_Layer picks the sample's layer. REFINED: the shear waits until
-// triangles are small enough for it (object.tesc, object.tese, split.geom).
+// Draws one instance per lens sample: the shear moves the object, and gl_Layer selects the sample's layer. With
+// REFINED, a later stage applies the shear after dividing the triangles (object.tesc, object.tese, split.geom).
 #ifdef VERTEX_LAYER
 #extension GL_ARB_shader_viewport_layer_array : enable
 #extension GL_AMD_vertex_shader_layer : enable
@@ -14,9 +14,9 @@ layout(location = 2) in vec4 colorIn;
 layout(location = 3) in vec2 uv0In;
 layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
-layout(location = 6) in vec4 lensAndJitterIn;   // an instance
-layout(location = 7) in vec4 eyeAndDitherIn;    // an instance: lens point (m), dither offset, layer
-layout(location = 8) in vec3 blurIn;           // factor, mm on the sensor as the shutter opens and as it closes
+layout(location = 6) in vec4 lensAndJitterIn;   // per instance
+layout(location = 7) in vec4 eyeAndDitherIn;    // per instance: lens point (m), dither offset, layer
+layout(location = 8) in vec3 blurIn;           // factor; added blur in mm on the sensor at shutter opening and closing
 #ifdef SKIN_INFLUENCES
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -26,13 +26,15 @@ layout(location = 12) in vec4 weights1In;
 #endif
 #endif
 #if defined(MOVING) || defined(BLUR_MOVES)
-layout(location = 13) in vec3 momentIn;         // an instance: a moment of the shutter, how far it is to the next; time from 0 to 1
+// Per instance: shutter moment, fraction of the way to the next moment, time in [0, 1].
+layout(location = 13) in vec3 momentIn;
 #endif
 #ifdef CHROMATIC
-layout(location = 14) in float bandShiftIn;     // an instance
+layout(location = 14) in float bandShiftIn;     // per instance
 #endif
 #ifdef VERTEX_COLOR_RANGES
-layout(location = 15) in vec4 colorRangeIn;     // of the corners around; of a channel, 256 times the most plus the least, in 1/255
+// Colour range of the adjacent corners. Each channel is 256 · max + min, in units of 1/255.
+layout(location = 15) in vec4 colorRangeIn;
 #endif
 #ifdef SHADOW_CASTER
 #include "include/shadow_projection.glsl"
@@ -65,8 +67,8 @@ void main() {
 #ifdef POSED
     Posed rest = Posed(positionIn, normalIn, tangentIn.xyz);
 #ifdef MOVING
-    // The clip position is linear in time (Munkberg et al. 2012), and C is that of the place where it is: for a plain lens the
-    // paper's linear C(t), and with controls what a still frame of that moment has.
+    // The clip position is linear in time (Munkberg et al. 2012). C is evaluated at the interpolated position. For a
+    // plain lens this is the paper's linear C(t). With controls it matches a still frame at that moment.
     Posed vertex = posedVertex(int(momentIn.x), rest);
     if (momentIn.y > 0.0) vertex = between(vertex, posedVertex(int(momentIn.x) + 1, rest), momentIn.y);
 #else

@@ -1,7 +1,7 @@
-// The frame's sum over its number of samples, or over the number that the pixel has, which alpha then counts.
+// Divides the frame's sum by its number of samples, or by the pixel's own number of samples, which alpha counts.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
-layout(location = 0) uniform float sampleCount;   // 0: alpha's
+layout(location = 0) uniform float sampleCount;   // 0: use alpha
 
 layout(location = 0) out vec4 mean;
 

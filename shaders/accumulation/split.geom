@@ -1,15 +1,16 @@
-// Cuts a triangle at the near plane and along the kinks of C, then shears the pieces: inside each of them C is linear (Munkberg,
-// Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| is at most what it is at the piece's vertices. Along the kinks
+// Cuts a triangle at the near plane and along the kinks of C, then shears the pieces. Inside each piece C is linear
+// (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10). |C/w| in a piece never exceeds the values at its
+// vertices. The kinks separate the pieces from front to back:
 //   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
-// the pieces follow each other from front to back. Where a cut meets an edge is found from that edge's two ends alone, by terms
-// that don't depend on their order: neighbours agree, and no gap opens.
+// Each cut position depends only on the two ends of its edge, and not on their order. Neighbouring triangles therefore
+// agree, and no gap opens.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/coc_pieces.glsl"
 
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 30) out;   // 5 pieces of at most 6 vertices
+layout(triangle_strip, max_vertices = 30) out;   // 5 pieces with at most 6 vertices each
 
 in Surface {
 #include "include/surface_varyings.glsl"
@@ -27,16 +28,16 @@ flat out float ditherOffset;
 #define SURFACE_OUT surface
 #include "include/surface_weighted.glsl"
 
-// A convex piece by the barycentric coordinates of its vertices.
+// A convex piece, given by the barycentric coordinates of its vertices.
 struct Piece {
     int count;
     vec3 vertices[6];
 };
 
-// Where `values` (at the triangle's corners) is 0 between p and q.
+// Returns the point between p and q where `values` (given at the triangle's corners) interpolate to 0.
 vec3 cut(vec3 p, vec3 q, vec3 values) {
     for (int k = 0; k < 3; ++k) {
-        if (p[k] != 0.0 || q[k] != 0.0) continue;   // both on the edge opposite to corner k
+        if (p[k] != 0.0 || q[k] != 0.0) continue;   // both lie on the edge opposite to corner k
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
         precise float atI = values[j] / (values[j] - values[i]);
@@ -51,7 +52,7 @@ vec3 cut(vec3 p, vec3 q, vec3 values) {
     return (atQ * p - atP * q) / (atQ - atP);
 }
 
-// The part of the piece where `values` ≥ 0 (Sutherland and Hodgman 1974).
+// Returns the part of the piece where `values` ≥ 0 (Sutherland and Hodgman 1974).
 Piece kept(Piece piece, vec3 values) {
     Piece result;
     result.count = 0;
@@ -76,7 +77,7 @@ void emit(vec3 weights) {
     EmitVertex();
 }
 
-// From both sides inwards: 0, 1, n − 1, 2, …
+// Emits the piece as a triangle strip, with its vertices alternating from both ends: 0, 1, n − 1, 2, …
 void emit(Piece piece) {
     if (piece.count < 3) return;
     emit(piece.vertices[0]);
@@ -91,7 +92,7 @@ void main() {
 #ifdef CHROMATIC
     bandShift = unsheared[0].bandShift;
 #endif
-    // The kinks' functions at the corners, linear where the pieces of C are; growing from front to back.
+    // Kink functions at the corners, ordered from front to back. They are linear where the pieces of C are.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;
@@ -106,7 +107,8 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;   // else F = B: one piece between the limits
+    // Without a focus range F = B, and there is one piece between the limits.
+    bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;
     if (any(greaterThan(atLimitBehind, vec3(0.0)))) {

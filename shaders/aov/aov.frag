@@ -1,4 +1,5 @@
-// Depth (m), signed circle of confusion (px), fractional level and images a lens sample of the nearest surface through the pinhole.
+// Writes depth (m), signed circle of confusion (px), fractional level and images per lens sample. All are of the
+// nearest surface seen through the pinhole.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -11,7 +12,7 @@ in Surface {
 layout(binding = 0) uniform sampler2D baseColorTexture;
 #endif
 
-layout(binding = 18) uniform samplerBuffer objectRates;   // by the object's number
+layout(binding = 18) uniform samplerBuffer objectRates;   // indexed by object number
 
 layout(location = 0) out float depthOut;
 layout(location = 1) out float cocOut;

@@ -1,4 +1,4 @@
-// An edge of a triangle in the colour of its object's level.
+// Draws a triangle edge in the colour of its object's level.
 
 #include "include/frame.glsl"
 #include "include/tone_map.glsl"

@@ -1,4 +1,4 @@
-// One for each pixel that a triangle touches; blending adds them up.
+// Outputs 1 for each pixel that a triangle touches; additive blending counts the triangles.
 
 layout(location = 0) out float touched;
 

@@ -1,4 +1,5 @@
-// The sharp image, over it the blurred far field where a pixel lies behind the focus, over that the near field.
+// Composites the sharp image, the blurred far field and the near field, in this order. The far field covers only pixels
+// behind the focus.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -9,36 +10,38 @@ layout(binding = 2) uniform sampler2D farBlurred;    // COMBINED: both fields
 layout(binding = 3) uniform sampler2D nearBlurred;
 #endif
 #ifdef NEAR_PREMULTIPLIED
-layout(binding = 4) uniform sampler2D nearRadii;     // that the near field was gathered at, in its pixels
+layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // as in split.frag
 #endif
-layout(location = 0) uniform float blendBias;        // ≥ 1: the near field covers what it overlaps sooner; 0: there is none
+// ≥ 1: higher values make the near field cover more. 0: no near field.
+layout(location = 0) uniform float blendBias;
 layout(location = 1) uniform float perFarDiameter;   // as in split.frag
 
 layout(location = 0) out vec4 image;
 
-// The radiance of a blurred field at a pixel that is part of it with weight `own`. Where the kernel's negative lobes leave less than
-// a quarter of that weight, the pixel itself makes it up.
+// Returns the radiance of a blurred field at a pixel that belongs to it with weight `own`. The kernel's negative lobes
+// may leave less than a quarter of that weight. The sharp pixel then supplies the missing weight.
 vec3 radianceOf(vec4 field, float own, vec3 sharp) {
     float missing = max(0.25 * own - field.a, 0.0);
     return max(field.rgb + missing * sharp, vec3(0.0)) / max(field.a + missing, 1e-12);
 }
 
 #ifndef COMBINED
-// How much of a pixel the near field covers.
+// Returns the near field's coverage of a pixel.
 float coverageOf(float weight, vec2 place) {
 #ifdef NEAR_PREMULTIPLIED
-    // Over the weight of what has the blur that was gathered: a wide blur covers fully, what is blurred less in part.
+    // The weight is relative to a surface with the gathered blur. A wide blur covers fully, a smaller one partially.
     float diameter = 2.0 * float(REDUCTION) * textureLod(nearRadii, place, 0.0).r;
     weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
 #endif
     return clamp(weight, 0.0, 1.0);
 }
 
-// The bias for a near field of some radiance over another's.
+// Returns the bias for compositing a near field with radiance `before` over `behind`.
 float biasOf(float coverage, vec3 before, vec3 behind) {
 #ifdef BIAS_BY_LUMINANCE
-    // In full only where most of the disk is near field, and that is brighter: there its sharp image would show.
+    // The full bias applies where most of the disk is near field and brighter than the background. There the sharp
+    // image would otherwise show through.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float near = dot(before, luminance);
     return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);
@@ -55,7 +58,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(REDUCTION) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(REDUCTION) - 1.0, 0.0, 1.0);   // below two of its pixels a field holds no disk
+    float farShare = clamp(diameter / float(REDUCTION) - 1.0, 0.0, 1.0);   // no disk below two field px
 #ifdef COMBINED
     own += clamp(-diameter, 0.0, 1.0);
     float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));

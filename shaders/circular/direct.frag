@@ -1,4 +1,4 @@
-// The same kernel as the separable passes, gathered over its whole square: what they are checked and timed against.
+// Applies the kernel of the separable passes as a direct 2D sum, as a reference for tests and timings.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D field;

@@ -1,17 +1,18 @@
-// Filters the rows of a field (radiance times weight, and the weight) with COMPONENTS complex kernels, over the number of taps.
-// (Over the sum of the taps a constant would stay itself, but that sum nearly vanishes at some radii.)
+// Filters the rows of a field (premultiplied radiance and its weight) with COMPONENTS complex kernels. The result is
+// divided by the number of taps. The sum of the taps is no suitable divisor, because it nearly vanishes at some radii.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
 #if BRACKETED
-layout(binding = 2) uniform sampler2D brightest;       // one pixel: the field's largest radiance and largest weight
-layout(location = 16) uniform vec4 brackets[COMPONENTS];   // offset and scale of the real, then of the imaginary part
+layout(binding = 2) uniform sampler2D brightest;       // one pixel: the field's max radiance and max weight
+layout(location = 16) uniform vec4 brackets[COMPONENTS];   // offset and scale, real part then imaginary
 #endif
 layout(location = 15) uniform int firstComponent;
 
 #if BRACKETED
-// A component: real rgb, imaginary rgb, and (real, imaginary) of the weight with the weight's mean; last, the mean rgb.
+// Per component: real rgb, imaginary rgb, and (real, imaginary) of the weight with the weight's mean. The last output
+// is the mean rgb.
 layout(location = 0) out vec4 sums[3 * COMPONENTS + 1];
 #else
 layout(location = 0) out vec4 sums[2 * COMPONENTS];    // real, imaginary

@@ -1,6 +1,6 @@
-// The radius at which a pixel gathers the near field: that of the near surfaces that may reach it.
+// Computes the radius at which a pixel gathers the near field: the radius of the near surfaces that may reach it.
 layout(binding = 0) uniform sampler2D ownRadii;
-layout(binding = 1) uniform sampler2D reach;    // a value a tile
+layout(binding = 1) uniform sampler2D reach;    // one value per tile
 #ifdef COMBINED
 layout(binding = 2) uniform sampler2D farRadii;
 #endif

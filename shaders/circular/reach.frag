@@ -1,6 +1,7 @@
-// The largest near radius whose disk reaches into this tile or one beside it: the near field bleeds over its edges.
+// Computes the max near radius whose disk reaches this tile or a neighbour, because the near field spreads beyond its
+// edges.
 layout(binding = 0) uniform sampler2D tiles;
-layout(location = 0) uniform int farthest;   // tiles that the largest radius reaches
+layout(location = 0) uniform int farthest;   // max distance, in tiles, that a radius reaches
 
 layout(location = 0) out float reaching;
 

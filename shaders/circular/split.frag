@@ -1,17 +1,18 @@
-// The pinhole image as fields: what lies behind the focus plane and what lies in front of it, each as radiance times weight and the
-// weight, with the radius of its blur in the field's pixels. REDUCTION pixels a side make one of the field.
+// Splits the pinhole image into a far field (behind the focus plane) and a near field (in front of it). Each holds
+// weighted radiance and the weight, with the blur radius in field px. A field pixel averages REDUCTION × REDUCTION
+// image pixels.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float largestRadius;   // px
-layout(location = 1) uniform float perFarDiameter;  // 1 / the largest diameter behind the focus plane, px
+layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane, px
 #ifdef NEAR_PREMULTIPLIED
-layout(location = 2) uniform float perNearDiameter; // the same in front of it
+layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane
 #endif
 
-layout(location = 0) out vec4 farField;             // COMBINED: both
+layout(location = 0) out vec4 farField;             // COMBINED: both fields
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
 #ifndef COMBINED
@@ -23,14 +24,14 @@ void main() {
     ivec2 last = min(first + REDUCTION, textureSize(pinholeColor, 0)) - 1;
     vec4 farSum = vec4(0.0);
     vec4 nearSum = vec4(0.0);
-    vec2 farBlur = vec2(0.0);   // weighted sum, weights
+    vec2 farBlur = vec2(0.0);   // weighted sum, sum of weights
     nearRadius = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y));
             vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
-            // A blur of less than a pixel belongs to the sharp image. Behind the focus the weight is the blur itself (Garcia's
-            // premultiplied far field): what is nearly sharp leaks little into the wide disks of what lies behind it.
+            // Blur below one pixel belongs to the sharp image. Behind the focus the weight is the blur itself (Garcia's
+            // premultiplied far field). Nearly sharp surfaces therefore leak little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
 #ifdef NEAR_PREMULTIPLIED

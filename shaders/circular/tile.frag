@@ -1,5 +1,5 @@
-// The largest value of each tile of TILE × TILE pixels. LARGEST_CHANNEL: of a field, the largest of its radiance, and the largest
-// weight.
+// Computes the max value of each tile of TILE × TILE pixels. LARGEST_CHANNEL: the max radiance channel and the max
+// weight of a field.
 layout(binding = 0) uniform sampler2D values;
 
 layout(location = 0) out vec2 largest;

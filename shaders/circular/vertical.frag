@@ -1,6 +1,6 @@
-// Filters the columns of the rows' complex sums and adds the components up: the field blurred by the kernel, over the sum of its
-// taps. Where the rows had another radius that sum is not theirs, but radiance over weight is right all the same. AXES: of the disk's
-// radius, that of an oval to the right and up; OVAL: they differ.
+// Filters the columns of the complex row sums and adds the components. The output is the blurred field, normalised by
+// the sum of its taps. If the rows used other radii, that sum is inexact, but the ratio of radiance to weight stays
+// correct. AXES: horizontal and vertical radii of an oval, relative to the disk's radius; OVAL: they differ.
 #include "include/complex_kernel.glsl"
 
 #if BRACKETED
@@ -77,7 +77,7 @@ void main() {
         kernelSum += times(times(weight, rowNorm), norm).x;
     }
 #if COMPONENTS < KERNEL_SIZE
-    // The other components are filtered by other runs of this pass.
+    // Other runs of this pass filter the remaining components.
     kernelSum = 0.0;
     for (int c = 0; c < KERNEL_SIZE; ++c) {
         vec2 norm = tapSum(kernel[c], taps);

@@ -1,9 +1,9 @@
-// The smooth pieces that C is made of, in clip space and also behind the near plane, where C itself has no meaning: without
-// curved forms they are linear, as long as the surface's own factor and what it adds are the same everywhere.
+// Smooth pieces of C in clip space. Unlike C itself, they are also defined behind the near plane. They are linear if C
+// has no curved terms and the surface's blur modifiers are uniform.
 // C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w).
 
 struct CocPieces {
-    float factor;   // own factor·(1 + g·r²)
+    float factor;   // blur factor of the surface times (1 + g·r²)
     float front;    // w·F
     float behind;   // w·B
     float added;

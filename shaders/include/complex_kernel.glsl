@@ -1,18 +1,18 @@
-// Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010; Garcia 2018).
-// src/render/circular/circular_kernel.h holds the mathematics. Needs KERNEL_SIZE; TAPS_EXACT: a tap a pixel, else at steps of a pixel's
-// fraction between them.
+// Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010;
+// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. Requires KERNEL_SIZE. TAPS_EXACT: one
+// tap per pixel; otherwise taps have a fractional spacing.
 
 layout(location = 0) uniform vec4 kernel[KERNEL_SIZE];   // a, b, A, B
 
 struct Taps {
-    int count;      // on each side
-    float radius;   // of the disk, in taps
+    int count;      // on each side of the centre
+    float radius;   // radius of the disk, in taps
     float spacing;  // px
 };
 
 Taps tapsOf(float radius) {
 #if TAPS_EXACT
-    // Taps fade in as the radius grows: i counts by clamp(radius + 1/2 − i, 0, 1).
+    // Taps fade in as the radius grows: tap i has the weight clamp(radius + 1/2 − i, 0, 1).
     return Taps(int(ceil(radius - 0.5)), max(radius, 0.5), 1.0);
 #elif TAPS_SETS
     int count = radius <= 4.0 ? 4 : radius <= 8.0 ? 8 : radius <= 16.0 ? 16 : 32;
@@ -30,7 +30,7 @@ float fade(Taps taps, int i) {
 #endif
 }
 
-// Σ fade over all taps.
+// Returns the sum of the fade weights of all taps.
 float tapCount(Taps taps) {
     float sum = 1.0;
     for (int i = 1; i <= taps.count; ++i) sum += 2.0 * fade(taps, i);
@@ -39,13 +39,13 @@ float tapCount(Taps taps) {
 
 vec2 times(vec2 p, vec2 q) { return vec2(p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x); }
 
-// F at x² = 1/radius²; F((i + 1)/R) = F(i/R)·q^(2i + 1) with q this value, so that taps need no exponentials.
+// Returns q = F at x² = 1/radius². The recurrence F((i + 1)/R) = F(i/R)·q^(2i + 1) evaluates taps without exponentials.
 vec2 firstRatio(vec4 component, Taps taps) {
     float u = 1.0 / (taps.radius * taps.radius);
     return exp(-component.x * u) * vec2(cos(component.y * u), sin(component.y * u));
 }
 
-// Σ F over all taps.
+// Returns Σ F over all taps.
 vec2 tapSum(vec4 component, Taps taps) {
     vec2 ratio = firstRatio(component, taps);
     vec2 grow = times(ratio, ratio);
@@ -59,5 +59,5 @@ vec2 tapSum(vec4 component, Taps taps) {
     return sum;
 }
 
-// (A − i·B), the weight of a component: A·Re z + B·Im z = Re((A − i·B)·z).
+// Returns a component's weight A − i·B: A·Re z + B·Im z = Re((A − i·B)·z).
 vec2 weightOf(vec4 component) { return vec2(component.z, -component.w); }

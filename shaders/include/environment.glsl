@@ -1,10 +1,10 @@
-// What surrounds the scene: its radiance along a direction, and the light it throws on a surface.
-// ENVIRONMENT: 0 none, 1 uniform, 2 gradient, 3 map. BACKGROUND: what of it shows behind the surfaces, 0 or the same.
+// The environment: its radiance along a direction, and its light on a surface. ENVIRONMENT: 0 none, 1 uniform, 2
+// gradient, 3 map. BACKGROUND: the environment shown behind surfaces, 0 or equal to ENVIRONMENT.
 
 #include "include/lighting.glsl"
 
 #if ENVIRONMENT == 3
-layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; mipmaps serve as rough reflections
+layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; mip levels serve rough reflections
 
 vec2 equirectangular(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) * 0.15915494309, acos(clamp(d.y, -1.0, 1.0)) * 0.31830988618);
@@ -12,25 +12,25 @@ vec2 equirectangular(vec3 d) {
 #endif
 
 #if ENVIRONMENT == 2
-// By the height (y) of a unit direction.
+// Returns the gradient's radiance for the height (y) of a unit direction.
 vec3 gradientRadiance(float height) {
     vec3 pole = height > 0.0 ? lighting.environment[0].rgb : lighting.environment[2].rgb;
     return mix(lighting.environment[1].rgb, pole, abs(height));
 }
 
-// Irradiance over π: a zonal polynomial.
+// Returns irradiance over π as a zonal polynomial of the normal's height.
 vec3 gradientDiffuse(float height) {
     return lighting.irradiance[0].rgb + height * (lighting.irradiance[1].rgb + height * lighting.irradiance[2].rgb);
 }
 #endif
 
 #if ENVIRONMENT == 3
-// `level` is a mipmap level, for rough reflections.
+// Returns the radiance of the map. `level` is a mip level, for rough reflections.
 vec3 environmentRadiance(vec3 worldDirection, float level) {
     return textureLod(environmentMap, equirectangular(worldDirection), level).rgb;
 }
 
-// Irradiance over π for a normal, from second-order spherical harmonics (Ramamoorthi and Hanrahan 2001).
+// Returns irradiance over π for a normal, from second-order spherical harmonics (Ramamoorthi and Hanrahan 2001).
 vec3 environmentDiffuse(vec3 n) {
     return max(lighting.irradiance[0].rgb + lighting.irradiance[1].rgb * n.y + lighting.irradiance[2].rgb * n.z +
                lighting.irradiance[3].rgb * n.x + lighting.irradiance[4].rgb * (n.x * n.y) + lighting.irradiance[5].rgb * (n.y * n.z) +

@@ -1,17 +1,17 @@
-// The clip-space lens shear p' = p + C·(u, k·v, 0, 0) (Munkberg, Toth and Akenine-Möller 2012; C > 0 behind the focus plane) and
-// C itself: src/lens/circle_of_confusion.h holds the mathematics. COC_CONTROLS: something changes C from a + b·w. `own` is what the
-// surface makes of it: a factor, and what it adds as a share of the image's width.
+// The clip-space lens shear p' = p + C·(u, k·v, 0, 0) (Munkberg, Toth and Akenine-Möller 2012; here C > 0 behind the
+// focus plane). src/lens/circle_of_confusion.h documents C. COC_CONTROLS: C differs from a + b·w. `own` holds the
+// surface's blur modifiers: a factor and an added fraction of the image's width.
 // Depth is reversed with an infinite far plane: z = near, so that z/w runs from 1 at the near plane to 0.
 
 #ifdef CHROMATIC
-float bandShift = 0.0;   // what the wavelength of the lens sample at hand adds to b₁ and b₂
+float bandShift = 0.0;   // change of b₁ and b₂ by the wavelength of the current lens sample
 #else
 const float bandShift = 0.0;
 #endif
 
 #ifdef COC_CONTROLS
 struct CocTerms {
-    float factor;   // own factor·(1 + g·r²)
+    float factor;   // blur factor of the surface times (1 + g·r²)
     float front;    // F
     float behind;   // B
 };
@@ -24,7 +24,7 @@ CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
 }
 #endif
 
-// C/w, the signed diameter as a share of the image's width, at 1/w and a place in the image.
+// Returns C/w, the signed diameter as a fraction of the image's width, at 1/w and a position in the image.
 float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
 #ifdef COC_CONTROLS
     CocTerms terms = cocTerms(inverseDepth, ndc, own.x);
@@ -36,7 +36,7 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
 }
 
 #ifdef ABERRATIONS
-// What astigmatism and coma add for a lens point (u, k·v): src/lens/aberrations.h.
+// Returns the offset by astigmatism and coma for a lens point (u, k·v); see src/lens/aberrations.h.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     vec2 field = ndc * perAspect;
@@ -46,7 +46,8 @@ vec2 aberration(vec2 ndc, vec2 lensPoint) {
 }
 #endif
 
-// How far the image of a place at 1/w moves for a lens point (u, k·v), in normalised device units.
+// Returns the image shift of a point at depth 1/inverseDepth for a lens point (u, k·v), in normalised device
+// coordinates.
 vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     vec2 shift = relativeCircleOfConfusion(inverseDepth, ndc, own) * lensPoint;
 #ifdef ABERRATIONS
@@ -55,13 +56,13 @@ vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     return shift;
 }
 
-// (x, y, w) of a view-space position in the pinhole image.
+// Returns (x, y, w) of a view-space position in the pinhole image.
 vec3 pinholePosition(vec3 viewPosition) {
     return vec3(viewPosition.xy * frame.projection.xy, -viewPosition.z);
 }
 
-// Seen from a point of the lens: `lensAndJitter` holds (u, k·v) and the pixel jitter in normalised device units. With
-// COC_CONTROLS the position must lie in front of the camera.
+// Returns the clip position as seen from a point of the lens. `lensAndJitter` holds (u, k·v) and the pixel jitter in
+// normalised device coordinates. With COC_CONTROLS the position must lie in front of the camera.
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
 #ifdef COC_CONTROLS
@@ -72,12 +73,12 @@ vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     return vec4(pinhole.xy + shift + w * lensAndJitter.zw, frame.projection.z, w);
 }
 
-// Signed diameter of the circle of confusion in px at a value of the depth buffer (1/w times the near plane; 0 is infinity).
+// Returns the signed diameter of the circle of confusion in px for a depth-buffer value, near / w; 0 is infinity.
 float circleOfConfusion(float depth, vec2 ndc, vec2 own) {
     return relativeCircleOfConfusion(depth / frame.projection.z, ndc, own) * frame.coc.z;
 }
 
-// Of a pixel of the pinhole image `size` px large.
+// Returns the normalised device coordinates of a pixel in an image of `size` px.
 vec2 ndcOfPixel(vec2 pixelCentre, ivec2 size) {
     return 2.0 * pixelCentre / vec2(size) - 1.0;
 }

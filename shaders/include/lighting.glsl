@@ -1,8 +1,9 @@
-// What lights the surfaces, in the world's axes: no camera changes it. Where no clip does either, it is constants (LIGHTING_VALUES), which
-// software rasterisers read far faster than a uniform block: Mesa 22.3 fetches that anew for each pixel.
+// Light sources in world axes, independent of the camera. If they aren't animated either, they are compiled as
+// constants (LIGHTING_VALUES). Software rasterizers read constants far faster than a uniform block, which Mesa 22.3
+// fetches for each pixel.
 
 struct LightData {
-    vec4 directionType;   // the way the light shines; w: 0 directional, 1 point, 2 spot
+    vec4 directionType;   // direction of the light's rays; w: 0 directional, 1 point, 2 spot
     vec4 colorScale;      // colour · intensity / π; w: spot cone scale
     vec4 cone;            // x: spot cone offset
 };

@@ -1,11 +1,11 @@
-// The blur of a pixel of the pinhole image, from its depth and what its surface makes of it.
+// Blur of a pixel in the pinhole image, from its depth and its surface's blur modifiers.
 
 layout(binding = 1) uniform sampler2D pinholeDepth;
 #ifdef OWN_BLUR
 layout(binding = 6) uniform sampler2D pinholeOwnBlur;
 #endif
 
-// Signed diameter in px.
+// Returns the signed diameter in px.
 float pinholeCircleOfConfusion(ivec2 pixel) {
 #ifdef OWN_BLUR
     vec2 own = texelFetch(pinholeOwnBlur, pixel, 0).rg;

@@ -1,14 +1,15 @@
-// Vertices as the object's pose has them: morph targets, then the joints' matrices, as src/scene/posed_mesh.h has it on the CPU.
-// SKIN_INFLUENCES: 4 or 8, of a skin. MORPHED: morph targets move its positions; MORPH_NORMALS, MORPH_TANGENTS: these too;
-// MORPH_ATTRIBUTES: how many of the three.
+// Poses vertices: first morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. SKIN_INFLUENCES: 4
+// or 8 for a skin. MORPHED: morph targets move positions; MORPH_NORMALS, MORPH_TANGENTS: also normals, tangents.
+// MORPH_ATTRIBUTES: number of morphed attributes, 1 … 3.
 //
-// A pose in `poses`: for each joint (the object, without a skin) the three rows of its view-from-vertex matrix; then for each
-// morph target that counts (its weight, its number); then, where the camera moves (CAMERA_MOVES), the rows of the matrix from this
-// moment's view space to that of the middle of the exposure, where lights and sky are.
+// Layout of a pose in `poses`. First, the three rows of the view-from-vertex matrix of each joint; without a skin, the
+// object counts as the only joint. Then (weight, index) of each active morph target. With CAMERA_MOVES, a matrix
+// follows from this moment's view space to that of the middle of the exposure. Lights and sky are defined in the
+// latter.
 
 layout(binding = 6) uniform samplerBuffer poses;
 #ifdef MORPHED
-layout(binding = 7) uniform samplerBuffer morphDisplacements;   // a target: positions, then normals, then tangents
+layout(binding = 7) uniform samplerBuffer morphDisplacements;   // per target: positions, then normals, then tangents
 #endif
 
 struct Posed {        // view space
@@ -17,7 +18,7 @@ struct Posed {        // view space
     vec3 tangent;
 };
 
-struct Rows {         // of a matrix that moves points
+struct Rows {         // rows of a matrix that transforms points
     vec4 x;
     vec4 y;
     vec4 z;
@@ -31,7 +32,7 @@ Rows rowsAt(int texel) {
 void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joints, vec4 weights) {
     for (int i = 0; i < 4; ++i) {
         if (!(weights[i] > 0.0)) continue;
-        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // one that the skin lacks: its first
+        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // missing joints use the first one
         Rows rows = rowsAt(firstTexel + 3 * joint);
         sum.x += weights[i] * rows.x;
         sum.y += weights[i] * rows.y;
@@ -60,7 +61,8 @@ vec3 turned(Rows rows, vec3 direction) {
     return vec3(dot(rows.x.xyz, direction), dot(rows.y.xyz, direction), dot(rows.z.xyz, direction));
 }
 
-// By the inverse transpose, whose rows are the cross products of the rows over the determinant; the length stays.
+// Transforms a normal by the inverse transpose and keeps its length. The rows of that matrix are cross products of the
+// rows over the determinant.
 vec3 turnedNormal(Rows rows, vec3 normal) {
     vec3 x = cross(rows.y.xyz, rows.z.xyz);
     vec3 y = cross(rows.z.xyz, rows.x.xyz);
@@ -70,7 +72,7 @@ vec3 turnedNormal(Rows rows, vec3 normal) {
     return size > 0.0 ? result * (length(normal) / size) : normal;
 }
 
-// The vertex in pose number `pose`.
+// Returns the vertex in pose number `pose`.
 Posed posedVertex(int pose, Posed vertex) {
     int firstTexel = pose * object.posing.x;
 #ifdef MORPHED
@@ -103,7 +105,7 @@ Posed between(Posed a, Posed b, float fraction) {
 #endif
 
 #ifdef CAMERA_MOVES
-// A vertex and the point on the lens, as the camera in the middle of the exposure has them.
+// Transforms a vertex and the lens point to the view space in the middle of the exposure.
 void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     int texel = (int(moment.x) + 1) * object.posing.x - 3;
     Rows rows = rowsAt(texel);

@@ -1,51 +1,53 @@
-// glTF 2.0 metallic-roughness: Lambert and GGX (Walter et al. 2007) with Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith
-// Microsurfaces) of the height-correlated Smith masking and Schlick's Fresnel; the environment's specular part by Karis's fit
-// (2014, Physically Based Shading on Mobile).
+// glTF 2.0 metallic-roughness shading. The diffuse part is Lambert, the specular part GGX (Walter et al. 2007) with
+// Schlick's Fresnel. Masking is height-correlated Smith in Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith
+// Microsurfaces). The environment's specular part uses Karis's fit (2014, Physically Based Shading on Mobile).
 //
-// One sample stands for a piece of the surface, and a normal of a coarse level for those of level 0: what either spreads is
-// added to the width of the lobe, and neither changes how much light the lobe holds. SAMPLE_NUMBER says which sample of the frame it is.
+// One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
+// Both variations widen the specular lobe without changing its total energy. SAMPLE_NUMBER is the number of the sample
+// in the frame.
 //
-// Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵, so the lights can be summed before F0 and the albedo are known: three sums,
-// and few operations a light (software rasterisers feel each one).
+// Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights can therefore be summed before F0 and albedo are
+// known. The three sums need few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;    // numbers in the whole frame: of the wave's first sample,
-    float firstOfBlock;   // and of the first in its block of the sum
+    float firstSample;    // number in the frame of the wave's first sample
+    float firstOfBlock;   // number in the frame of the block's first sample
 } wave;
 
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
-    vec3 normal;          // unit, along the world's axes as all directions here
-    vec3 toEye;           // unit
+    vec3 normal;          // unit vector in world axes, like all directions here
+    vec3 toEye;           // unit vector
 #ifdef EMISSIVE
     vec3 emission;
 #endif
-    float footprint;      // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up
+    // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up.
+    float footprint;
 #ifdef COARSE_LEVEL
-    float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
+    float agreement;      // length |n| of the mean of the represented normals, in (0, 1]
     float spread;         // normalSpread()
     vec3 seen;            // seenNormal()
 #endif
 #ifdef OWN_REFLECTANCE
-    float grazing;        // reflectance along the surface, F90; else it is 1
+    float grazing;        // reflectance at grazing angles, F90; 1 by default
 #endif
 #ifdef TRANSMISSION
-    vec3 transmitted;     // radiance from behind of which the surface lets through what it doesn't reflect
+    vec3 transmitted;     // radiance from behind, transmitted in the share that the surface doesn't reflect
 #endif
 #ifdef SHEEN
     vec3 sheen;
     float sheenRoughness; // perceptual
 #endif
 #ifdef CLEARCOAT
-    float coat;           // share of the surface that is coated
+    float coat;           // coated share of the surface
     float coatRoughness;  // perceptual
-    vec3 coatNormal;      // unit
+    vec3 coatNormal;      // unit vector
 #endif
 #ifdef SHADOWS
-    float lightShares[LIGHT_COUNT + 1];   // of each light, what reaches the point
-    vec3 hidden;          // irradiance over π of the surroundings that doesn't
+    float lightShares[LIGHT_COUNT + 1];   // visible share of each light
+    vec3 hidden;          // occluded irradiance of the environment, over π
 #endif
 };
 
@@ -57,29 +59,32 @@ struct LightSums {
     vec3 matt;            // Σ E·(n·l) / π
 #endif
 #ifdef SHEEN
-    vec3 sheen;           // Σ E·(n·l)·D·V of the sheen's own lobe
+    vec3 sheen;           // Σ E·(n·l)·D·V of the sheen lobe
 #endif
 };
 
 #ifdef COARSE_LEVEL
-// The mean of max(n·l, 0) over the normals that one stands for, whose cosine to the light is `cosine`. They have the mean `mean`
-// and, if they spread alike to all sides, a variance that falls with 1 − cosine². For a normal distribution of mean μ and variance σ² the
-// mean of the positive part is close to (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π of a light from the side.
+// Returns the mean of max(n·l, 0) over the represented normals; `cosine` is between the shading normal and the light.
+// The normals' mean of n·l is `mean`. With isotropic spread their variance is proportional to 1 − cosine². For a normal
+// distribution (μ, σ²) the mean of the positive part is approximately (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for
+// light from the side.
 float meanCosine(float mean, float cosine, float spread) {
     return 0.5 * (mean + sqrt(mean * mean + spread * max(1.0 - cosine * cosine, 0.0)));
 }
 
-// The spread S at which the mean over all lights is that of one normal, 1/4, so that the piece throws back as much light as it receives:
-// |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1. The fit is good to 7e-4 of that mean.
+// Returns the spread S for which the mean over all light directions equals that of one normal, 1/4. The surface then
+// reflects as much light as it receives: |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1. The fit has an error of 7e-4
+// relative to that mean.
 float normalSpread(float agreement) {
     float lost = 1.0 - agreement;
     float root = sqrt(lost);
     return lost * (0.17796 + root * (1.04019 + root * (-1.37493 + root * (1.28514 - 0.72122 * root))));
 }
 
-// The mean of the normals as they are seen: those that look to the eye cover more of the picture. |n| counts them as they are seen from
-// straight above. Seen from elsewhere, the mean of n (n·v) / (n·v) has 1 − |n| of what is across the normal, about; along the surface,
-// where few are seen, it can't be longer than what |n| leaves; the bound is fitted to von Mises' and Fisher's distribution.
+// Returns the mean of the normals weighted by their visible area: normals that face the eye cover more pixels. |n|
+// describes the view from straight above. In other views, the mean of n (n·v) / (n·v) keeps about 1 − |n| of the
+// component across the normal. At grazing angles few normals are visible, and the length is limited to what |n| allows.
+// This bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -88,20 +93,22 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// 2σ² for the slopes of the normals that one stands for: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ² of the slopes of the represented normals: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
 #endif
 
-// 2σ² for normals whose slopes have the variance σ² along each axis: the mean square of the angles by which they differ.
+// Returns 2σ² of normals whose slopes have the variance σ² along each axis: the mean square of their angular
+// differences.
 //
-// Of the places in a pixel that one sample stands for, as Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading
-// Antialiasing) and with the bound of Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n has the share
-// 1/(n + 1) of a pixel, whose places have a normal distribution as wide as half of it. A lobe that is narrower than the pixel's normals
-// vary would still make single white pixels of few samples: it is made as wide as that in the first block, and as a share of it in the
-// next ones. Both depend on the sample's number alone, so that blocks add up to the image that is drawn at once, and vanish as samples
-// grow, so that highlights converge to what the surface reflects. It falls with the square of the pixel's size, and is 0 on flat surfaces.
+// Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
+// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents a share
+// 1/(n + 1) of a pixel, as a normal distribution half as wide. A lobe narrower than the pixel's variation of normals
+// would give isolated white pixels at few samples. The first block widens it to that variation, and later blocks to a
+// share of it. Both depend only on the sample's number, so blocks add up to the image that is drawn at once. Both
+// vanish as the number of samples grows, so highlights converge. The result is proportional to the square of the pixel
+// size, and 0 on flat surfaces.
 float slopeSpread(SurfacePoint point) {
     float ofPixel = 0.25 * point.footprint;
     float ofBlock = min(ofPixel / (wave.firstOfBlock / float(BLOCK_SAMPLES) + 1.0), 0.18);
@@ -114,22 +121,23 @@ float slopeSpread(SurfacePoint point) {
     return spread;
 }
 
-// Slopes that follow GGX of width α, each of them spread once more by a normal distribution of variance σ². Where the spread is the
-// wider of the two the sum is close to Beckmann's distribution, but far out, where that has nothing, it is what GGX was. With the
-// share 2σ² / (α² + 2σ²) of Beckmann's and the rest of GGX, both of width² α² + 2σ², it keeps all of GGX's tail, α²/(π tan⁴).
+// Specular lobe of GGX slopes of width α, convolved with a normal distribution of variance σ². If σ dominates, the
+// result is close to Beckmann's distribution. Its far tail, however, remains that of GGX. The model mixes Beckmann with
+// weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's tail α²/(π
+// tan⁴).
 //
-// What shines within the spread has the normal h, and is seen: those normals are of places in the pixel, or of level 0, which don't mask
-// each other as microfacets do. So masking is that of α, and for the spread's share the cosines are those of h, both v·h.
+// Masking: normals from the spread belong to other positions in the pixel, or to level 0, and don't mask each other
+// like microfacets. Masking therefore uses α. For the spread's share, both cosines are those of the half vector h: v·h.
 //
-// Of a coarse level's normals, those that look to the eye cover more of the picture: each counts v·h times, over the mean of that. So
-// their cosine is the mean, as n·v is that of microfacets. Where the microfacets themselves are wide, α of them shine off what they
-// stand on, masked as ever.
+// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h over its mean. Their cosine is
+// therefore the mean, like n·v for microfacets. Where the microfacets themselves are rough, a share α of them reflects
+// from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
-    float spread;         // its share, which is Beckmann's
-    float shown;          // the cosine to the eye is this
-    float shownOfH;       // and so much of v·h
+    float spread;         // weight of Beckmann's distribution
+    float shown;          // cosine to the eye: shown + shownOfH · v·h
+    float shownOfH;       // coefficient of v·h in that cosine
 };
 
 Lobe lobeOf(SurfacePoint point, float nv, float spread) {
@@ -146,8 +154,8 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
 #endif
 }
 
-// One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
-// only: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
+// Adds a light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is needed only
+// through cosines: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
 void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec3 toLight, vec3 illuminance) {
     float cosine = dot(point.normal, toLight);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
@@ -157,11 +165,11 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float alpha2 = lobe.alpha * lobe.alpha;
     float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // (n·h)² ≤ 1
     float ggx = alpha2 / (base * base);
-    float away = max(cosines2, 1e-4 * sum2);  // not along the surface
+    float away = max(cosines2, 1e-4 * sum2);  // avoids a zero cosine
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
     float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.spread);
-    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // of the normals that shine
-    float shownV = max(lobe.shown + lobe.shownOfH * vh, 0.0);   // averted ones reflect nothing
+    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // cosine of the reflecting normals
+    float shownV = max(lobe.shown + lobe.shownOfH * vh, 0.0);   // back-facing normals reflect nothing
     float masking = max(mix(2.0 * shownL * shownV, shownL + shownV, lobe.width), 1e-4);
     float specular = shownV > 0.0 ? 0.5 * shownL * distribution / masking : 0.0;
     float g = 1.0 - vh;
@@ -181,13 +189,13 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     sums.grazing += received * g;
 }
 
-// Falloff and direction of a point or spot light (KHR_lights_punctual).
+// Returns falloff and direction of a point or spot light (KHR_lights_punctual).
 vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toLight) {
     vec3 offset = positionRange.xyz - position;
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (positionRange.w > 0.0) {                                       // the extension's recommended window
+    if (positionRange.w > 0.0) {                                       // window recommended by the extension
         float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -198,7 +206,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     return light.colorScale.rgb * falloff;
 }
 
-// The normal whose cosine gives the light that matt surfaces throw back.
+// Returns the normal whose cosine gives the diffusely reflected light.
 vec3 mattNormal(SurfacePoint point) {
 #ifdef COARSE_LEVEL
     return point.seen;
@@ -207,8 +215,8 @@ vec3 mattNormal(SurfacePoint point) {
 #endif
 }
 
-// The share of a white environment's light that the specular part throws back. The fit leaves [0, 1] for rough surfaces without
-// reflectance and at grazing angles.
+// Returns the share of a white environment that the specular part reflects. The fit leaves [0, 1] at grazing angles for
+// rough surfaces without reflectance.
 vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
@@ -219,8 +227,8 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
 }
 
-// What a surface that throws back `reflected` leaves to what lies beneath. Of coloured reflections the strongest channel counts, or
-// what is beneath would take on the opposite colour (KHR_materials_specular).
+// Returns the light left for the layers beneath a layer that reflects `reflected`. The strongest channel of coloured
+// reflections counts, to keep the layers beneath from taking the opposite colour (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
 #ifdef OWN_REFLECTANCE
     return vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b)));
@@ -233,7 +241,8 @@ vec3 remaining(vec3 reflected) {
 #include "include/sheen.glsl"
 #endif
 
-// The environment's light on the point, `occlusion` of it. What the specular part throws back never reaches the diffuse one.
+// Returns the reflected environment light, scaled by `occlusion`. The diffuse part receives only light that the
+// specular part doesn't reflect.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
 #if ENVIRONMENT == 0
     return vec3(0.0);
@@ -244,8 +253,9 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
     vec3 reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * ENVIRONMENT_LEVELS);
 #elif ENVIRONMENT == 2
-    // Only heights count: that of the mirrored direction 2 (n·v) n − v too. Mirrored directions about one spread twice as far as the
-    // normals do, so that their mean height is 1 − 2·spread of its height; of the matt reflection it is 2/3.
+    // Only heights (y) matter, including that of the mirrored direction 2 (n·v) n − v. Mirrored directions spread twice
+    // as far as the normals. Their mean height is therefore 1 − 2·spread of the mirrored height; for diffuse reflection
+    // it is 2/3.
     float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
     vec3 diffuse = gradientDiffuse(mattNormal(point).y);
     vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
@@ -266,9 +276,10 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
 #endif
 }
 
-// Radiance towards the eye from beneath a coat. `position`, from the camera, matters to point and spot lights only.
+// Returns the radiance towards the eye without the coat. `position` (from the camera) is used by point and spot lights
+// only.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
-    float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
+    float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
     float spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, nv, spread);
     LightSums sums;
@@ -324,7 +335,7 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
 }
 
 #ifdef CLEARCOAT
-// KHR_materials_clearcoat: a coat of refractive index 1.5 mirrors, and what it doesn't throw back comes from beneath.
+// KHR_materials_clearcoat: the coat of refractive index 1.5 reflects, and the rest of the light comes from beneath.
 vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
     SurfacePoint coat = point;
     coat.diffuse = vec3(0.0);

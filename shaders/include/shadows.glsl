@@ -1,26 +1,29 @@
-// Which share of each light, and how much light from all around, reaches a point (Williams 1978; Haeberli and Akeley 1990).
-// SHADOW_FIRST, SHADOW_FACES: for each light, and then for the surroundings, its first map (−1: none) and how many it has.
+// Visibility of each light and of the environment from a point (Williams 1978; Haeberli and Akeley 1990). SHADOW_FIRST,
+// SHADOW_FACES: for each light and then the environment, its first map (−1: none) and its number of maps.
 //
-// A texel holds one depth of all that it covers, that of its middle, so a plane would shadow itself. What is compared with it is the
-// depth that the place's facet has at the texel's middle (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques), which is right
-// for planes. For hollows, a place is lifted by a quarter of a texel along the normal n of its facet, and by the error by which levels of
-// detail lie off the surface. Where light grazes the facet, its depth runs away: half a texel's diagonal, r, off its middle a plane lies
-// r·tan θ nearer to the light, θ the angle between n and the light, and a way d along n brings a place d/cos θ nearer: d = r·sin θ is
-// enough for any slope, and never more than r. So a place is lifted by a texel at most.
+// A texel stores one depth, that of its centre, so a plane would shadow itself. The comparison therefore uses the depth
+// of the receiver's facet at the texel centre (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques). This is
+// exact for planes. For concave surfaces, the receiver is offset along the facet's normal n. The offset is a quarter of
+// a texel plus the deviation of the level of detail from the surface.
+//
+// At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
+// diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
+// the receiver by d/cos θ towards the light. So d = r·sin θ ≤ r is sufficient for any slope, and the offset is at most
+// a texel.
 
 #include "include/shadow_projection.glsl"
 
-layout(binding = 18) uniform sampler2DArray shadowMaps;   // reversed depth; 0 where nothing is
+layout(binding = 18) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
 
 const int shadowFirst[LIGHT_COUNT + 1] = SHADOW_FIRST;
 const int shadowFaces[LIGHT_COUNT + 1] = SHADOW_FACES;
 
 struct Facet {
     vec3 place;     // m from the camera along the world's axes
-    vec3 normal;    // unit
+    vec3 normal;    // unit vector
 };
 
-// By how much the depth of the facet's plane changes from `clip` to the middle of the texel, which lies `toMiddle` (ndc) from there.
+// Returns the change of the facet's depth from `clip` to the texel centre, at offset `toMiddle` (NDC).
 float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMiddle) {
     const float farthest = 4.0;   // texels
     vec3 across = normalize(cross(normal, abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
@@ -35,7 +38,7 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
     return dot(vec2(a.z, b.z), steps) * (way > farthest ? farthest / way : 1.0);
 }
 
-// 1 or 0. `toLight`: unit.
+// Returns 1 if the facet is lit and 0 if not. `toLight` is a unit vector.
 float litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
@@ -60,7 +63,7 @@ int cubeFace(vec3 direction) {
     return direction.z > 0.0 ? 4 : 5;
 }
 
-// The share of light `i` that arrives from the direction `toLight`.
+// Returns the visible share of light `i` from the direction `toLight`.
 float lightShare(int i, Facet facet, vec3 toLight) {
     if (shadowFirst[i] < 0) return 1.0;
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);
@@ -69,7 +72,7 @@ float lightShare(int i, Facet facet, vec3 toLight) {
     return sum / float(SHADOW_POINTS);
 }
 
-// Irradiance over π that the surroundings would throw on a surface with the normal `normal`, and that something hides.
+// Returns the occluded part of the environment's irradiance over π, for a surface with the given normal.
 vec3 hiddenIrradiance(Facet facet, vec3 normal) {
     int map = shadowFirst[LIGHT_COUNT];
     vec3 sum = vec3(0.0);

@@ -1,5 +1,5 @@
-// KHR_materials_sheen: the distribution and the masking of Estevez and Kulla 2017, Production Friendly Microfacet Sheen BRDF
-// (the "Charlie" sheen). Smoother than 0.1 it would be a line along the outline.
+// KHR_materials_sheen with the distribution and masking of Estevez and Kulla 2017, Production Friendly Microfacet Sheen
+// BRDF ("Charlie" sheen). Roughness is at least 0.1; smoother sheen would shrink to a line along the outline.
 
 float sheenWidth(float roughness) {
     float bounded = max(roughness, 0.1);
@@ -21,7 +21,7 @@ float sheenMasking(float cosine, float width) {
                         : exp(2.0 * sheenMaskingTerm(0.5, width) - sheenMaskingTerm(1.0 - cosine, width));
 }
 
-// D·V·π of the light from `toLight`.
+// Returns D·V·π for light from `toLight`.
 float sheenReflectance(SurfacePoint point, float nv, float nl, vec3 toLight) {
     if (nv <= 0.0 || nl <= 0.0) return 0.0;
     float width = sheenWidth(point.sheenRoughness);
@@ -32,8 +32,8 @@ float sheenReflectance(SurfacePoint point, float nv, float nl, vec3 toLight) {
     return distribution * min(visibility, 1.0);
 }
 
-// The share of a white environment's light that a white sheen throws back: a fit to ∫ D·V·(n·l) dl for roughnesses from 0.1 and
-// n·v from 0.035, where it is at most 0.006 off; the logarithm is a polynomial of n·v and the root of roughness.
+// Returns the share of a white environment that a white sheen reflects, a fit to ∫ D·V·(n·l) dl. For roughness ≥ 0.1
+// and n·v ≥ 0.035 the error is at most 0.006. The logarithm is a polynomial of n·v and the square root of roughness.
 float sheenAlbedo(float nv, float roughness) {
     vec4 powers = vec4(1.0, nv, nv * nv, nv * nv * nv);
     float root = sqrt(max(roughness, 0.1));
@@ -45,7 +45,7 @@ float sheenAlbedo(float nv, float roughness) {
     return clamp(exp(sum) - 0.001, 0.0, 1.0);
 }
 
-// What the sheen leaves to the layers beneath it, of which `share` is thrown back by a white one.
+// Returns the light that the sheen leaves to the layers beneath. `share` is the share that a white sheen reflects.
 float sheenRemaining(SurfacePoint point, float share) {
     return 1.0 - share * max(point.sheen.r, max(point.sheen.g, point.sheen.b));
 }

@@ -1,9 +1,9 @@
-// What a surface shows of its material and its light, from the interpolated `surface`. The stage that includes this says beforehand
-//   SURFACE_TEXTURE(map, slot)    a texture where uvOf(slot, …) says, filtered over the pixel
-//   SURFACE_SHOWS_FRONT           whether its front is seen
-//   surfaceFootprint(normal)      SurfacePoint::footprint of the interpolated normal, which was given its length
+// Surface shading from the interpolated `surface`. The including stage must define
+//   SURFACE_TEXTURE(map, slot)    a texture sample at uvOf(slot, …), filtered over the pixel
+//   SURFACE_SHOWS_FRONT           true if the front is visible
+//   surfaceFootprint(normal)      SurfacePoint::footprint of the normalised interpolated normal
 // and, for TRANSMISSION,
-//   seenBehind(offset, roughness) what lies behind the surface at `offset` from it (m, world), premultiplied
+//   seenBehind(offset, roughness) the premultiplied colour behind the surface at `offset` from it (m, world)
 
 #ifdef BASE_COLOR_TEXTURE
 layout(binding = 0) uniform sampler2D baseColorTexture;
@@ -49,7 +49,7 @@ layout(binding = 16) uniform sampler2D sheenRoughnessTexture;
 #endif
 
 #ifdef TEXTURED
-// Where texture `slot` is read, from both sets of texture coordinates.
+// Returns the texture coordinates for texture `slot`, from both UV sets.
 vec2 uvOf(int slot, vec4 uvSets) {
 #ifndef UV_TRANSFORMS
     return uvSets.xy;
@@ -64,7 +64,7 @@ vec2 uvOf(int slot, vec4 uvSets) {
 
 #ifndef UNLIT
 #ifdef TANGENTS
-// `texel` of a normal texture, about the interpolated normal.
+// Returns the interpolated normal perturbed by `texel` of a normal map.
 vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     vec3 tangent = surface.tangent.xyz - normal * dot(normal, surface.tangent.xyz);
     float tangent2 = dot(tangent, tangent);
@@ -94,7 +94,7 @@ vec3 shadingNormal(vec3 normal) {
 }
 
 #ifdef OWN_REFLECTANCE
-// KHR_materials_ior and KHR_materials_specular.
+// Adds KHR_materials_ior and KHR_materials_specular.
 void addReflectance(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = material.reflectance.w;
     vec3 reflectance = material.reflectance.rgb;
@@ -140,10 +140,10 @@ void addSheen(inout SurfacePoint point) {
 #endif
 
 #ifdef TRANSMISSION
-float surfaceCoverage = 1.0;   // what the surface hides of a transparent background
+float surfaceCoverage = 1.0;   // alpha of the surface over a transparent background
 
-// KHR_materials_transmission and KHR_materials_volume: a thin wall shows what lies straight behind it; a volume that of where the
-// refracted ray has gone as far as the volume is thick, which absorbs on the way (Beer and Lambert).
+// KHR_materials_transmission and KHR_materials_volume. A thin wall shows the background straight behind it. A volume
+// shows the background at the end of the refracted ray, after the volume's thickness, with Beer–Lambert absorption.
 void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = material.transmission.x;
     float thickness = material.transmission.y;
@@ -216,7 +216,7 @@ vec3 shaded(vec3 baseColor) {
     point.emission = emittedRadiance();
 #endif
 #ifdef COARSE_LEVEL
-    point.agreement = clamp(surface.agreement, 0.05, 1.0);   // a sliver may extrapolate
+    point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles may extrapolate
     point.spread = normalSpread(point.agreement);
     point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
 #endif
@@ -256,6 +256,6 @@ vec3 surfaceRadiance(vec3 baseColor) {
 #else
     vec3 radiance = shaded(baseColor);
 #endif
-    // A texel or a sliver without a value is black, not a hole that no later sample could fill.
+    // NaN from a texel or a narrow triangle becomes black. Otherwise it would persist in the sum of all samples.
     return any(isnan(radiance)) ? vec3(0.0) : radiance;
 }

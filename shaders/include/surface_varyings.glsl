@@ -1,22 +1,22 @@
-// What the vertex stage hands to the fragment stage; only what the material needs.
+// Varyings from the vertex stage to the fragment stage, limited to those that the material needs.
 
     vec4 color;
 #ifdef VERTEX_COLOR_RANGES
-    flat vec4 minColor; // what the corners around have
+    flat vec4 minColor; // min over the adjacent corners
     flat vec4 maxColor;
 #endif
 #ifndef UNLIT
-    vec3 normal;          // along the world's axes, as all directions here
+    vec3 normal;          // in world axes, like all directions here
 #ifdef COARSE_LEVEL
-    float agreement;      // of the normals that a coarse level's normal stands for: the length of their mean, ≤ 1
+    float agreement;      // coarse levels: length of the mean of the represented normals, ≤ 1
 #endif
-    vec3 toEye;           // to this sample's point on the lens
+    vec3 toEye;           // towards this sample's lens point
 #endif
 #if defined(LOCAL_LIGHTS) || defined(TRANSMISSION) || (defined(SHADOWS) && !defined(UNLIT))
-    vec3 position;        // from the camera
+    vec3 position;        // relative to the camera
 #endif
 #ifdef TRANSMISSION
-    flat vec2 lens;       // of the lens sample: (u, k·v)
+    flat vec2 lens;       // lens point (u, k·v) of the sample
     flat float bandShift;
 #endif
 #ifdef TEXTURED
@@ -26,5 +26,5 @@
     vec4 tangent;
 #endif
 #if defined(OWN_BLUR) && defined(READS_OWN_BLUR)
-    vec2 ownBlur;         // the surface's factor on the blur, and what it adds as a share of the image's width
+    vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
 #endif

@@ -1,5 +1,5 @@
-// SURFACE_OUT.… = Σ weights·corner.… over the corners of a triangle, whose varyings are SURFACE_CORNERS[0 … 2]. For the stages that make
-// vertices. Where a weight is 0 the sum is the same whichever side of an edge asks for it.
+// Sets SURFACE_OUT.… = Σ weights·corner.… over the corners of a triangle, with the varyings SURFACE_CORNERS[0 … 2].
+// Used by stages that create vertices. On an edge (one weight 0), both adjacent triangles obtain the same sum.
 
 #define SURFACE_WEIGHTED(member) \
     (weights.x * SURFACE_CORNERS[0].member + weights.y * SURFACE_CORNERS[1].member + weights.z * SURFACE_CORNERS[2].member)

@@ -1,5 +1,5 @@
-// From linear HDR to display values, as src/image/tone_map.cpp has it: sRGB (IEC 61966-2-1), the ACES fit by Stephen Hill, AgX's
-// base look by Troy Sobotka in Benjamin Wrensch's fit, Khronos PBR Neutral.
+// Tone mapping from linear HDR to display values, like src/image/tone_map.cpp. It implements sRGB (IEC 61966-2-1), the
+// ACES fit by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin Wrensch's fit.
 
 vec3 finiteColour(vec3 value) {
     const float brightest = 1e6;
@@ -53,7 +53,7 @@ vec3 neutralEncoded(vec3 v) {
     return srgbEncoded(mix(v * (compressed / peak), vec3(compressed), white));
 }
 
-// Curve 0: none, 1: ACES, 2: AgX, 3: neutral (the order of the enumeration ToneMap).
+// Encodes a colour for display. Curve 0: none, 1: ACES, 2: AgX, 3: neutral (the order of the enumeration ToneMap).
 vec3 displayEncoded(vec3 linear, float gain, int curve) {
     vec3 colour = finiteColour(gain * linear);
     switch (curve) {

@@ -1,5 +1,5 @@
-// What the stages between the vertices and the shear need beside the surface: the place in the pinhole image (x, y, w of clip
-// space), what the surface makes of the blur, and the lens sample of the instance.
+// Varyings for the stages before the shear, besides the surface: pinhole position (x, y, w of clip space), blur
+// modifiers, and the lens sample of the instance.
 
     vec3 pinhole;
     vec2 ownBlur;

@@ -1,11 +1,11 @@
-// The least and the greatest blur (px) of each layer's surfaces in squares of pixels, as a pyramid of maps: a texel of level l covers
-// 2^(l + 1) pixels a side. Where there is no surface, the least is above the greatest.
+// Computes the min and max blur (px) of each layer's surfaces in squares of pixels, as a pyramid. A texel of level l
+// covers 2^(l + 1) pixels per side. Without a surface, min > max.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #ifdef BASE
 layout(binding = 0) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
 #else
-layout(binding = 0) uniform sampler2DArray extents;         // of which the level before is read
+layout(binding = 0) uniform sampler2DArray extents;         // source: the previous level
 layout(location = 0) uniform int finer;
 #endif
 layout(binding = 0, rg32f) writeonly uniform image2DArray extentOut;

@@ -1,12 +1,13 @@
-// Depth peeling for shaders/accumulation/object.frag: keeps what lies behind the layer that was peeled last, and says where.
+// Depth peeling for shaders/accumulation/object.frag: keeps surfaces behind the last peeled layer and outputs their
+// blur plane.
 
-layout(binding = 20) uniform sampler2DArray frontLayer;   // as surfaceOut; w: 0 before the first layer, < 0 where the last is empty
+// Same content as surfaceOut. w: 0 before the first layer, < 0 if the last layer is empty.
+layout(binding = 20) uniform sampler2DArray frontLayer;
 
-// Signed blur (px), how it grows from pixel to pixel to the right and up, and reversed depth: the plane of the surface in this
-// pixel.
+// Plane of the surface in this pixel: signed blur (px), its change per pixel to the right and up, and reversed depth.
 layout(location = 1) out vec4 surfaceOut;
 
-const float steepest = 16.0;   // px of blur a pixel: edges seen almost from the side
+const float steepest = 16.0;   // px of blur per pixel; steeper surfaces are seen almost edge-on
 
 void peel() {
 #ifdef OWN_BLUR
@@ -18,10 +19,10 @@ void peel() {
     vec2 slope = clamp(vec2(dFdx(blur), dFdy(blur)), -steepest, steepest);
     vec4 front = texelFetch(frontLayer, ivec3(gl_FragCoord.xy, 0), 0);
     if (front.w != 0.0) {
-        if (gl_FragCoord.z >= front.w) discard;   // also where nothing more lies: −1
+        if (gl_FragCoord.z >= front.w) discard;   // w = −1: no more surfaces
 #ifndef BLENDED
-        // The umbra of a pixel that hides what lies behind it from the whole lens: images of the two move by less than a pixel
-        // against each other.
+        // Discards surfaces in the umbra of the front pixel, which are hidden from the entire lens. The shifts of the
+        // two surfaces differ by less than a pixel.
         if (abs(blur - front.x) * (1.0 + abs(front.y) + abs(front.z)) < 1.0) discard;
 #endif
     }

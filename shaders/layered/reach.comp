@@ -1,13 +1,13 @@
-// For each pixel and layer, the blurs (px, least and greatest) of all surfaces that any lens ray of the pixel may meet. A ray meets a
-// surface at half its blur from the pixel at most. So what lies in the square of that size bounds the blur, which may make the square
-// smaller, again and again.
+// Computes, for each pixel and layer, the min and max blur (px) of all surfaces that its lens rays may meet. A ray
+// meets a surface within half the surface's blur from the pixel. The square of that size bounds the blur, which may
+// shrink the square; the shader iterates this.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2DArray extents;   // as layered/extent.comp makes them
+layout(binding = 0) uniform sampler2DArray extents;   // as in layered/extent.comp
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
-layout(location = 0) uniform int border;        // px that the layers show beyond the image
-layout(location = 1) uniform float farthest;    // px from a pixel at which a ray can meet anything
-layout(location = 2) uniform float chromatic;   // px that a wavelength adds to the blur or takes from it
+layout(location = 0) uniform int border;        // px that the layers extend beyond the image
+layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
+layout(location = 2) uniform float chromatic;   // px, max change of the blur by a wavelength
 
 const int maxRounds = 5;
 
@@ -15,7 +15,8 @@ vec2 extentAround(vec2 centre, float radius, int layer) {
     int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, LEVELS - 1);
     float size = float(2 << level);
     ivec2 first = max(ivec2(floor((centre - radius) / size)), ivec2(0));
-    // Threads have different levels, of which not every driver tells the size.
+    // The size is computed, because threads use different levels and some drivers cannot query the size of a varying
+    // level.
     ivec2 last = min(ivec2(floor((centre + radius) / size)), (textureSize(extents, 0).xy >> level) - 1);
     vec2 extent = vec2(1e30, -1e30);
     for (int y = first.y; y <= last.y; ++y)

@@ -1,29 +1,32 @@
-// What a lens sample shows: in each pixel, the nearest surface of all layers that its lens ray meets.
+// Traces one lens sample: each pixel shows the nearest surface over all layers that its lens ray meets.
 //
-// A surface of signed blur c px (diameter) at place q of the pinhole image is seen in the pixel p through the lens point (u, v) if
-// q = p − c/2·(u, v). So the ray is a line in the pinhole image, along which c grows with the distance. In each pixel of a layer the
-// surface is a plane, c = c₀ + slope·(q − centre): the ray meets it if it is in front of it at one end of the pixel and behind it at
-// the other. Neighbours whose planes differ by less than a pixel of blur are one surface; a ray can't pass between them. Rays begin
-// anywhere in their pixel, which changes nothing in focus and smooths what isn't.
+// A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
+// (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
+// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits it if it is in
+// front of the plane at one end of the pixel and behind it at the other.
+//
+// Neighbouring pixels whose planes differ by less than a pixel of blur form one surface, which rays cannot pass
+// between. Rays start at a random position in their pixel. This does not affect focused surfaces and smooths the
+// others.
 #include "include/frame.glsl"
 #include "include/layer_format.glsl"
 
 in vec2 place;
-flat in vec4 lensAndJitter;   // u, k·v; place in the pixel
-flat in float skyBandShift;   // what the wavelength adds to the blur of everything, as a share of the image's width
+flat in vec4 lensAndJitter;   // u, k·v; position in the pixel
+flat in float skyBandShift;   // change of all blur by the wavelength, as a fraction of the image's width
 flat in float ditherOffset;
 
 layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
 layout(binding = 1) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
-layout(binding = 2) uniform sampler2DArray layerReach;      // as layered/reach.comp makes it
+layout(binding = 2) uniform sampler2DArray layerReach;      // as in layered/reach.comp
 layout(location = 0) uniform int layerCount;
-layout(location = 1) uniform int border;                    // px that the layers show beyond the image
-layout(location = 2) uniform vec2 pinhole;                  // px, the layers' place in the pixel
+layout(location = 1) uniform int border;                    // px that the layers extend beyond the image
+layout(location = 2) uniform vec2 pinhole;                  // px, pinhole position of the layers in the pixel
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // px of blur by which a ray may miss a plane
-const float oneSurface = 1.0; // px of blur, as the umbra in layered/peel.glsl
+const float rounded = 0.05;   // tolerance in px of blur for meeting a plane
+const float oneSurface = 1.0; // px of blur, like the umbra in layered/peel.glsl
 #ifdef BLENDED
 const int maxSurfaces = 16;
 #else
@@ -36,17 +39,17 @@ struct Hit {
     ivec3 texel;
 };
 
-// A line in the layers: where it is for a blur.
+// A line in the layers, parameterised by blur.
 struct Ray {
     vec2 start;      // px
-    vec2 slope;      // px a px of blur
+    vec2 slope;      // px per px of blur
     vec2 perSlope;
-    float shift;     // px of blur, of all surfaces
+    float shift;     // px of blur, added to all surfaces
 };
 
 vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 
-// Of all layers' surfaces beyond reversed depth `limit`, the nearest.
+// Finds the nearest hit in a layer beyond the reversed depth `limit`.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
 #ifndef OWN_BLUR
@@ -63,8 +66,8 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 forward = ivec2(ray.slope.x < 0.0 ? -1 : 1, ray.slope.y < 0.0 ? -1 : 1);
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
-    bool connected = false;   // to the pixel before
-    float before = 0.0;       // px of blur by which the ray is behind its plane, where it left it
+    bool connected = false;   // to the previous pixel
+    float before = 0.0;       // px of blur by which the ray was behind the plane at its exit
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);
@@ -98,7 +101,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(lensAndJitter.x, lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * lensAndJitter.zw * frame.window.zw - pinhole;
-    // What is in focus stays in the pixel, rounded or not.
+    // Focused surfaces stay in their pixel despite rounding.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

@@ -1,21 +1,21 @@
-// Adds what a wave's rays met to each pixel's sum, one after the other in order, with compensation.
+// Adds the results of a wave's rays to each pixel's compensated sum, in order.
 
 #include "include/compensated.glsl"
 #include "lens_space/records.glsl"
 
 layout(local_size_x = 256) in;
 
-layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // of each pixel: the sum, and what its additions lost
+layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // per pixel: the sum and its compensation
 #ifdef LINES
 layout(std430, binding = 1) readonly buffer OutputBlock {
     uint counters[6];
-    uvec2 ranges[];   // of each ray: its first record, their number
+    uvec2 ranges[];   // per ray: first record, number of records
 };
 #endif
 
 layout(location = 0) uniform uint pixelCount;
 layout(location = 1) uniform uint rayCount;
-layout(location = 2) uniform bool begins;   // the frame
+layout(location = 2) uniform bool begins;   // true: first wave of the frame
 
 void main() {
     uint pixel = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

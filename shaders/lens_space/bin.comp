@@ -1,5 +1,5 @@
-// Kernel 2: the tiles that a triangle may cover, seen from anywhere on the lens at any time. COUNT: how many each tile gets;
-// otherwise they are filled.
+// Kernel 2: finds the tiles that a triangle may cover from any lens point at any time. COUNT: counts the triangles of
+// each tile; otherwise fills the tiles' lists.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -7,14 +7,15 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 4) buffer CountBlock { uint counts[]; };   // COUNT: of each tile; else where its next triangle goes
+// COUNT: triangles per tile. Otherwise: next free entry of each tile.
+layout(std430, binding = 4) buffer CountBlock { uint counts[]; };
 #ifndef COUNT
 layout(std430, binding = 5) writeonly buffer EntryBlock { uint entries[]; };
 #endif
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint triangleCount;
-layout(location = 2) uniform uint firstTile;   // of those that are filled, in rows from the lower left
+layout(location = 2) uniform uint firstTile;   // first tile to fill, in rows from the lower left
 layout(location = 3) uniform uint endTile;
 
 struct Area {
@@ -29,7 +30,8 @@ void add(inout Area area, vec4 clip, float aspect) {
     area.maximum = max(area.maximum, place + reach);
 }
 
-// Of the part beyond the near plane: C/w and the place are monotonic along an edge, so that the corners of the part bound it.
+// Extends the area by the part of the triangle beyond the near plane. C/w and the position are monotonic along an edge,
+// so the part's corners bound it.
 void add(inout Area area, vec4 corners[3], float aspect) {
     float near = frame.projection.z;
     for (int i = 0; i < 3; ++i) {
@@ -44,7 +46,8 @@ void add(inout Area area, vec4 corners[3], float aspect) {
     }
 }
 
-// Does all of the lens see its back (Munkberg, Toth and Akenine-Möller 2012, Appendix A)? A margin covers what rounding loses.
+// Returns true if the entire lens sees the triangle's back (Munkberg, Toth and Akenine-Möller 2012, Appendix A). A
+// margin covers rounding errors.
 bool facesAway(vec4 p[3], float aspect) {
     vec3 n0 = cross(p[1].xyz, p[2].xyz);
     vec3 n1 = cross(p[2].xyz, p[0].xyz);
@@ -66,8 +69,8 @@ void main() {
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);
 #ifdef MOVING
-    // Between two places in front of the camera a vertex stays between them, and so does C/w. Where a corner comes from behind the
-    // near plane, or goes there, nothing bounds what lies between.
+    // While a vertex moves in front of the camera, its position and C/w stay between their end values. No such bound
+    // exists if a corner crosses the near plane.
     vec4 later[3] = vec4[3](clipsAtEnd[triangle.x], clipsAtEnd[triangle.y], clipsAtEnd[triangle.z]);
     float near = frame.projection.z;
     float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
@@ -79,7 +82,7 @@ void main() {
     if (area.minimum.x > area.maximum.x) return;
     if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
 #endif
-    // A thousandth of a pixel covers what rounding loses.
+    // A margin of 0.001 px covers rounding errors.
     vec2 size = vec2(imageSize);
     vec2 first = floor(clamp((area.minimum * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(TILE));
     vec2 last = floor(clamp((area.maximum * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(TILE));

@@ -1,4 +1,4 @@
-// The least depth w of each triangle at any time, as bits that are ordered like it; 0 where it reaches the near plane.
+// Computes the min depth w of each triangle over time, as bits with the same ordering; 0 if it reaches the near plane.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"

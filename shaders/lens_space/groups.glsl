@@ -1,9 +1,9 @@
-// Surfaces that are shaded alike, and their share of the list of a wave's records.
+// A group of surfaces with the same shader, and its range in the list of a wave's records.
 
 struct Group {
     uint count;
-    uint first;      // of its records in the list
-    uint listed;     // so far
+    uint first;      // index of its first record in the list
+    uint listed;     // number of records listed so far
     uint unused;
 };
 

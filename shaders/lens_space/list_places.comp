@@ -1,4 +1,4 @@
-// Where each group's records begin in the list, and how many groups of threads shade them.
+// Computes where each group's records begin in the list, and how many workgroups shade them.
 
 #include "lens_space/groups.glsl"
 

@@ -1,4 +1,4 @@
-// The records of each group of surfaces that are shaded alike. COUNT: how many there are; otherwise they are listed.
+// Sorts records into groups of surfaces with the same shader. COUNT: counts the records; otherwise lists them.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -8,7 +8,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };   // the sky is group 0
+layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };   // group 0 is the sky
 layout(std430, binding = 5) writeonly buffer ListBlock { uint list[]; };
 
 layout(location = 0) uniform uint recordCount;

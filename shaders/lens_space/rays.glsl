@@ -1,24 +1,28 @@
-// The rays of each pixel. Pixels take turns at VARIANTS sets of rays, each of which is well spread over the lens and the pixel: in a
-// square of 8 × 8 pixels, or fewer, each has another one, and squares take them in another order (src/render/lens_space/ray_sets.h).
+// Rays of each pixel. There are VARIANTS sets of rays, each well distributed over lens and pixel. Pixels of a square of
+// up to 8 × 8 pixels use different sets, and each square has its own order (src/render/lens_space/ray_sets.h).
 
 struct Ray {
-    vec4 lensAndPixel;   // lens point (u, k·v), or the way of a line over the lens; place in the pixel, px from its centre
-    vec4 values;         // a point: x: time in the part of the exposure. A line: how far it reaches backwards, share of its light that
-                         // passes forwards
+    // Lens point (u, k·v), or the direction of a line over the lens; then the position in the pixel, in px from its
+    // centre.
+    vec4 lensAndPixel;
+    // Point: x is the time in the part of the exposure. Line: its backward extent, and the share of its light that
+    // passes forwards.
+    vec4 values;
 };
 
 layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // ray · VARIANTS + variant
 
 layout(location = 0) uniform ivec2 imageSize;
-layout(location = 1) uniform uint firstRay;   // of the wave
+layout(location = 1) uniform uint firstRay;   // first ray of the wave
 
-uint mixedBits(uint x) {   // the finaliser of MurmurHash3 (Appleby)
+uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     x = (x ^ (x >> 16)) * 0x85ebca6bu;
     x = (x ^ (x >> 13)) * 0xc2b2ae35u;
     return x ^ (x >> 16);
 }
 
-// The place of a pixel in the order of Bayer's matrix (1973), which keeps successive numbers apart, turned by its square's own bits.
+// Returns the ray set of a pixel. Bayer's matrix (1973) separates successive sets, and each square flips the index with
+// its own bits.
 uint variantOf(uvec2 pixel) {
     uint order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -29,8 +33,8 @@ uint variantOf(uvec2 pixel) {
     return (order ^ mixedBits((pixel.x >> 3u) + mixedBits(pixel.y >> 3u))) & (VARIANTS - 1u);
 }
 
-// Ray `ray` of the wave.
+// Returns ray `ray` of the wave.
 Ray rayOf(uint ray, uvec2 pixel) { return rays[(firstRay + ray) * VARIANTS + variantOf(pixel)]; }
 
-// In normalised device coordinates.
+// Returns the ray's position in the image, in normalised device coordinates.
 vec2 placeOf(Ray ray, uvec2 pixel) { return 2.0 * (vec2(pixel) + 0.5 + ray.lensAndPixel.zw) / vec2(imageSize) - 1.0; }

@@ -1,9 +1,9 @@
-// What the rays of a wave meet. Shading turns a record into light: its red, green, blue and coverage, times its weight.
+// Hits of a wave's rays. Shading replaces a record by its light: red, green, blue and coverage, times its weight.
 
 struct Record {
-    uint triangle;   // or noTriangle: the sky
+    uint triangle;   // noTriangle: the sky
     uint ray;        // (ray of the wave · height + y) · width + x
-    float place;     // along a line over the lens; the depth of what a point sees
+    float place;     // line: position along the line over the lens; point: depth of the hit
     float weight;
 };
 

@@ -1,4 +1,4 @@
-// Shades the records of one group: surfaces of one material and one set of features, or the sky (SKY).
+// Shades the records of one group: surfaces with the same material and features, or the sky (SKY).
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -20,9 +20,9 @@ layout(location = 3) uniform float lensRadius;   // m
 vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
 
 #ifdef VERTEX_LIGHT
-layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // of each vertex: of its front, of its back
+layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front, back
 
-// What its vertices throw back, interpolated.
+// Returns the interpolated light of the triangle's vertices.
 vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
     float time = ray.values.x;
     vec3 edges = edgeFunctions(clipAt(vertices.x, time), clipAt(vertices.y, time), clipAt(vertices.z, time), lens, place);
@@ -65,7 +65,7 @@ vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
 #endif
 #else
 
-// The sky lies infinitely far away, where C/w = b.
+// Returns the sky's radiance. The sky lies at infinity, where C/w = b.
 vec4 sky(vec2 lens, vec2 place) {
 #if BACKGROUND == 0
     return vec4(0.0);

@@ -1,6 +1,6 @@
-// Kernel 1, third part: the light that vertices throw back to the lens's centre, from their front and from their back, for surfaces of
-// one material and one set of features. Between vertices it's interpolated, and so textures, normals and highlights are averaged up to
-// half way to the next vertices: those of the first triangle of the frame that has this one.
+// Kernel 1, third part: shades vertices from the lens's centre, front and back, for surfaces with the same material and
+// features. The light is interpolated between vertices. Textures, normals and highlights are therefore averaged half
+// way to the neighbouring vertices. The neighbours are those in the frame's first triangle with this vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -11,8 +11,8 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };   // of each vertex: of its front, of its back
-layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };   // of each vertex, or noTriangle
+layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };   // per vertex: front, back
+layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };   // per vertex, or noTriangle
 
 layout(location = 0) uniform uint vertexCount;
 layout(location = 1) uniform uint group;

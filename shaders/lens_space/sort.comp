@@ -1,6 +1,6 @@
-// Puts each tile's triangles in order of their least depth, and in the frame's where that is equal, whatever the order in which they
-// were listed. What comes late is mostly hidden, and rays may be done before the end. Bitonic sort (Batcher 1968) with
-// mirrored first steps, so that all steps put the smaller first and what lies beyond the end can be left out.
+// Sorts each tile's triangles by min depth, then by their order in the frame, so that the result is deterministic. Late
+// triangles are mostly hidden, and rays may finish early. The bitonic sort (Batcher 1968) has mirrored first steps. All
+// steps therefore put the smaller value first, and entries beyond the end can be skipped.
 
 layout(local_size_x = 256) in;
 
@@ -10,8 +10,9 @@ layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 6) readonly buffer DepthBlock { uint depths[]; };
 
 layout(location = 0) uniform uint firstTile;
-layout(location = 1) uniform uvec2 only;   // a block and a step of it; 0: all. Mesa's software driver ends the loops of a thread after 65,535
-                                           // rounds in all, which long lists need several dispatches for.
+// A block and a step of it; 0: all. Mesa's software driver ends the loops of a thread after a total of 65,535 rounds,
+// so long lists need several dispatches.
+layout(location = 1) uniform uvec2 only;
 
 void order(uint a, uint b) {
     uint p = entries[a];

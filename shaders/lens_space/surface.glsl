@@ -1,11 +1,11 @@
-// Surfaces of one material, shaded from the attributes of their vertices.
+// Shades surfaces of one material from the attributes of their vertices.
 
-// All samples of a block are shaded alike: as the one whose share of a pixel is the mean of a frame's first 64.
+// All samples of a block use the same sample number, whose pixel share is the mean of a frame's first 64 samples.
 #define SAMPLE_NUMBER (wave.firstOfBlock + 12.5)
 #include "include/shading.glsl"
 
 struct Attributes {
-    vec4 position;   // from the camera along the world's axes, m
+    vec4 position;   // m from the camera along the world's axes
     vec4 normal;     // w: agreement
     vec4 color;
     vec4 uv;
@@ -23,12 +23,12 @@ struct Surface {
     vec4 tangent;
     float agreement;
     bool showsFront;
-    vec4 uvRight;       // where the same lens point sees it a pixel to the right, and one up
+    vec4 uvRight;       // UV that the same lens point sees one pixel to the right; uvUp: one pixel up
     vec4 uvUp;
     vec3 normalRight;
     vec3 normalUp;
 };
-// Functions above those that fill it in read it, and drivers warn of what has no value.
+// Initialised, because functions above the assignment read it and drivers warn about uninitialised values.
 Surface surface = Surface(vec4(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), 1.0, true, vec4(0.0), vec4(0.0), vec3(0.0),
                           vec3(0.0));
 

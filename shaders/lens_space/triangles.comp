@@ -1,17 +1,18 @@
-// Kernel 1, second part: a run of a level's indices as triangles of the frame, counter-clockwise where their front is seen.
+// Kernel 1, second part: converts a range of a level's indices to triangles of the frame, counter-clockwise if the
+// front is visible.
 
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
 #ifdef FIRST_TRIANGLES
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // of each vertex
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex
 #endif
 
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;
-layout(location = 2) uniform uint firstVertex;     // of the level, among the frame's vertices
-layout(location = 3) uniform uint firstTriangle;   // of the run, among the frame's triangles
+layout(location = 2) uniform uint firstVertex;     // first vertex of the level in the frame
+layout(location = 3) uniform uint firstTriangle;   // first triangle of the range in the frame
 layout(location = 4) uniform uint draw;
 layout(location = 5) uniform bool mirrored;
 

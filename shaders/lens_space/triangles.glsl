@@ -1,17 +1,20 @@
-// The triangles of a frame and what a point of the lens sees of them.
+// Triangles of a frame as seen from a point of the lens.
 //
-// A vertex is (x, y, w, C): seen from the lens point l = (u, k·v) it lies at p + C·(l, 0) (Munkberg, Toth and Akenine-Möller 2012).
-// Relative to a place s of the image it is q = (x, y) + C·l − w·s, and the edge from i to j has the function
+// A vertex is (x, y, w, C). From the lens point l = (u, k·v) it appears at p + C·(l, 0) (Munkberg, Toth and
+// Akenine-Möller 2012). Relative to an image position s it is q = (x, y) + C·l − w·s. The edge from i to j has the
+// function
 //   e_ij = q_i × q_j,
-// which is the volume of the ray and the edge: all three are ≥ 0 where the ray meets the triangle's front at w > 0, all ≤ 0 where it
-// meets its back, for vertices on either side of the camera (Olano and Greer 1997, Triangle Scan Conversion Using 2D Homogeneous
-// Coordinates). They are the barycentric coordinates of the place that is met, up to their sum. `precise`: neighbours find the same
-// value for the edge that they share, with the opposite sign, and no ray passes between them.
+// the volume spanned by the ray and the edge. All three functions are ≥ 0 if the ray meets the triangle's front at w >
+// 0, and ≤ 0 if it meets the back. This also holds for vertices behind the camera (Olano and Greer 1997, Triangle Scan
+// Conversion Using 2D Homogeneous Coordinates). Divided by their sum, they are the barycentric coordinates of the hit.
+//
+// With `precise`, neighbouring triangles compute the same value with opposite sign for a shared edge, so no ray passes
+// between them.
 
 struct Draw {
-    uint firstRay;      // of a pixel: rays [firstRay, endRay) see it
+    uint firstRay;      // rays [firstRay, endRay) of each pixel see the triangle
     uint endRay;
-    uint group;         // of surfaces that are shaded alike
+    uint group;         // group of surfaces with the same shader
     uint doubleSided;
 };
 
@@ -19,11 +22,12 @@ const uint noTriangle = 0xffffffffu;
 
 layout(std430, binding = 0) readonly buffer ClipBlock { vec4 clips[]; };
 #ifdef MOVING
-layout(std430, binding = 1) readonly buffer ClipEndBlock { vec4 clipsAtEnd[]; };   // of the part of the exposure at hand
+// Clip positions at the end of the current part of the exposure.
+layout(std430, binding = 1) readonly buffer ClipEndBlock { vec4 clipsAtEnd[]; };
 #endif
 layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };  // three vertices; draw
 
-// A vertex `fraction` of the way through the part of the exposure: positions and C are linear in time.
+// Returns a vertex at `fraction` of the current part of the exposure; positions and C are linear in time.
 vec4 clipAt(uint vertex, float fraction) {
 #ifdef MOVING
     return mix(clips[vertex], clipsAtEnd[vertex], fraction);
@@ -32,7 +36,7 @@ vec4 clipAt(uint vertex, float fraction) {
 #endif
 }
 
-// q: with a plain lens, C = a + b·w, the lens costs a multiplication and an addition.
+// Returns q. For a plain lens, C = a + b·w, the lens costs one multiplication and one addition.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
 #ifdef COC_CONTROLS
     precise vec2 q = clip.xy + clip.w * lens - clip.z * place;
@@ -42,7 +46,7 @@ vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     return q;
 }
 
-// The functions of the edges opposite to the three corners.
+// Returns the functions of the edges opposite to the three corners.
 vec3 edgeFunctions(vec4 a, vec4 b, vec4 c, vec2 lens, vec2 place) {
     precise vec2 qa = relativeTo(a, lens, place);
     precise vec2 qb = relativeTo(b, lens, place);
@@ -51,7 +55,7 @@ vec3 edgeFunctions(vec4 a, vec4 b, vec4 c, vec2 lens, vec2 place) {
     return e;
 }
 
-// The depth w where the ray meets the triangle; 0 where it doesn't, or in front of the near plane.
+// Returns the depth w of the hit; 0 for a miss or a hit in front of the near plane.
 float depthMet(vec4 a, vec4 b, vec4 c, bool doubleSided, vec2 lens, vec2 place) {
     vec3 e = edgeFunctions(a, b, c, lens, place);
     bool met = all(greaterThanEqual(e, vec3(0.0))) || (doubleSided && all(lessThanEqual(e, vec3(0.0))));

@@ -1,5 +1,5 @@
-// Kernel 1 of the lens-space methods: the vertices of a level, posed, for transform feedback. ATTRIBUTES: what shading needs;
-// otherwise where the pinhole image has them and their C.
+// Kernel 1 of the lens-space methods: poses the vertices of a level for transform feedback. ATTRIBUTES: outputs shading
+// attributes; otherwise pinhole position and C.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -10,7 +10,7 @@ layout(location = 2) in vec4 colorIn;
 layout(location = 3) in vec2 uv0In;
 layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
-layout(location = 8) in vec3 blurIn;   // factor, mm on the sensor as the shutter opens and as it closes
+layout(location = 8) in vec3 blurIn;   // factor; added blur in mm on the sensor at shutter opening and closing
 #ifdef SKIN_INFLUENCES
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -23,14 +23,14 @@ layout(location = 12) in vec4 weights1In;
 #include "include/posing.glsl"
 #endif
 #if defined(MOVING) || defined(BLUR_MOVES)
-layout(location = 0) uniform vec3 moment;   // of the shutter, how far it is to the next; time from 0 to 1
+layout(location = 0) uniform vec3 moment;   // shutter moment, fraction of the way to the next, time in [0, 1]
 #endif
 
 #ifdef ATTRIBUTES
-layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // from the camera along the world's axes, m
-layout(xfb_buffer = 0, xfb_offset = 16) out vec4 normalOut;    // along the world's axes; w: its length in the mesh, the agreement
+layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // m from the camera along the world's axes
+layout(xfb_buffer = 0, xfb_offset = 16) out vec4 normalOut;    // in world axes; w: length in the mesh, the agreement
 layout(xfb_buffer = 0, xfb_offset = 32) out vec4 colorOut;
-layout(xfb_buffer = 0, xfb_offset = 48) out vec4 uvOut;        // both sets
+layout(xfb_buffer = 0, xfb_offset = 48) out vec4 uvOut;        // both UV sets
 layout(xfb_buffer = 0, xfb_offset = 64) out vec4 tangentOut;
 #else
 layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w of clip space; C
@@ -81,7 +81,7 @@ void main() {
     own = object.values.w * vec2(blurIn.x, frame.cocOther.y * mix(blurIn.y, blurIn.z, time));
 #endif
 #ifdef COC_CONTROLS
-    // What reaches the near plane has one linear C: the methods refuse objects whose C bends there.
+    // Vertices at the near plane have one linear C, because the methods reject objects with a kinked C there.
     float w = pinhole.z == 0.0 ? 1e-20 : pinhole.z;
     float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, own);
 #else

@@ -1,25 +1,25 @@
-// The visible pieces of a line: disjoint, in order of p, each of the nearest of all segments so far.
+// Visible pieces of a line: disjoint, ordered by p, each from the nearest segment so far.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    uint index;      // among the line's pieces, for the walk over them
+    uint index;      // index among the line's pieces, for the final walk
 };
 
-// Two lists, of which each new segment turns one into the other.
+// Double buffer: each new segment rewrites one list into the other.
 vec2 pieceEnds[2 * SEGMENTS];
 vec4 pieceDepths[2 * SEGMENTS];   // E at 0, its slope; D at 0, its slope
 uint pieceTriangles[2 * SEGMENTS];
 uint pieceCount = 0u;
-uint current = 0u;                // 0 or SEGMENTS: where the list begins
+uint current = 0u;                // start of the current list: 0 or SEGMENTS
 uint nextCount = 0u;
 uint nextList = 0u;
 vec2 lineSides;
-float lost = 0.0;                 // light of pieces that found no room
+float lost = 0.0;                 // light of pieces that exceeded the capacity
 uint lostPieces = 0u;
-float hidden = 0.0;               // the least 1/w that is visible, if all of the line is covered
-float nextMin = 1e30;           // of the new list
+float hidden = 0.0;               // min visible 1/w if the entire line is covered
+float nextMin = 1e30;           // min visible 1/w of the new list
 bool nextHasGaps = false;
 
 void beginLine(vec2 sides) { lineSides = sides; }
@@ -49,7 +49,8 @@ void emitPiece(float first, float last, uint triangle, vec4 depth) {
     ++nextCount;
 }
 
-// > 0 where `a` is nearer than `b`: E₁/D₁ − E₂/D₂ times both determinants, which are positive where their triangles are seen.
+// Returns a function that is > 0 where `a` is nearer than `b`: E₁/D₁ − E₂/D₂ times both determinants. The determinants
+// are positive where the triangles are visible.
 vec3 nearness(vec4 a, vec4 b) {   // constant, linear, quadratic term
     return vec3(a.x * b.z - b.x * a.z, a.x * b.w + a.y * b.z - b.x * a.w - b.y * a.z, a.y * b.w - b.y * a.w);
 }
@@ -59,7 +60,7 @@ bool nearer(vec3 f, float p, uint a, uint b) {
     return value > 0.0 || (value == 0.0 && a < b);
 }
 
-// Where two segments intersect, in order; beyond 2 where they don't.
+// Returns the ordered positions where two segments intersect; values above 2 mean no intersection.
 vec2 crossings(vec3 f) {
     if (f.z == 0.0) return vec2(f.y == 0.0 ? 4.0 : -f.x / f.y, 4.0);
     float discriminant = f.y * f.y - 4.0 * f.x * f.z;
@@ -70,10 +71,10 @@ vec2 crossings(vec3 f) {
     return vec2(min(a, b), max(a, b));
 }
 
-// Whether anything as near as this may be visible.
+// Returns true if a surface at this inverse depth may be visible.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
+// Returns true if any part of a segment may be visible. The max of 1/w is at one of its ends.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -107,7 +108,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // with the three parts below
+        ownRounds += 4u;   // one for each of the parts below, and one for the loop
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];
@@ -115,7 +116,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
             emitPiece(ends.x, ends.y, other, otherDepth);
             continue;
         }
-        // The free part before the piece, the part they share, and what of the piece lies before or behind.
+        // Processes the free part before the piece, the overlap, and the rest of the piece on either side.
         if (cursor < interval.last && ends.x > cursor) {
             float last = min(ends.x, interval.last);
             emitPiece(cursor, last, triangle, depth);
@@ -146,7 +147,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     hidden = nextHasGaps || pieceEnds[current + pieceCount - 1u].y != 1.0 ? 0.0 : nextMin;
 }
 
-// The piece at p, or the gap up to the next one.
+// Returns the piece at p, or the gap up to the next piece.
 Piece pieceFrom(uint index, float p, Interval whole) {
     if (index < pieceCount) {
         vec2 ends = pieceEnds[current + index];
@@ -160,7 +161,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
 
-// Rounds of the loops that walk over the line in the end, at most.
+// Returns an upper bound on the loop rounds of the final walk.
 uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(MOST_SHADING_POINTS)); }
 
 const uint stateSize = 2u + 4u * uint(SEGMENTS);

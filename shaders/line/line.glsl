@@ -1,10 +1,11 @@
-// A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line Samples).
+// A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
+// Samples).
 //
-// At the lens point p·d of the line with the direction d = (cos φ, k·sin φ) a vertex lies at q(p) = α + p·β relative to a place s of the
-// image, with α = (x, y) − w·s and β = C·d. All β are parallel, so that the functions of the edges are linear in p:
-//   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j),
-// which is the paper's C + u·A(y) − v·B(x) ≥ 0. With E = Σ e and D = Σ e·w, the determinant of the triangle, 1/w = E/D: both are linear
-// in p, and so is D − near·E ≥ 0, the part of the triangle beyond the near plane.
+// The line has the direction d = (cos φ, k·sin φ). At its lens point p·d, a vertex lies at q(p) = α + p·β relative to
+// an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the edge functions are linear in p:
+//   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
+// This is the paper's C + u·A(y) − v·B(x) ≥ 0. With E = Σ e and D = Σ e·w, the triangle's determinant, 1/w = E/D. Both
+// are linear in p. So is D − near·E, which is ≥ 0 for the part of the triangle beyond the near plane.
 
 struct OnLine {
     vec3 edgesAt0;
@@ -15,7 +16,7 @@ struct OnLine {
 
 struct Interval {
     float first;
-    float last;        // empty where it is not above `first`
+    float last;        // empty if last ≤ first
 };
 
 float crossed(vec2 a, vec2 b) {
@@ -49,7 +50,7 @@ OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
     return line;
 }
 
-// Its other side.
+// Returns the back side of the triangle.
 OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
 
 void cut(inout Interval interval, float at0, float slope) {
@@ -62,10 +63,10 @@ void cut(inout Interval interval, float at0, float slope) {
     else interval.last = min(interval.last, root);
 }
 
-// Where the line sees the front, within `whole`.
+// Returns the interval within `whole` in which the line sees the front.
 Interval seen(OnLine line, Interval whole) {
     Interval interval = whole;
-    if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // no area
+    if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // degenerate triangle
     for (int i = 0; i < 3; ++i) cut(interval, line.edgesAt0[i], line.edgeSlopes[i]);
     vec2 beyondNear = line.determinant - frame.projection.z * line.sums;
     cut(interval, beyondNear.x, beyondNear.y);

@@ -1,19 +1,20 @@
-// The segments of a line in a buffer of fixed size in shared memory, as Tzeng et al. 2012 keep them. Segments that another one hides
-// are left out, and so are those whose share of the line's light is too small to be seen. Where the buffer is full, a segment that
-// continues another one of the same surface is merged with it, and otherwise the one that contributes least is dropped. In the end a
-// sweep along the line finds the nearest. Segments that intersect change places only where one of them ends.
+// Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Hidden segments are
+// dropped, and so are segments with a negligible share of the line's light. If the buffer is full, a new segment is
+// merged with one that it continues on the same surface. Otherwise the segment with the smallest contribution is
+// dropped. A final sweep along the line finds the nearest segments. The sweep reorders intersecting segments only where
+// one of them ends.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    float nextLast;      // of the part behind it, which another triangle shows
+    float nextLast;      // end of the segment behind it, from another triangle
     uint nextTriangle;
 };
 
-const float minLight = 1.0 / 4096.0;       // of the line
-const float continuation = 1e-3;             // of the line: as near as this, one segment continues another
-const float sameDepth = 0.02;                // of the inverse depth
+const float minLight = 1.0 / 4096.0;       // fraction of the line's light
+const float continuation = 1e-3;             // fraction of the line: max gap between a segment and its continuation
+const float sameDepth = 0.02;                // relative tolerance of the inverse depth
 
 shared vec4 segments[threads * uint(SEGMENTS)];         // p at both ends, 1/w at both ends
 shared uint segmentTriangles[threads * uint(SEGMENTS)];
@@ -22,9 +23,9 @@ vec2 lineSides;
 float lost = 0.0;
 uint lostSegments = 0u;
 uint merged = 0u;
-float hidden = 0.0;      // 1/w up to which a segment over all of the line hides everything
+float hidden = 0.0;      // 1/w below which a segment over the entire line hides everything
 
-uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // neighbours lie in neighbouring words
+uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // adjacent threads use adjacent words
 
 void beginLine(vec2 sides) { lineSides = sides; }
 
@@ -32,7 +33,7 @@ float inverseDepthAt(vec4 segment, float p) {
     return mix(segment.z, segment.w, clamp((p - segment.x) / (segment.y - segment.x), 0.0, 1.0));
 }
 
-// Whether `a` covers all of `b` and lies in front of it at both of its ends.
+// Returns true if `a` covers all of `b` and is nearer at both ends of `b`.
 bool hides(vec4 a, vec4 b) {
     return a.x <= b.x && a.y >= b.y && inverseDepthAt(a, b.x) >= b.z && inverseDepthAt(a, b.y) >= b.w;
 }
@@ -49,16 +50,16 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     bool before = abs(segment.y - other.x) < continuation && abs(segment.w - other.z) < sameDepth * other.z;
     if (!after && !before) return false;
     segments[slotOf(i)] = after ? vec4(other.x, segment.y, other.z, segment.w) : vec4(segment.x, other.y, segment.z, other.w);
-    // The triangle that shows more of itself shades both.
+    // The triangle with the longer segment shades both.
     if (segment.y - segment.x > other.y - other.x) segmentTriangles[slotOf(i)] = triangle;
     ++merged;
     return true;
 }
 
-// Whether anything as near as this may be visible.
+// Returns true if a surface at this inverse depth may be visible.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
+// Returns true if any part of a segment may be visible. The max of 1/w is at one of its ends.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -115,7 +116,7 @@ struct Part {
     uint triangle;
 };
 
-// What is nearest from p on, up to where another segment begins or this one ends.
+// Returns the nearest part from p on, up to the start of another segment or the end of this one.
 Part partFrom(float p, Interval whole) {
     float last = whole.last;
     for (uint i = 0u; i < segmentCount; ++i) {
@@ -139,7 +140,7 @@ Part partFrom(float p, Interval whole) {
     return Part(last, triangle);
 }
 
-// The piece that begins with a part; parts of one triangle are one piece.
+// Returns the piece that begins with a part; adjacent parts of one triangle form one piece.
 Piece pieceFrom(float p, Part part, Interval whole) {
     Piece piece = Piece(p, part.last, part.triangle, part.last, noTriangle);
     while (piece.last < whole.last) {
@@ -156,7 +157,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
 
-// Rounds of the loops that walk over the line in the end, at most.
+// Returns an upper bound on the loop rounds of the final walk.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
     return parts * (4u * segmentCount + 2u + uint(MOST_SHADING_POINTS));

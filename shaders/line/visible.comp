@@ -1,8 +1,8 @@
-// Kernel 3 of the line samples: what each line of a tile's pixels sees along its way over the lens. A group of threads has one tile and
-// one line of each of its pixels.
+// Kernel 3 of the line samples: finds the surfaces that each line of a tile's pixels sees along its path over the lens.
+// A workgroup processes one tile and one line of each of its pixels.
 //
-// EXACT: each line keeps what is visible so far, in pieces that don't overlap, and cuts every further segment at their ends and where
-// the two intersect. Otherwise segments are kept in a buffer in shared memory, as published, and resolved in the end.
+// EXACT: each line keeps its visible parts as disjoint pieces. Every new segment is cut at their ends and at
+// intersections. Otherwise segments are kept in a buffer in shared memory, as published, and resolved at the end.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -14,55 +14,62 @@
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };   // of each tile's triangles among the entries
+// Ends of the tiles' triangle lists in the entries.
+layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
-    uint recordCount;       // asked for
+    uint recordCount;       // number of requested records
     uint droppedSegments;
-    uint droppedLight;      // in 1/1024 of a line
+    uint droppedLight;      // in units of 1/1024 of a line
     uint mergedSegments;
-    uint laterJobs;         // that are put off to other dispatches
-    uint unfinishedJobs;    // of those that this dispatch took up
-    uvec2 ranges[];         // of each ray: its first record, their number. Behind those of the wave lie the jobs that are put off, two each
-                            // (tile, ray; next entry, status), and behind them what the lines of those hold that are at work
+    uint laterJobs;         // jobs deferred to later dispatches
+    uint unfinishedJobs;    // jobs of this dispatch that are not finished
+    // Per ray of the wave: first record, number of records. Then the deferred jobs, two elements each: (tile, ray) and
+    // (next entry, status). Then the saved state of the lines of unfinished jobs.
+    uvec2 ranges[];
 };
 struct Bounds {
-    vec4 box;               // of the line over the variants: least u, k·v, most
-    vec4 strip;             // xy: across the line, a unit vector in (u, v); z: how far any variant leaves the middle along it
+    vec4 box;               // box of the line over the variants: min (u, k·v), max (u, k·v)
+    // xy: unit vector across the line in (u, v); z: max offset of any variant from the middle along it.
+    vec4 strip;
 };
 layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[MOST_RAYS]; };
 
-layout(location = 2) uniform uint firstTile;       // of those that the entries hold
+layout(location = 2) uniform uint firstTile;       // first tile that the entries cover
 layout(location = 3) uniform uint recordCapacity;
-layout(location = 5) uniform float shadingStep;    // px that a surface moves under one shading point; 0: one for each segment
-// A job is what a group of threads does: a tile and a line of each of its pixels. Mesa's software driver ends the loops of a thread
-// after 65,535 rounds in all. There jobs that need more are put off, and go on from dispatch to dispatch.
-layout(location = 6) uniform uint maxRounds;      // of the loops in a dispatch, about; 0: any number
-layout(location = 7) uniform uvec4 jobs;           // x: 1 for jobs that were put off, 0 for all tiles and rays; y: the first of the dispatch
-                                                   // and z: where the states begin, both among the ranges; w: where jobs are put off to
+// Surface motion in px that one shading point covers; 0: one shading point per segment.
+layout(location = 5) uniform float shadingStep;
+// A job is the work of a workgroup: one tile and one line of each of its pixels. Mesa's software driver ends the loops
+// of a thread after a total of 65,535 rounds. Jobs that need more are deferred and continue in later dispatches.
+layout(location = 6) uniform uint maxRounds;      // approximate limit on loop rounds per dispatch; 0: none
+// x: 1 for deferred jobs, 0 for all tiles and rays; y: first job of the dispatch; z: start of the saved states; w:
+// where to store deferred jobs. y, z and w are indices into `ranges`.
+layout(location = 7) uniform uvec4 jobs;
 
 const uint threads = uint(TILE * TILE);
 const uint maxKept = 64u;
-const uint maxScans = 1024u;   // of as many entries as there are threads, before the segments of what was kept are added
+// Max number of scans before the kept triangles' segments are added. A scan covers as many entries as there are
+// threads.
+const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
 shared uvec2 kept[maxKept];    // triangle, double-sided
-shared uint keptHere[2];        // a bit for each thread whose candidate is kept
+shared uint keptHere[2];        // one bit for each thread whose candidate is kept
 shared uint keptCount;
 shared uint nextBase;
-shared uint open;               // whether some line may still see what comes next
-shared uint halted;             // what some thread has left, of the two below
+shared uint open;               // true if some line may still see later triangles
+shared uint halted;             // status of threads that ran out of rounds: the flags below
 
-const uint hasSegments = 1u;    // that are seen and not added yet
+const uint hasSegments = 1u;    // visible segments are not yet added
 const uint hasNoRounds = 2u;
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // with the triangles from the next entry on
-const uint jobHasSeen = 2u;     // the triangles from there on, and goes on with what of them isn't added yet
+const uint jobGoesOn = 1u;      // continues with the triangles from the next entry on
+const uint jobHasSeen = 2u;     // has scanned the triangles there; some segments are not yet added
 const uint jobIsDone = 3u;
 
-// A driver's vector of threads walks a loop as often as that of its threads which needs most rounds.
+// A driver's vector of threads runs a loop as often as its slowest thread.
 const uint widestVector = 16u;
-uint commonRounds = 0u;         // of loops that all threads walk alike
+uint commonRounds = 0u;         // rounds of loops that all threads run equally often
 uint ownRounds = 0u;
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }
@@ -96,13 +103,13 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     return range.x <= dot(middle, across) + reach && range.y >= dot(middle, across) - reach;
 }
 
-// How many shading points a visible piece gets: one for each step that its surface moves in the image.
+// Returns the number of shading points of a visible piece: one for each step that its surface moves in the image.
 uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
     float blur = 0.0;   // C/w
     if (triangle == noTriangle) {
 #if BACKGROUND == 3
-        blur = frame.coc.w;   // other skies change too slowly to need more than one point
+        blur = frame.coc.w;   // other skies vary too slowly to need more than one point
 #endif
     } else {
         uvec4 vertices = triangles[triangle];
@@ -123,15 +130,17 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     for (uint i = 0u; i < count; ++i) {
         float from = i == 0u ? p1 : placeOfShare(p1, p2, float(i) / float(count));
         float to = i + 1u == count ? p2 : placeOfShare(p1, p2, float(i + 1u) / float(count));
-        // As published: in the middle. Otherwise anywhere, so that what varies along a segment is right on average.
+        // As published, the middle is shaded. Otherwise the position is random, which gives the correct mean along the
+        // segment.
         float place = shadingStep == 0.0 ? 0.5 * (from + to) : placeOfShare(from, to, mine.values.z);
         records[at + i] = Record(triangle, ray, place, lightBetween(from, to, sides));
     }
     return count;
 }
 
-// Keeps the next triangles of the tile that its lines may see, until they are enough or there was much to scan; all threads call it. They are in
-// the order of the list, whatever the threads' order: which segments a full buffer drops depends on it.
+// Collects the next triangles of the tile that its lines may see, until enough are found or the scan limit is reached.
+// All threads must call it. The triangles stay in list order, because a full buffer drops segments depending on the
+// order.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
@@ -190,8 +199,8 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Which of the kept triangles the line sees, in bits: xy their fronts, zw their backs. Threads that know them all can add segments at the
-// same time, though it's different triangles that they see.
+// Returns bit masks of the kept triangles that the line sees: xy their fronts, zw their backs. With the complete masks,
+// threads can add segments simultaneously even if they see different triangles.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     uvec4 sides = uvec4(0u);
     for (uint i = 0u; i < keptCount; ++i) {
@@ -208,7 +217,7 @@ uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     return sides;
 }
 
-// Adds the segments of what is seen, as long as there are rounds; the rest stays in `sides`.
+// Adds the segments of the visible triangles while rounds remain; the rest stays in `sides`.
 void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
     while (sides != uvec4(0u) && hasRoundsFor(0u, maxRounds)) {
         ++ownRounds;
@@ -244,7 +253,7 @@ void main() {
     vec2 place = placeOf(mine, pixel);
     vec2 direction = mine.lensAndPixel.xy;
     Interval whole = Interval(-mine.values.x, 1.0);
-    vec2 margin = vec2(2e-3) / vec2(imageSize);   // a thousandth of a pixel
+    vec2 margin = vec2(2e-3) / vec2(imageSize);   // 0.001 px
     vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
     vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
@@ -262,7 +271,7 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileMin, tileMax);
-        // The list goes from front to back: where all lines are covered by what is nearer, they are done.
+        // The list is ordered front to back. Once nearer surfaces cover all lines, the job is done.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
         if (open == 0u) {
@@ -284,7 +293,7 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // Put the rest off.
+        // Defers the rest.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {
@@ -306,14 +315,14 @@ void main() {
     if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
     uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
 
-    // Twice the same walk along the line: to count the records, then to write them.
+    // Walks along the line twice: first to count the records, then to write them.
     uint needed = 0u;
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         needed += recordsOf(piece.triangle, piece.first, piece.last, direction);
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    if (at + needed > recordCapacity) return;   // the wave is drawn again with room for all
+    if (at + needed > recordCapacity) return;   // the wave is drawn again with enough room
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);
 }

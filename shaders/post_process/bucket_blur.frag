@@ -1,7 +1,8 @@
-// What each pixel of a bucket is blurred as: its surface; where it has none, the mean of the nearest ones; and where an opaque surface
-// stands before both, that one. The blur is linear in the reversed depth, so the mean of depths has the mean of blurs.
+// Chooses the blur of each pixel of a bucket. It is the blur of the bucket's surface, or of the mean of the nearest
+// surfaces if there is none. A nearer opaque surface overrides both. Blur is linear in reversed depth, so the mean
+// depth has the mean blur.
 
-layout(binding = 0) uniform sampler2D known;         // of bucket_surfaces.frag, with mipmaps
+layout(binding = 0) uniform sampler2D known;         // from bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;
 #ifdef OWN_BLUR
 layout(binding = 2) uniform sampler2D opaqueOwnBlur;

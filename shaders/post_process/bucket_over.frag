@@ -1,4 +1,4 @@
-// A blurred bucket, premultiplied, to be laid over what lies behind it.
+// Outputs a blurred, premultiplied bucket for compositing over the buckets behind it.
 
 layout(binding = 0) uniform sampler2D radiance;
 layout(binding = 1) uniform sampler2D coverage;

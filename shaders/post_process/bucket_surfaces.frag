@@ -1,4 +1,4 @@
-// Where a bucket has surfaces: the depth of the nearest, and what it makes of the blur. Mipmaps average it with the last channel as
+// Writes a bucket's nearest surface: its depth and its blur modifiers. Mip levels average them with the last channel as
 // weight.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
@@ -6,7 +6,7 @@ layout(binding = 0) uniform sampler2D surfaceDepth;
 layout(binding = 1) uniform sampler2D surfaceOwnBlur;
 #endif
 
-layout(location = 0) out vec4 known;   // depth, factor, what is added, 1; or nothing
+layout(location = 0) out vec4 known;   // depth, blur factor, added blur, 1; 0 without a surface
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

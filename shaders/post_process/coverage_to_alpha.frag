@@ -1,4 +1,4 @@
-// What a method made of the coverage, as the alpha of what it made of the radiance.
+// Copies a method's processed coverage to the alpha channel of its processed radiance.
 layout(binding = 0) uniform sampler2D coverage;
 
 layout(location = 0) out vec4 alpha;

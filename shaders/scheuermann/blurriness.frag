@@ -1,4 +1,5 @@
-// The pinhole image with blurriness and relative depth in alpha: −1 (in front) … 0 (in focus) … 1 (behind), stored as 0 … 1.
+// Stores blurriness and relative depth in the pinhole image's alpha. The range −1 (in front) … 0 (in focus) … 1
+// (behind) is stored as [0, 1].
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -8,7 +9,7 @@
 #endif
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(location = 0) uniform float perLargest;   // 1 / the largest diameter, px
+layout(location = 0) uniform float perLargest;   // 1 / max diameter, px
 #ifndef THIN_LENS
 layout(location = 1) uniform vec4 planes;        // focus (m), 1/(focus − near), 1/(far − focus), cutoff behind
 #endif
@@ -21,10 +22,10 @@ void main() {
     float blurriness = pinholeCircleOfConfusion(pixel) * perLargest;
 #else
     float depth = texelFetch(pinholeDepth, pixel, 0).r;
-    // Infinity lies as far behind as anything does.
+    // Infinite depth counts as the farthest distance behind the focus.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
-    if (frame.coc.x == 0.0) blurriness = 0.0;    // no aperture
+    if (frame.coc.x == 0.0) blurriness = 0.0;    // pinhole
 #endif
     vec3 color = texelFetch(pinholeColor, pixel, 0).rgb;
 #ifdef ENCODED

@@ -1,24 +1,24 @@
-// Gathers TAPS taps of a Poisson disk as wide as the centre's blur, or of the aperture's shape.
+// Gathers TAPS taps of a Poisson disk, or of the aperture's shape, scaled to the blur at the centre pixel.
 #ifdef ENCODED
 #include "include/tone_map.glsl"
 #endif
 layout(binding = 0) uniform sampler2D sharpImage;   // rgb; alpha: blurriness and relative depth, 1/2 in focus
-layout(binding = 1) uniform sampler2D smallImage;   // the same, reduced and pre-blurred
+layout(binding = 1) uniform sampler2D smallImage;   // reduced and pre-blurred version of sharpImage
 layout(std140, binding = 1) uniform TapBlock {
     vec4 taps[MOST_TAPS];                           // xy in the unit disk
 };
 layout(location = 0) uniform float largestRadius;   // px
-layout(location = 1) uniform bool shaped;           // the taps aren't those of a disk
+layout(location = 1) uniform bool shaped;           // taps follow the aperture's shape instead of a disk
 
 layout(location = 0) out vec4 blurred;
 
 void main() {
     vec2 perPixel = 1.0 / vec2(textureSize(sharpImage, 0));
-    vec2 perPixelSmall = 1.0 / (SMALL_PIXEL * vec2(textureSize(smallImage, 0)));   // a pixel of the sharp image
+    vec2 perPixelSmall = 1.0 / (SMALL_PIXEL * vec2(textureSize(smallImage, 0)));   // one pixel of the sharp image
     float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
     float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;
-    // What lies behind the focus shows the aperture as it stands; in front it is turned by half. Gathering looks the
-    // other way.
+    // Behind the focus the aperture appears upright, in front of it rotated by 180°. Gathering looks in the opposite
+    // direction.
     if (shaped && centreDepth > 0.5) radius = -radius;
     float smallRadius = radius * SMALL_RADIUS * SMALL_PIXEL;
 
@@ -28,7 +28,7 @@ void main() {
         vec4 sharpTap = textureLod(sharpImage, (gl_FragCoord.xy + taps[i].xy * radius) * perPixel, 0.0);
         vec4 smallTap = textureLod(smallImage, (gl_FragCoord.xy + taps[i].xy * smallRadius) * perPixelSmall, 0.0);
         vec4 tap = mix(sharpTap, smallTap, abs(sharpTap.a * 2.0 - 1.0));
-        // The leak stop: what lies nearer than the centre counts as much as it is blurred.
+        // Leak prevention: taps nearer than the centre are weighted by their own blur.
         float weight = tap.a >= centreDepth ? 1.0 : abs(tap.a * 2.0 - 1.0);
         sum += weight * tap.rgb;
         weights += weight;

@@ -1,4 +1,4 @@
-// A 3 × 3 Gaussian (weights 1 2 1).
+// Applies a 3 × 3 Gaussian (weights 1 2 1).
 layout(binding = 0) uniform sampler2D small;
 
 layout(location = 0) out vec4 blurred;

@@ -1,4 +1,4 @@
-// Means of blocks of REDUCTION × REDUCTION pixels; blocks at the border hold the pixels there are.
+// Averages blocks of REDUCTION × REDUCTION pixels; blocks at the border average the existing pixels.
 layout(binding = 0) uniform sampler2D full;
 
 layout(location = 0) out vec4 mean;

@@ -1,5 +1,5 @@
-// What a caster hides of a light: only depth is written. What lets a share of the light pass hides that share of the texels, others in
-// each lens sample (Enderton et al. 2010, Stochastic Transparency).
+// Draws a shadow caster; only depth is written. A partially transmitting caster covers the matching share of the
+// texels, different ones in each lens sample (Enderton et al. 2010, Stochastic Transparency).
 
 #include "include/frame.glsl"
 
@@ -13,7 +13,8 @@ layout(binding = 0) uniform sampler2D baseColorTexture;
 #endif
 
 #if defined(ALPHA_BLEND) || defined(LETS_LIGHT_PASS)
-// Evenly spread over the texels and, from sample to sample, over each of them (Roberts 2018; as SCREEN_DOOR in accumulation/object.frag).
+// Returns a threshold that is evenly distributed over the texels, and over the samples in each texel (Roberts 2018).
+// SCREEN_DOOR in accumulation/object.frag uses the same pattern.
 float threshold() {
     uvec2 texel = uvec2(gl_FragCoord.xy);
     uint place = texel.x * 3242174889u + texel.y * 2447445414u + uint(object.values.z) * 2654435769u;

@@ -1,6 +1,6 @@
-// Kernel 3: what each ray of a tile's pixels meets first. A group of threads has one tile and one ray of each of its pixels. Those
-// rays pass through a small part of the lens, and only the triangles that this part shows in the tile are held against each of them
-// (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests with bounds of u and v).
+// Kernel 3: finds the first hit of each ray of a tile's pixels. A workgroup processes one tile and one ray of each of
+// its pixels. These rays pass through a small part of the lens. They are tested only against the triangles that this
+// part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests with bounds of u and v).
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -10,13 +10,15 @@
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };   // of each tile's triangles among the entries
+// Ends of the tiles' triangle lists in the entries.
+layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };   // of each ray over the variants: least u, k·v, most
+// Lens bounds of each ray over the variants: min (u, k·v), max (u, k·v).
+layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };
 
-layout(location = 2) uniform uint firstTile;   // of those that the entries hold
-// The part of each tile's list that is held against the rays. Mesa's software driver ends the loops of a thread after 65,535 rounds in
-// all, so that long lists take several dispatches, each of which goes on where the one before ended.
+layout(location = 2) uniform uint firstTile;   // first tile that the entries cover
+// Part of each tile's list that is tested in this dispatch. Mesa's software driver ends the loops of a thread after a
+// total of 65,535 rounds. Long lists take several dispatches; each continues where the last one ended.
 layout(location = 3) uniform uvec2 part;
 
 const uint threads = uint(TILE * TILE);
@@ -28,9 +30,9 @@ const uint stride = 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangle, double-sided
 shared uint keptCount;
-shared uint open;             // whether some ray may still meet what comes next
+shared uint open;             // true if some ray may still hit a later triangle
 
-// May the vertex move the triangle into the tile? Bounds of its places in px.
+// Extends the bounds (normalised device coordinates) by the positions that the vertex takes over the lens.
 void addPlaces(inout vec2 minimum, inout vec2 maximum, vec4 clip, vec4 lens) {
     vec2 shear = vec2(clip.w) / clip.z;
     vec2 place = clip.xy / clip.z;
@@ -68,7 +70,7 @@ void main() {
     Ray mine = rayOf(ray, pixel);
     vec2 place = placeOf(mine, pixel);
     vec2 lens = mine.lensAndPixel.xy;
-    vec2 margin = vec2(2e-3) / vec2(imageSize);   // a thousandth of a pixel
+    vec2 margin = vec2(2e-3) / vec2(imageSize);   // 0.001 px
     vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
     vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
@@ -91,7 +93,7 @@ void main() {
             open = 0u;
         }
         barrier();
-        // The list goes from front to back.
+        // The list is ordered front to back.
         if (inside && nearest * (1.0 + 1e-5) >= minDepth(entries[base])) atomicOr(open, 1u);
         barrier();
         if (open == 0u) break;
@@ -124,7 +126,7 @@ void main() {
 #else
             float w = depthMet(keptCorners[slot], keptCorners[slot + 1u], keptCorners[slot + 2u], kept[i].y != 0u, lens, place);
 #endif
-            // Equal depths: the first in the frame's order, whichever comes first here.
+            // At equal depth, the triangle that is first in the frame's order wins, whatever the order in the list.
             if (w > 0.0 && (w < nearest || (w == nearest && kept[i].x < triangle))) {
                 nearest = w;
                 triangle = kept[i].x;

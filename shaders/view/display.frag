@@ -1,20 +1,21 @@
-// The image as a person looks at it: tone-mapped, two images side by side, and what the overlays add.
+// Displays the image: tone mapping, side-by-side comparison and overlays.
 
 #include "include/tone_map.glsl"
 
 layout(binding = 0) uniform sampler2D firstImage;    // linear, premultiplied
 layout(binding = 1) uniform sampler2D secondImage;
 layout(binding = 2) uniform sampler2D cocImage;      // signed px
-layout(binding = 3) uniform sampler2D valueImage;    // λ, or images a lens sample; −1 where nothing is
-layout(binding = 4) uniform sampler2D wireImage;     // encoded
-layout(binding = 5) uniform sampler2D workImage;     // triangles, summed over lens samples
-layout(binding = 6) uniform sampler2D mapColours;    // of the overlay, linear
+layout(binding = 3) uniform sampler2D valueImage;    // λ, or images per lens sample; −1: empty
+layout(binding = 4) uniform sampler2D wireImage;     // display-encoded
+layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed over lens samples
+layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay
 
-layout(location = 0) uniform vec4 size;        // of the output, px; z: exposure gain, w: gain of the difference
+layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of the difference
 layout(location = 1) uniform ivec4 choices;    // curve; overlay; flags; unused
-layout(location = 2) uniform float divider;    // share of the width that the first image has
-layout(location = 3) uniform float cocScale;   // px of the output to a px of cocImage
-layout(location = 4) uniform vec2 workScale;   // 1 / lens samples in workImage; 1 / the largest log2 that is told apart
+layout(location = 2) uniform float divider;    // share of the width that shows the first image
+layout(location = 3) uniform float cocScale;   // output px per px of cocImage
+// 1 / lens samples in workImage; 1 / log2 value at which colours saturate.
+layout(location = 4) uniform vec2 workScale;
 
 layout(location = 0) out vec4 display;
 
@@ -34,13 +35,13 @@ float cocAt(vec2 uv) { return texture(cocImage, uv).r * cocScale; }
 vec3 encodedAt(sampler2D image, vec2 uv) {
     vec4 value = texture(image, uv);
     vec3 colour = displayEncoded(value.rgb, size.z, choices.x);
-    // Nothing behind: a checkerboard, as image editors show it.
+    // A transparent background shows a checkerboard, as in image editors.
     ivec2 tile = ivec2(gl_FragCoord.xy) / 12;
     float board = ((tile.x + tile.y) & 1) == 0 ? 0.42 : 0.50;
     return colour + (1.0 - clamp(value.a, 0.0, 1.0)) * board;
 }
 
-// What isn't asked for is not compiled: drivers that draw on the CPU run both sides of each branch.
+// Unused features are excluded at compile time, because drivers that draw on the CPU execute both sides of each branch.
 vec3 shown(vec2 uv) {
     vec3 first = encodedAt(firstImage, uv);
 #ifdef COMPARES
@@ -50,7 +51,7 @@ vec3 shown(vec2 uv) {
     return first;
 }
 
-// Orange in front of the focus plane, blue behind it, the darker the sharper.
+// Returns orange in front of the focus plane and blue behind it, darker where the image is sharper.
 vec3 cocColour(float coc, float grey) {
     float amount = clamp(log2(1.0 + abs(coc)) / 6.0, 0.0, 1.0);
     vec3 side = coc < 0.0 ? vec3(1.0, 0.55, 0.10) : vec3(0.20, 0.55, 1.0);
@@ -76,7 +77,7 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     return colour;
 }
 
-// Contours that stand out, where the blur is below about a pixel: what a camera's peaking marks.
+// Returns the strength of high-contrast edges with a blur below about one pixel, like a camera's focus peaking.
 float peaking(vec2 uv) {
     vec2 step = 1.0 / size.xy;
     float right = dot(shown(uv + vec2(step.x, 0.0)), luma) - dot(shown(uv - vec2(step.x, 0.0)), luma);
@@ -89,7 +90,7 @@ void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
 #ifdef COMPARES
-    if (uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read as it is
+    if (uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read without filtering
         display = vec4(colour, 1.0);
         return;
     }

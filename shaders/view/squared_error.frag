@@ -1,4 +1,4 @@
-// The squared difference of two images' display values at EV 0, mean of the channels.
+// Computes the squared difference of two images' display values at EV 0, averaged over the channels.
 
 #include "include/tone_map.glsl"
 

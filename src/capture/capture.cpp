@@ -23,9 +23,9 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // for the writer; more would only take memory
+constexpr std::size_t framesWaiting = 2;  // frames in the writer's queue; a longer queue only takes memory
 
-// frames/0012.exr → frames/0012.part00064-00128.exr
+// Returns the name of a part: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
     fs::path path = frame;
     path.replace_extension(fmt::format("part{:05}-{:05}.exr", range.first, range.end));
@@ -47,13 +47,12 @@ FrameState partState(const fs::path& path, const std::string& settings) {
     }
 }
 
-// ---- sidecar
-// ---------------------------------------------------------------------------------------------------------
+// ---- sidecar --------------------------------------------------------------------------------------------------------
 
 struct FrameTimes {
     double planMilliseconds = 0;
     double renderMilliseconds = 0;
-    double writeMilliseconds = 0;  // encoding included
+    double writeMilliseconds = 0;  // includes encoding
 };
 
 void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const FilmFrame& film, const FrameMoment& frame,
@@ -76,21 +75,21 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
         fail("{}: cannot be written", options.timings.string());
 }
 
-// ---- one frame
-// -------------------------------------------------------------------------------------------------------
+// ---- one frame ------------------------------------------------------------------------------------------------------
 
-// What the writer needs of a frame; the driver goes on meanwhile.
+// Output of a drawn frame, for the writer; the driver draws the next frame meanwhile.
 struct DrawnFrame {
     FrameMoment moment;
-    Image image;     // of a frame in one piece
-    FramePart part;  // of a range of samples
+    Image image;     // image of a frame that is drawn in one piece
+    FramePart part;  // sums, if only some samples are drawn
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // a frame in tiles is written while it is drawn
+    bool written = false;  // true for a frame in tiles, which is written while it is drawn
 };
 
-// The time limit ends the run, not a frame: a frame gets the same samples whenever it is rendered.
+// Returns the request's stop conditions without the time limit, which ends the run instead of a frame. A frame gets the
+// same samples in each run.
 StopSettings stopOf(const FilmOptions& options) {
     StopSettings stop = stopSettings(options.settings.request);
     stop.timeLimit.reset();
@@ -103,7 +102,7 @@ Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& o
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // the only text that a JPEG holds
+        metadata["comments"] = film.settings[file];  // JPEG files hold no other text
     return metadata;
 }
 
@@ -139,7 +138,7 @@ public:
         for (ImageRowWriter& writer : writers_) writer.write(rows);
         milliseconds_ += millisecondsSince(start);
     }
-    // Returns the milliseconds that writing took.
+    // Returns the time that writing took, ms.
     double finish() {
         const Clock::time_point start = Clock::now();
         for (ImageRowWriter& writer : writers_) writer.finish();
@@ -153,7 +152,7 @@ private:
     double milliseconds_ = 0;
 };
 
-// Draws the whole frame, or some of its samples.
+// Draws a frame, or some of its samples.
 DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, FrameDriver& driver,
                      const FilmOptions& options, const FilmMetadata& metadata,
                      const std::function<void(double)>& step) {
@@ -193,18 +192,16 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
     return drawn;
 }
 
-// ---- progress
-// --------------------------------------------------------------------------------------------------------
+// ---- progress -------------------------------------------------------------------------------------------------------
 
-// "frame 12, 3400 ms and 18.2 M triangles each"
+// Returns a line such as "frame 12, 3400 ms and 18.2 M triangles each".
 std::string stageText(int frame, const FilmFigures& figures, double milliseconds) {
     if (figures.rendered == 0) return fmt::format("frame {}", frame);
     return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each", frame, milliseconds / figures.rendered,
                        static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
 }
 
-// ---- what is there
-// ---------------------------------------------------------------------------------------------------
+// ---- files of earlier runs ------------------------------------------------------------------------------------------
 
 FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, const FilmOptions& options) {
     const FrameMoment frame = frameAt(shot, base, number);
@@ -256,7 +253,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
         const std::lock_guard lock(reporting);
         report(progress, "frames checked", ++done, frames.size());
     });
-    // Of several faulty frames the first is told, whichever was looked at first.
+    // Report the first faulty frame in the shot's order.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     return film;
@@ -265,7 +262,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
 FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
-    // What an earlier run left; its times are kept only where its frames are.
+    // Remove incomplete files of an earlier run. Its times are kept only if its frames are kept.
     std::vector<fs::path> files;
     int wanted = 0;
     for (const FilmFrame& film : frames) {
@@ -276,7 +273,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     std::error_code ignored;
     if (!options.resume) fs::remove(options.timings, ignored);
 
-    // Frame after frame; the writer works on those before.
+    // Draw frame after frame while the writer thread works on the previous ones.
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);

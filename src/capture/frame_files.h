@@ -1,5 +1,5 @@
 #pragma once
-// The files of a shot's frames: their names, and whether one that is there is the frame that is wanted.
+// Names the files of a shot's frames and checks whether existing files are the wanted frames.
 
 #include <filesystem>
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace defocus::engine {
 
-// "frames/####.exr": the frame's number, with zeros in front, stands for the #. Throws Error for a pattern without #,
-// with # in two places or in its folder, and for an ending that writeImage doesn't know.
+// Throws Error for a pattern without #, with # in two places or in its folder, and for an ending that writeImage
+// doesn't know. In "frames/####.exr", # stands for the digits of the frame's number, with leading zeros.
 void checkFramePattern(const std::string& pattern);
 std::filesystem::path framePath(const std::string& pattern, int frame);
 
-// What is there under a frame's name.
+// State of a frame's file.
 enum class FrameState {
-    missing,   // nothing, or a file that is damaged
-    finished,  // a whole image of the size and the settings that are wanted
-    other,     // a whole image, but not that
+    missing,   // no file, or a damaged one
+    finished,  // complete image of the wanted size and settings
+    other,     // complete image of another size or other settings
 };
 FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
 
-// Removes what a process that was killed left beside these files: temporary ones of their names. What another process
-// is writing just now stays.
+// Removes temporary files that a killed process has left beside these files. Keeps temporary files of running
+// processes.
 void removeUnfinished(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace defocus::engine

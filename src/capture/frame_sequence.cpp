@@ -22,8 +22,7 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- camera
-// ----------------------------------------------------------------------------------------------------------
+// ---- camera ---------------------------------------------------------------------------------------------------------
 
 glm::dvec3 pointOf(const Place& place, const Scene& scene, const Pose& pose) {
     if (const auto* point = std::get_if<glm::dvec3>(&place)) return *point;
@@ -36,20 +35,20 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
     return points;
 }
 
-// How much of a movement is done at `frame`, 0 at its first and 1 at its last.
+// Returns the finished fraction of a movement at `frame`: 0 at its first frame, 1 at its last.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
-// A camera of the file goes where its node's animation takes it; one that frames the scene stays.
+// Returns the file's camera, moved by its node's animation; none for a camera that frames the scene.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
     if (base.scene->cameras.empty() || std::holds_alternative<FramingCamera>(base.camera)) return {};
     return chooseCamera(*base.scene, pose, base.camera, static_cast<double>(base.view.width) / base.view.height);
 }
 
-// At frame number `frame`, whole or not.
+// Returns the view at frame number `frame`, which may be fractional.
 View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, double frame) {
     View view = base.view;
     const Scene& scene = *base.scene;
@@ -73,10 +72,9 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
     return view;
 }
 
-// ---- lens
-// ------------------------------------------------------------------------------------------------------------
+// ---- lens -----------------------------------------------------------------------------------------------------------
 
-// `view` has the frame's lens but for its focus distance.
+// `view` must have the frame's lens; its focus distance is not used.
 double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose& pose, const View& view) {
     constexpr const char* who = "focus";
     if (const auto* node = std::get_if<FocusNode>(&target)) return depthOfNode(scene, pose, view, node->name, who);
@@ -89,7 +87,7 @@ double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose
 double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {
     View view = frame.view;
     view.lens = lens;
-    // Only the keys that have a say at this frame: a node far from its turn may be anywhere.
+    // Evaluate only the keys that affect this frame: the nodes of other keys may be behind the camera.
     std::vector<Key<double>> dioptres;
     for (std::size_t i = 0; i < focus.keys.size(); ++i) {
         const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;
@@ -103,7 +101,7 @@ double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& f
 
 enum class Scale { plain, logarithmic, reciprocal, stepped };
 
-// In which measure equal steps are equal to a photographer: f-stops and zoom go by ratios, the focus by dioptres.
+// Returns the scale on which a lens value is interpolated: f-stop and zoom by ratios, focus by dioptres.
 Scale scaleOf(const LensField& field) {
     if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
     const std::string_view name = field.name;
@@ -131,12 +129,12 @@ double lensValueAt(const LensTrack& track, const LensField& field, double frame)
     return next == keys.begin() ? next->value : std::prev(next)->value;
 }
 
-// The camera's own values, which may be animated.
+// Sets the lens to the camera's own values, which may be animated.
 void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
     std::map<std::string, double, std::less<>> own;
     for (const auto& [name, value] : camera.lens)
         if (!base.fixedLens.contains(name)) own.emplace(name, value);
-    setLensFields(lens, own);  // values that no lens can have were warned of
+    setLensFields(lens, own);  // warnings have already named impossible values
     fitToCamera(lens, camera, static_cast<double>(base.view.width) / base.view.height,
                 [&](std::string_view name) { return base.fixedLens.contains(name) || camera.lens.contains(name); });
 }
@@ -147,17 +145,16 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const FrameMoment& frame
     for (const auto& [name, track] : shot.lens) {
         const LensField& field = *lensFieldNamed(name);
         const double value = lensValueAt(track, field, frame.frame);
-        setLensField(lens, field, std::clamp(value, field.min, field.max));  // rounding beyond an end
+        setLensField(lens, field, std::clamp(value, field.min, field.max));  // interpolation may round beyond the range
     }
     if (shot.focus) lens.focusDistance = focusAt(*shot.focus, *base.scene, frame, lens);
     checkLens(lens);
     return lens;
 }
 
-// ---- time and noise
-// --------------------------------------------------------------------------------------------------
+// ---- time and noise -------------------------------------------------------------------------------------------------
 
-// −1 where the scene has none.
+// Returns the index of the shot's animation; −1 if the scene has no animation.
 int clipOf(const Shot& shot, const Scene& scene) {
     if (scene.clips.empty()) return -1;
     return shot.request.clip.empty() ? 0 : clipNamed(scene, shot.request.clip);
@@ -168,7 +165,7 @@ double timeAt(const Shot& shot, const Scene& scene, int clip, double seconds) {
     return shot.request.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
-// Another well mixed seed for each frame.
+// Returns a well mixed seed that differs for each frame.
 std::uint32_t frameSeed(std::uint32_t seed, int frame) {
     return fmix32(seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1));
 }
@@ -191,7 +188,7 @@ FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
 
-    // What moves while the shutter is open.
+    // Motion while the shutter is open.
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;

@@ -1,37 +1,37 @@
 #pragma once
-// What to render for each frame of a shot. A pure function of the shot and the frame's number: nothing is carried over
-// from frame to frame, so that frames can be rendered in any order and on any machine.
+// Computes the scene, camera and lens of each frame of a shot. The result depends only on the shot and the frame's
+// number, so that frames can be rendered in any order and on any machine.
 
 #include <set>
 #include <string>
 #include <vector>
 
 #include "capture/shot.h"
-#include "frame/driver/frame_moment.h"
+#include "frame/setup/frame_moment.h"
 #include "plan/motion/shutter.h"
 
 namespace defocus::engine {
 
-// What a shot starts from: the scene with the camera and the settings that the shot's fixed values give.
+// Initial state of a shot: the scene with the camera and the settings of the shot's fixed values.
 struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight> lights;  // where the scene has none of its own
+    std::vector<PlacedLight> lights;  // sizes of the scene's lights; default lights if it has none
     CameraChoice camera;
-    bool cameraStands = false;                     // at view's place, wherever the scene's own goes
-    std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
-    glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn
+    bool cameraStands = false;                     // the camera stays at its place in `view`; else it follows its node
+    std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's own values
+    glm::dvec3 centre{0.0};                        // centre of the scene at its start; turntables turn around it
     std::vector<std::string> hidden;               // nodes that aren't drawn
-    ShutterSettings shutter;  // of each frame; the shot's camera moves while the shutter is open, too
+    ShutterSettings shutter;                       // exposure of each frame; the camera may move during it
 };
 
-// Throws Error naming the shot's file and the frame for what can't be filmed: nodes and clips that don't exist, a focus
-// behind the camera or on nothing, an impossible lens.
+// Returns a frame's state. Throws Error for nodes and clips that don't exist, for a focus behind the camera or on
+// nothing, and for an impossible lens. The message names the shot's file and the frame.
 FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame);
 
-// Frames of `range` that shard `shard` of `shards` renders: every shards-th, so that each has its part of whatever
-// takes long.
+// Returns the frames of `range` that shard `shard` of `shards` renders: every shards-th frame, so that slow passages
+// are shared evenly.
 std::vector<int> shardFrames(const FrameRange& range, int shard, int shards);
 
 }  // namespace defocus::engine

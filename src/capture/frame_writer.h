@@ -1,6 +1,6 @@
 #pragma once
-// Encodes and writes frames on a thread of its own, so that the renderer doesn't wait for EXR's compression. Frames
-// wait in a bounded queue; a file appears whole under its name or not at all.
+// Encodes and writes frames on a separate thread, so that the renderer doesn't wait for EXR compression. Frames wait in
+// a bounded queue. A file gets its name only when it is complete.
 
 #include <condition_variable>
 #include <cstddef>
@@ -14,17 +14,17 @@ namespace defocus::engine {
 
 class FrameWriter {
 public:
-    // At most `waiting` jobs in the queue, ≥ 1.
+    // `waiting`: maximum number of jobs in the queue, ≥ 1.
     explicit FrameWriter(std::size_t waiting);
-    // Waits for what is in the queue, unless a job has failed.
+    // Waits for the queued jobs, unless a job has failed.
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    // Queues a job that writes a frame; waits while the queue is full. Throws what an earlier job threw: none after it
-    // is run.
+    // Queues a job that writes a frame, and waits while the queue is full. Rethrows the exception of a failed job; no
+    // further job runs after a failure.
     void add(std::function<void()> job);
-    // Waits until all is written. Throws what a job threw.
+    // Waits until all jobs are done. Rethrows the exception of a failed job.
     void finish();
 
 private:

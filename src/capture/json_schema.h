@@ -1,6 +1,5 @@
 #pragma once
-// The part of JSON Schema that values of settings need: anyOf, enum, and type with the limits of numbers, strings and
-// arrays.
+// The subset of JSON Schema that settings need: anyOf, enum, and type with limits of numbers, strings and arrays.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,7 +8,7 @@ namespace defocus::engine {
 
 bool accepts(const nlohmann::ordered_json& schema, const nlohmann::json& value);
 
-// Returns what the schema accepts, in words: "an integer from 1 to 64", "\"auto\" or a number from 0 to 1".
+// Describes what the schema accepts, such as "an integer from 1 to 64" or "\"auto\" or a number from 0 to 1".
 std::string schemaInWords(const nlohmann::ordered_json& schema);
 
 }  // namespace defocus::engine

@@ -13,7 +13,7 @@ double secant(const std::vector<Key<double>>& keys, std::size_t i) {
     return (keys[i + 1].value - keys[i].value) / (keys[i + 1].frame - keys[i].frame);
 }
 
-// Steffen's equation 11; at rest at both ends.
+// Steffen 1990, equation 11; the slope at both ends is 0.
 double slopeAt(const std::vector<Key<double>>& keys, std::size_t i) {
     if (i == 0 || i + 1 == keys.size()) return 0;
     const double before = secant(keys, i - 1);
@@ -38,7 +38,7 @@ double valueAt(const std::vector<Key<double>>& keys, Easing easing, double frame
     const double from = keys[i].value;
     const double to = keys[i + 1].value;
     if (easing == Easing::linear) return (1 - t) * from + t * to;
-    // Hermite's cubic, written so that equal keys give exactly their value.
+    // Hermite cubic, in a form that gives equal keys exactly their value.
     const double blend = t * t * (3 - 2 * t);
     const double ends = from + blend * (to - from);
     return ends + width * t * (1 - t) * ((1 - t) * slopeAt(keys, i) - t * slopeAt(keys, i + 1));

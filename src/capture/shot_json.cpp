@@ -29,7 +29,7 @@ constexpr double farthest = 1e12;  // m
 
 const std::vector<std::string> easings = {"linear", "smooth"};
 
-// ---- pieces
+// ---- ranges and keys
 
 Easing easingOf(const JsonReader& reader) {
     const auto given = reader.find("interpolation");
@@ -58,7 +58,7 @@ FrameRange rangeOf(const JsonReader& reader) {
     return range;
 }
 
-// A movement's own range takes time: two frames or more.
+// Returns the movement's own range, of at least two frames; none if it isn't given.
 std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     const auto given = reader.find("frames");
     if (!given) return {};
@@ -67,7 +67,7 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     return range;
 }
 
-// The keys of a track with their frames, in order.
+// Returns the keys of a track with their frames. Throws Error unless the frames increase.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
@@ -204,7 +204,7 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 
 // ---- the method
 
-// By name, of all methods.
+// Returns the keyed settings of all methods, by name.
 std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     std::map<std::string, const MethodSetting*, std::less<>> keyed;
     for (const Method& method : methods())
@@ -213,7 +213,7 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     return keyed;
 }
 
-// Zero means none, so that nothing lies between it and a value.
+// Values below 1e-6 are refused: 0 switches the setting off and cannot be interpolated.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;
     LensTrack track;
@@ -234,9 +234,9 @@ std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& rea
     return tracks;
 }
 
-// ---- the rest
+// ---- settings, output, document
 
-// The member at a JSON pointer, as far as it is there.
+// Returns the member at a JSON pointer; none if it is missing.
 std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view place) {
     std::optional<JsonReader> found = reader;
     while (found && !place.empty()) {
@@ -247,7 +247,7 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
     return found;
 }
 
-// What an object of the shot at `place` ("" for the whole) may hold: settings, and its own.
+// Returns the keys that an object of the shot at `place` ("" for the document) may have: those of settings, and `own`.
 std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
     for (const Setting& setting : settings()) {
         const std::string_view path = setting.shotPlace;
@@ -259,13 +259,13 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
     return own;
 }
 
-// Scene files beside the shot.
+// Resolves a path relative to the shot's folder. Other texts stay unchanged.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-// What stands in the shot as one value of a setting.
+// Reads the values that correspond to single settings.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene")) fish->failWith("is for the built-in school of fish; this shot names a scene");
@@ -306,7 +306,7 @@ void readOutput(const JsonReader& reader, Shot& shot) {
     if (const auto video = reader.find("video")) shot.video = video->text();
 }
 
-// Every name of a node, a camera or a clip, with its first place.
+// Collects the names of nodes, cameras and clips, each with its first place.
 void collectNames(const JsonReader& reader, Shot& shot) {
     if (!reader.value().is_structured()) return;
     for (const auto& [key, member] : reader.members()) {
@@ -344,7 +344,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     return shot;
 }
 
-// "FILE: line 3, column 7: MESSAGE" of a place in the text.
+// Throws Error with the message "FILE: line 3, column 7: MESSAGE" for a place in the text.
 [[noreturn]] void failAt(std::string_view text, std::size_t place, const fs::path& file, std::string_view message) {
     const std::string_view before = text.substr(0, place);
     const auto line = 1 + std::ranges::count(before, '\n');
@@ -353,7 +353,7 @@ Shot shotOf(const json& document, const fs::path& file) {
          lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak, message);
 }
 
-// Finds the number that json::parse refuses without saying where: the first one that is infinite as a double.
+// Finds the first number that is infinite as a double; json::parse refuses it without a place.
 std::size_t placeOfOverflow(std::string_view text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -17,7 +17,8 @@ bool cameraPlaced(const Request& request) {
     return request.cameraPosition || request.cameraTarget || request.cameraUp;
 }
 
-// Takes a focus that each frame finds anew from the request, since frames may show what the first pose doesn't.
+// Moves a focus that depends on the frame from the request to the shot, because a later frame may show what the first
+// doesn't.
 std::optional<FocusTarget> takeFocusTarget(Request& request) {
     const Focus focus = request.focus;
     std::optional<FocusTarget> target;
@@ -28,7 +29,7 @@ std::optional<FocusTarget> takeFocusTarget(Request& request) {
     return target;
 }
 
-// What focus points set of the lens.
+// Returns the lens fields that focus points set.
 std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
     const auto* const points = std::get_if<FocusPoints>(&request.focus);
     if (points == nullptr) return {};
@@ -37,7 +38,7 @@ std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
     return fields;
 }
 
-// A shot names pixels of its own size; the same place of an image of another.
+// Scales the shot's focus pixels from the shot's image size to the request's.
 void scaleFocusPixels(Shot& shot, const Request& request) {
     if (!shot.focus || !shot.given.contains("size")) return;
     for (auto& key : shot.focus->keys)
@@ -48,7 +49,7 @@ void scaleFocusPixels(Shot& shot, const Request& request) {
         }
 }
 
-// A shot with lengths in metres is of a scene that its author knows to be in metres.
+// Returns whether the shot gives lengths in metres. Its author then knows that the scene's unit is the metre.
 bool saysLength(const Shot& shot) {
     if (std::holds_alternative<CameraKeys>(shot.movement) || std::holds_alternative<Dolly>(shot.movement)) return true;
     return shot.focus && std::ranges::any_of(shot.focus->keys, [](const auto& key) {

@@ -1,5 +1,5 @@
 #pragma once
-// A shot together with the command line: what an option says wins over what the shot says.
+// Combines a shot with the command line. Options override the shot's values.
 
 #include <string>
 #include <vector>
@@ -11,18 +11,19 @@
 
 namespace defocus::engine {
 
-// The shot's fixed values as if they had been given as options, except its lens, whose fields may have keys.
+// Sets the shot's fixed values in the request as if they were given as options. Lens values are left out, because they
+// may have keys.
 void applyShot(const Shot& shot, Request& request);
 
-// What the command line said of these, which show no trace in Request.
+// Options that were given but leave no trace in Request.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
 };
 
-// After the command line has been read. Takes from the shot what `request` replaces: lens fields and focus that have a
-// value, and with a camera given, or its place, its movement. Puts the first values of the shot's lens into `request`,
-// so that the scene can be placed.
+// Settles shot and request after parsing the command line. Removes from the shot what `request` overrides: lens fields
+// and focus with a value, and the movement if a camera or its position is given. Puts the first values of the shot's
+// lens into `request`, so that the scene can be placed.
 void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);

@@ -15,14 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns an example value; none if the default or the choices say enough.
+// Returns an example value; none if the setting has neither an example nor choices.
 std::optional<Json> exampleOf(const Setting& setting) {
     if (!setting.example.empty()) return settingJson(setting, setting.example);
     if (!setting.choices.empty()) return Json(setting.choices.front());
     return {};
 }
 
-// The schema of a setting that may have keys.
+// Returns the schema of a setting that may have keys.
 Json trackSchema(const Setting& setting) {
     Json value = {{"description", "The value at that frame"}};
     value.update(valueSchema(setting));
@@ -58,7 +58,7 @@ Json schemaOf(const Setting& setting) {
     return schema;
 }
 
-// "/animation/clip" → "/properties/animation/properties/clip"
+// Returns the place in the schema: "/animation/clip" → "/properties/animation/properties/clip".
 Json::json_pointer schemaPlace(std::string_view place) {
     Json::json_pointer pointer;
     while (!place.empty()) {

@@ -1,12 +1,12 @@
 #pragma once
-// The JSON schema of shots (docs/shot.schema.json) where it is about settings: types, ranges, defaults and descriptions
-// are those of frame/settings.h.
+// Fills the JSON schema of shots (docs/shot.schema.json) with the types, ranges, defaults and descriptions of the
+// settings table.
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace defocus::engine {
 
-// `schema` with everything that stands for a setting made anew; the rest (cameras, focus, frames, outputs) stays.
+// Returns `schema` with all entries of settings replaced. Other entries (cameras, focus, frames, outputs) stay.
 nlohmann::ordered_json withSettings(nlohmann::ordered_json schema);
 
 }  // namespace defocus::engine

@@ -23,7 +23,7 @@
 #include "image/quantise.h"
 #include "image/tone_map.h"
 
-extern char** environ;  // NOLINT: POSIX asks for this declaration
+extern char** environ;  // NOLINT: POSIX requires this declaration
 
 namespace defocus::engine {
 
@@ -31,9 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Encoder options by the film's ending.
+// Encoder options by the ending of the film's file.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() {
-    // H.264 with 4:2:0 colour plays everywhere, and needs even sides; 18 is visually lossless.
+    // H.264 with 4:2:0 colour plays everywhere, but needs an even width and height. CRF 18 is visually lossless.
     static const std::string evenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
     static const std::vector<std::string> h264 = {"-vf", evenSides,  "-c:v",    "libx264",   "-crf",
                                                   "18",  "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
@@ -42,7 +42,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
         {".mov", h264},
         {".mkv", {"-vf", evenSides, "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p"}},
         {".webm", {"-vf", evenSides, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p"}},
-        // One palette for the whole film, and dithering that stands still.
+        // One palette for the whole film, and dithering that doesn't flicker.
         {".gif", {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"}},
     };
     return table;
@@ -69,12 +69,12 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
-// A name as ffmpeg takes it for a file's, whatever is in it: "12:30.mp4" would be of a protocol.
+// Marks a name as a file for ffmpeg, which would read "12:30.mp4" as a protocol.
 std::string fileName(const fs::path& path) {
     return "file:" + path.string();
 }
 
-// ffmpeg with a pipe to its input; its output and what it says go to files.
+// Runs ffmpeg with a pipe to its input. Its output and its messages go to files.
 class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
@@ -106,7 +106,7 @@ public:
     Ffmpeg(const Ffmpeg&) = delete;
     Ffmpeg& operator=(const Ffmpeg&) = delete;
 
-    // False once ffmpeg reads no more.
+    // Returns false once ffmpeg reads no more input.
     bool write(const std::vector<std::uint8_t>& bytes) const {
         for (std::size_t done = 0; done < bytes.size();) {
             const ssize_t count = ::write(input_, bytes.data() + done, bytes.size() - done);
@@ -117,7 +117,7 @@ public:
         return true;
     }
 
-    // Waits for its end; true if all went well.
+    // Waits for the end of ffmpeg. Returns whether it succeeded.
     bool close() {
         ::close(input_);
         while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
@@ -125,7 +125,7 @@ public:
         process_ = -1;
         return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
     }
-    // After close(): how it ended, where it can't have said so itself; else empty.
+    // Returns which signal ended ffmpeg; empty if none did. Valid after close().
     [[nodiscard]] std::string signalText() const {
         if (!WIFSIGNALED(status_)) return "";
         const int signal = WTERMSIG(status_);
@@ -144,7 +144,7 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     if (image.width != first.width || image.height != first.height)
         fail("{}: is {}x{} and not {}x{} as the film's first frame", path.string(), image.width, image.height,
              first.width, first.height);
-    // A PNG or JPEG has been through the tone map; only its encoding is undone by reading.
+    // PNG and JPEG files are already tone-mapped; reading them undoes only the encoding.
     const bool linear = path.extension() == ".exr";
     image = linear ? displayEncoded(image, frame.image.toneMap, frame.image.exposure) : displayEncoded(image);
     std::vector<std::uint8_t> bytes;
@@ -166,17 +166,17 @@ std::string lastLine(std::string text) {
     return text.substr(text.find_last_of("\r\n") + 1);
 }
 
-// Why ffmpeg failed, in its own words or, where it has none, in ours.
+// Returns why ffmpeg failed: its last message, or a message of this program if it left none.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(textOf(messages));
     return said.empty() ? "ffmpeg failed and doesn't say why" : "ffmpeg says: " + said;
 }
 
-// Throws Error unless a film can be read and has all its frames. An encoder's word isn't enough: on a full disk ffmpeg
-// ends with success and leaves a film without its end.
+// Throws Error unless the film is readable and has all its frames. On a full disk, ffmpeg reports success but leaves an
+// incomplete film.
 void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
-    PendingFile messages(name.string() + ".log");  // neither is kept
+    PendingFile messages(name.string() + ".log");  // both files are temporary
     PendingFile counted(name.string() + ".count");
     Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", fileName(film), "-map", "0:v:0", "-c", "copy", "-f",
                    "null", "-progress", "pipe:1", "-"},
@@ -212,7 +212,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     const fs::path log = path.string() + ".log";
     removeUnfinished({path, log, path.string() + ".count"});
     PendingFile film(path);
-    PendingFile messages(log);  // never kept
+    PendingFile messages(log);  // temporary
 
     std::vector<std::string> arguments = {"ffmpeg",      "-y",
                                           "-v",          "error",
@@ -225,7 +225,8 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
     arguments.push_back(fileName(film.temporaryPath()));
 
-    // Frame by frame; when ffmpeg stops listening, its last words say why. It must not end us.
+    // Write frame by frame. A failed ffmpeg closes the pipe; ignoring SIGPIPE lets this program report ffmpeg's
+    // message.
     const auto previous = std::signal(SIGPIPE, SIG_IGN);
     Ffmpeg ffmpeg(arguments, "/dev/null", messages.temporaryPath());
     bool listening = true;

@@ -1,5 +1,5 @@
 #pragma once
-// A film from frames that are already written, through the ffmpeg program: what kind of film, the file's ending says.
+// Makes a film from written frames with the ffmpeg program. The file's ending selects the format.
 
 #include <filesystem>
 #include <vector>
@@ -14,11 +14,11 @@ void checkVideo(const std::filesystem::path& path);
 
 struct VideoFrame {
     std::filesystem::path file;
-    WriteOptions image;  // how a linear frame is turned into display values
+    WriteOptions image;  // how a linear frame is converted to display values
 };
 
-// Reads the frames in order and pipes them to ffmpeg, `frameRate` a second. The film appears whole or not at all.
-// Throws Error naming the frame that can't be read, or the film with what ffmpeg said.
+// Reads the frames in order and pipes them to ffmpeg, with `frameRate` frames per second. The film's file appears only
+// when it is complete. Throws Error that names the unreadable frame, or the film with ffmpeg's message.
 void writeVideo(const std::filesystem::path& path, const std::vector<VideoFrame>& frames, double frameRate,
                 const Progress& progress = {});
 

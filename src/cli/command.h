@@ -1,7 +1,7 @@
 #pragma once
-// Sub-commands of the program. Each is one thin file: options to a struct, one library call. A command registers itself
-// on the CLI11 program; its callback runs after parsing and throws Error for what goes wrong (main prints one line and
-// exits with 1).
+// Sub-commands of the program. Each command has a file of its own, which fills a struct from options and calls the
+// library. A command registers itself on the CLI11 program; its callback runs after parsing and throws Error on
+// failure. runProgram prints the error as one line and exits with 1, or 2 for a wrong command line.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -15,20 +15,20 @@
 namespace defocus::engine {
 
 struct GlobalOptions {
-    bool quiet = false;               // no progress, no summary
-    bool verbose = false;             // say what was chosen (device, caches, …)
-    std::filesystem::path shaderDir;  // overrides the embedded shaders, for live editing
-    std::vector<std::string> words;   // the command line, the program first
+    bool quiet = false;               // neither progress nor summary
+    bool verbose = false;             // print the choices of the program: device, caches, …
+    std::filesystem::path shaderDir;  // folder that replaces the embedded shaders, for live editing
+    std::vector<std::string> words;   // command line, beginning with the program
 };
 
-// All commands with their options. `global` must outlive the program.
+// Adds all commands with their options. `global` must outlive the program.
 void addCommands(CLI::App& program, GlobalOptions& global);
 
-// A bar on a terminal, plain lines otherwise, nothing with --quiet; always on stderr. Work that ends within a second
-// shows nothing.
+// Returns a progress display on stderr: a bar on a terminal, plain lines in a file or pipe, nothing with --quiet. Work
+// that ends within a second shows nothing.
 Progress terminalProgress(const GlobalOptions& global);
 
-// Prints warnings on stderr, each line once, unless --quiet.
+// Prints warnings on stderr, each different line once. Prints nothing with --quiet.
 class WarningPrinter {
 public:
     explicit WarningPrinter(const GlobalOptions& global) : quiet_(global.quiet) {}
@@ -39,7 +39,7 @@ private:
     std::set<std::string> printed_;
 };
 
-// With --verbose, says how many pyramids came from the cache.
+// Prints how many pyramids came from the cache, with --verbose only.
 void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);

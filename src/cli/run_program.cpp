@@ -20,7 +20,7 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/suggestion.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 
 namespace defocus::engine {
 
@@ -61,13 +61,13 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
     return names;
 }
 
-// The command that was given (the innermost, of "bench speedup"), or the program itself.
+// Returns the innermost command that was given ("speedup" for "bench speedup"), or the program itself.
 const CLI::App& chosenCommand(const CLI::App& program) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     return chosen.empty() ? program : chosenCommand(*chosen.front());
 }
 
-// Throws UsageError for --shader-dir before a command that draws nothing, or nothing with shaders of a folder.
+// Throws UsageError for --shader-dir with a command that reads no shaders from a folder.
 void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
     constexpr std::array drawing = {"render",  "capture", "view",        "pyramid",
                                     "speedup", "popping", "convergence", "scaling"};
@@ -87,7 +87,7 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// A line for words that nothing expected: an option or command that isn't there, or one word too many.
+// Returns a message about unexpected words: an unknown option or command, or one word too many.
 std::string unexpected(const CLI::App& program, const std::vector<std::string>& words) {
     const CLI::App& command = chosenCommand(program);
     const auto option = std::ranges::find_if(words, isOption);
@@ -109,7 +109,7 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
     return fmt::format("there is no option '{}'; {}", word, helpHint(program));
 }
 
-// The option that stands there more often than once; none where that isn't the fault.
+// Returns an option that is given more often than allowed; null if there is none.
 const CLI::Option* repeatedOption(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options())
         if (option->get_items_expected_max() == 1 && option->count() > 1) return option;
@@ -118,10 +118,10 @@ const CLI::Option* repeatedOption(const CLI::App& command) {
 
 std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const CLI::App& command = chosenCommand(program);
-    const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a command must follow
+    const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a sub-command is missing
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    // An option that isn't there is told before any other fault: its value may be what another option complains of.
+    // Report an unknown option first: its value may cause the other error.
     if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
@@ -142,7 +142,7 @@ int run(int argc, char** argv) {
     addCommands(program, global);
     try {
         program.parse(argc, argv);
-    } catch (const CLI::Success& shown) {  // --help, --version
+    } catch (const CLI::Success& shown) {  // thrown for --help and --version
         return program.exit(shown);
     } catch (const CLI::ParseError& error) {
         return printFault(wrongCommandLine, parseFault(program, error));
@@ -182,12 +182,12 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
 }
 
 int runProgram(int argc, char** argv) {
-    // A file that grows beyond its limit is a failed write, which the writer reports and cleans up after.
+    // Turn a file beyond the size limit into a failed write, which the writer reports and cleans up.
     std::signal(SIGXFSZ, SIG_IGN);
     claimClosedOutputs();
     try {
         const int code = run(argc, argv);
-        std::cout.flush();  // help and version
+        std::cout.flush();  // text of --help and --version
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
         if (lost && code == 0) return printFault(failed, "the output cannot be written to stdout");
         return code;

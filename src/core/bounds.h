@@ -1,5 +1,5 @@
 #pragma once
-// Axis-aligned bounding box in double precision (scenes may lie 1e7 m from the origin).
+// Axis-aligned bounding box in double precision, since scenes may lie 1e7 m from the origin.
 
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -23,10 +23,10 @@ struct Bounds {
     [[nodiscard]] std::array<glm::dvec3, 8> corners() const;
 };
 
-// Whether a box can hold the point: no coordinate is infinite or NaN.
+// Returns whether all coordinates are finite.
 [[nodiscard]] bool isFinite(const glm::vec3& point);
 
-// The box around the eight transformed corners of `bounds`; empty stays empty.
+// Returns the bounding box of the eight transformed corners of `bounds`; an empty box stays empty.
 Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix);
 
 }  // namespace defocus::engine

@@ -1,7 +1,7 @@
 #pragma once
-// The one exception of defocus. A runtime failure (a file, user input, a shader, the driver) throws `Error` with what
-// was being done, the file or name concerned, and what to do about it, as ONE line. Broken invariants are assertions
-// instead; a miss that callers expect is a std::optional. Only `main` catches.
+// The only exception type of defocus, for runtime failures such as files, user input, shaders and drivers. The message
+// is one line: the action, the file or name, and the remedy. Broken invariants are assertions instead; expected misses
+// return std::optional. Only `main` catches exceptions.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,8 @@ template <typename... Args>
     throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// A name that a scene doesn't have, such as that of a node. What read the name from a file knows where it stands there.
+// Error for a name that the scene lacks, such as a node name. Code that read the name from a file can add the position
+// in the file.
 class MissingName : public Error {
 public:
     MissingName(std::string name, const std::string& message) : Error(message), name_(std::move(name)) {}

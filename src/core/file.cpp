@@ -32,15 +32,15 @@ FileHandle openFile(const fs::path& path, const char* mode) {
     return {std::fopen(path.c_str(), mode), &std::fclose};
 }
 
-// Locks a new temporary file for as long as it is open: the sign that its writer lives. False when it was taken for
-// abandoned and removed before. File systems without locks keep theirs.
+// Locks a new temporary file while it is open, which marks its writer as alive. Returns false if another process
+// removed the file as abandoned before. File systems without locks count as success.
 bool isKept(int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
     return ::fstat(descriptor, &status) != 0 || status.st_nlink > 0;
 }
 
-// Where `path` leads. A link stays a link, and what it names is written.
+// Returns the path with symbolic links resolved, so that writing replaces the linked file and keeps the link.
 fs::path followed(fs::path path) {
     std::error_code status;
     for (int links = 0; links < 40 && fs::is_symlink(path, status); ++links) {
@@ -51,7 +51,7 @@ fs::path followed(fs::path path) {
     return path;
 }
 
-// Whether it is open in a process, as /dev/stdin is and what a shell hands over (<(command) is /dev/fd/63).
+// Returns whether the path is an open descriptor, such as /dev/stdin or /dev/fd/63 from a shell's <(command).
 bool isDescriptor(const fs::path& path) {
     const auto liesInProc = [](const fs::path& file) {
         std::error_code status;
@@ -62,7 +62,7 @@ bool isDescriptor(const fs::path& path) {
     return liesInProc(path) || (fs::is_symlink(path, none) && liesInProc(fs::read_symlink(path, none)));
 }
 
-// Whether what is written to `path` flows on (a device, a pipe, a descriptor of this process): it can't be replaced.
+// Returns whether the target is a device, pipe or descriptor, which cannot be replaced by a rename.
 bool isStream(const fs::path& path) {
     std::error_code status;
     const fs::file_type type = fs::status(path, status).type();
@@ -79,7 +79,8 @@ void writeStream(const fs::path& from, const fs::path& to) {
     if (!written || std::fclose(stream.release()) != 0) fail("{}: cannot be written: {}", to.string(), reason(errno));
 }
 
-// What a folder lists is on the disk, too. Some file systems can't do that for folders, and then do without.
+// fsync the directory so that the rename survives a crash. Failures are ignored because some file systems do not
+// support it.
 void syncFolder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -92,7 +93,7 @@ void syncFolder(const fs::path& folder) {
 std::vector<std::byte> readFile(const fs::path& path) {
     std::error_code status;
     if (fs::is_directory(path, status)) fail("{}: is a directory, not a file", path.string());
-    // A device may never end, and a pipe may never begin.
+    // Reading a device may never end, and opening a pipe may block forever.
     if (fs::exists(path, status) && !fs::is_regular_file(path, status) && !isDescriptor(path))
         fail("{}: is a device or a pipe, not a file", path.string());
     const FileHandle file = openFile(path, "rb");
@@ -136,7 +137,7 @@ PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(
         temporary_ = stream_ ? fs::temp_directory_path() / target_.filename() : target_;
         temporary_.replace_filename(
             fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
-        // A process of the same number on another machine may have made that file: only a new one is ours.
+        // O_EXCL: a process with the same id on another machine may have created the same name.
         descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno != EEXIST) fail("{}: cannot be written: {}", target_.string(), reason(errno));
         if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));
@@ -151,7 +152,7 @@ PendingFile::~PendingFile() {
 
 void PendingFile::commit() {
     if (stream_) return writeStream(temporary_, target_);
-    // A file system without room may say so only now.
+    // Some file systems report a full disk only at fsync.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
         fail("{}: cannot be written: {}", target_.string(), reason(errno));
     std::error_code status;

@@ -1,9 +1,8 @@
 #pragma once
-// Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target, is flushed
-// to the disk and renamed over the target once complete, so that a crash, a full disk or a loss of power destroys
-// nothing. Of several processes that write the same file, each has a temporary file of its own, and the last to rename
-// wins with a whole one. A link stays, and the file that it names is replaced. Devices, pipes and descriptors
-// (/dev/stdout) are never replaced: the complete data is copied into them.
+// Atomic reads and writes of complete files. Data goes to a temporary file beside the target, is flushed to disk, and
+// is renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
+// Concurrent writers use separate temporary files; the last rename wins. Symbolic links stay, and the linked file is
+// replaced. Devices, pipes and descriptors (/dev/stdout) receive a copy of the complete data instead.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,46 +12,45 @@
 
 namespace defocus::engine {
 
-// The bytes of `path`: of a file, or of a descriptor of this process (/dev/stdin). Throws Error naming the path and the
-// reason (missing, a directory, a device, a pipe, unreadable).
+// Returns the bytes of a file or of an open descriptor (/dev/stdin). Throws Error with the path and the reason:
+// missing, a directory, a device, a pipe, or unreadable.
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
-// `relative`, which another file names, as a path to a regular file inside `folder`. Throws Error where it is absolute,
-// climbs out of the folder, or is a device, a pipe or a folder; a file that is missing is left to who reads it.
+// Resolves `relative`, a path read from another file, inside `folder`. Throws Error if the path is absolute, leaves the
+// folder, or is a device, pipe or directory. A missing file is not an error here.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
-// Replaces `path` by `bytes` through a temporary file and rename. Throws Error naming the path and the reason.
+// Replaces the file at `path` atomically. Throws Error with the path and the reason.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
-// A new, empty temporary file beside `target` with the same extension, for writers (ffmpeg) that need a path of their
-// own. It is removed on destruction unless `commit()` has renamed it over the target.
+// New empty temporary file beside `target` with the same extension, for writers that need a path, such as ffmpeg. The
+// destructor removes it unless `commit()` has renamed it over the target.
 class PendingFile {
 public:
-    // Throws Error naming the target when no file can be made there.
+    // Throws Error that names the target if no file can be created there.
     explicit PendingFile(std::filesystem::path target);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     [[nodiscard]] const std::filesystem::path& temporaryPath() const { return temporary_; }
-    // Flushes the temporary file to the disk and renames it over the target, or copies it into a device or a pipe.
-    // Throws Error when that fails.
+    // Flushes the temporary file to disk and renames it over the target, or copies it into a device or pipe. Throws
+    // Error if that fails.
     void commit();
 
 private:
     std::filesystem::path target_;
-    bool stream_ = false;  // the target can't be replaced
+    bool stream_ = false;  // target is a device, pipe or descriptor
     std::filesystem::path temporary_;
     int descriptor_ = -1;  // locked while the file is pending
     bool committed_ = false;
 };
 
-// Removes a temporary file that a killed process left; one that is still being written, by whatever process, stays.
+// Removes a temporary file that a killed process left behind. A file that any process is still writing stays.
 void removeAbandoned(const std::filesystem::path& temporary);
 
-// Throws Error now if a file cannot be created at `path` (no folder, no permission, a directory), so that long work
-// doesn't end in a write failure.
+// Throws Error if no file can be created at `path`, so that a long job fails at its start instead of its end.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace defocus::engine

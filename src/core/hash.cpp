@@ -1,5 +1,4 @@
-// XXH3 (Collet) is compiled in rather than linked: it is faster than the mixing that it replaced, for short keys and
-// long data alike, and than its own shared library for long data.
+// XXH3 (Collet) is compiled in rather than linked: for long data this is faster than its shared library.
 #define XXH_INLINE_ALL
 #include "core/hash.h"
 

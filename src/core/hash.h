@@ -1,5 +1,5 @@
 #pragma once
-// Hashes, not for security. Their values are fixed: images, the school of fish and files on disk depend on them.
+// Non-cryptographic hashes. Their values must not change: images, the fish school and files on disk depend on them.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Mixes the bits of an integer: the finaliser of MurmurHash3 (Appleby).
+// Mixes the bits of an integer with the finaliser of MurmurHash3 (Appleby).
 constexpr std::uint32_t fmix32(std::uint32_t bits) {
     bits = (bits ^ (bits >> 16)) * 0x85ebca6bu;
     bits = (bits ^ (bits >> 13)) * 0xc2b2ae35u;
@@ -23,8 +23,8 @@ constexpr std::uint32_t lowbias32(std::uint32_t bits) {
 
 inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;
 
-// XXH3 of `bytes` and their number, for cache keys, checksums and tables; continued from `seed`, so that several pieces
-// can be chained.
+// Returns the XXH3 hash of `bytes`, for cache keys, checksums and hash tables. Pass the previous hash as `seed` to
+// chain several pieces.
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed = hashSeed);
 
 }  // namespace defocus::engine

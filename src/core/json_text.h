@@ -1,14 +1,14 @@
 #pragma once
-// JSON text, looked at before it is parsed.
+// Checks of JSON text before parsing.
 
 #include <string_view>
 
 namespace defocus::engine {
 
-// glTF and shots need ten levels. What works on parsed JSON may recurse: deeper, it would only cost stack.
+// Maximum nesting of accepted JSON; glTF and shots need about ten levels. Bounds the stack depth of recursive code.
 inline constexpr int deepestJson = 64;
 
-// How deep the text's arrays and objects nest, whether or not it is valid.
+// Returns the maximum nesting depth of arrays and objects; works on invalid JSON too.
 int jsonNesting(std::string_view text);
 
 }  // namespace defocus::engine

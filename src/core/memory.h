@@ -1,6 +1,6 @@
 #pragma once
-// Memory for large work that goes back to the system as soon as it is freed, so that the phases of a long piece of work
-// take it one after the other. What malloc frees it keeps, where the process has freed large blocks before.
+// Memory for large blocks that returns to the system as soon as it is freed. malloc may keep freed blocks instead,
+// which raises the peak memory of consecutive phases.
 
 #include <cstddef>
 #include <new>
@@ -8,24 +8,23 @@
 
 namespace defocus::engine {
 
-// Gives back what malloc keeps, where the C library can (glibc; elsewhere nothing happens). Worth its time (a few
-// milliseconds) after freeing tens of megabytes.
+// Returns malloc's free memory to the system (glibc only). Takes a few milliseconds; worthwhile after freeing tens of
+// megabytes.
 void giveBackFreedMemory();
 
-// For programs, as it holds for the whole process: up to 128 MiB that were freed stay, for what is allocated next
-// (glibc; elsewhere nothing happens). Software rasterisers free the vertices of a draw after it, and getting the same
-// pages back from the system for the next one can take longer than drawing.
+// Makes malloc keep up to 128 MiB of freed memory for later allocations, in the whole process (glibc only). Software
+// rasterizers free vertex memory after each draw; getting the pages back can take longer than the draw.
 void keepFreedMemory();
 
-inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // of most processors; nothing hangs on it elsewhere
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // size on most processors; only a hint on others
 
-// Whole pages, zero. Throws std::bad_alloc.
+// Returns zeroed pages for at least `bytes` bytes. Throws std::bad_alloc.
 void* allocatePages(std::size_t bytes);
 void freePages(void* pages, std::size_t bytes) noexcept;
-// Gives back those pages that lie wholly within the bytes, which are zero from then on.
+// Returns the pages that lie entirely inside the range to the system; the range's full pages then read as zero.
 void giveBackPages(void* first, std::size_t bytes) noexcept;
 
-// Pages for large blocks, operator new for others.
+// Allocator that uses pages for large blocks and operator new for small ones.
 template <typename T>
 struct PageAllocator {
     using value_type = T;
@@ -54,7 +53,7 @@ struct PageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
 
-// Gives back the room that the vector has beyond its values, which stay where they are if the vector is large.
+// Returns the vector's spare capacity to the system. Values of a large vector are not moved.
 template <typename T>
 void giveBackRoom(LargeVector<T>& values) {
     const std::size_t room = values.capacity() - values.size();

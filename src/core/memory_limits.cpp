@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, double>, 9> units = {{{"B", 1},
                                                                        {"GiB", 0x1p30},
                                                                        {"TiB", 0x1p40}}};
 
-// The number that a file consists of; none where there is no file, or another text ("max").
+// Returns the number in a file; nullopt if the file is missing or holds other text ("max").
 std::optional<std::uint64_t> numberIn(const std::string& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -41,8 +41,7 @@ std::optional<std::uint64_t> availableOfMachine() {
     return {};
 }
 
-// Of a control group's memory: pages of files that nobody has read for a while, which the system drops when others need
-// their place.
+// Returns the bytes of a control group's inactive file cache, which the kernel drops under memory pressure.
 std::uint64_t droppable(const std::string& statisticsFile, std::string_view name) {
     std::ifstream file(statisticsFile);
     std::string word;
@@ -64,7 +63,7 @@ std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool 
 
 namespace {
 
-// What the process's control group leaves, and those that it is in.
+// Returns the minimum of the bytes left in the process's control group and its ancestors.
 std::uint64_t leftByControlGroups() {
     std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
     std::ifstream file("/proc/self/cgroup");

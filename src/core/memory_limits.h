@@ -1,5 +1,5 @@
 #pragma once
-// How much memory there is, and how much this process has.
+// Available memory of the machine and memory use of this process.
 
 #include <cstdint>
 #include <optional>
@@ -8,21 +8,21 @@
 
 namespace defocus::engine {
 
-// Bytes that the machine, and the control group that the process is in, would still give. 0 where nobody says.
+// Returns the bytes still available on the machine and in the process's control group; 0 if unknown.
 std::uint64_t freeMemory();
 
-// Bytes that the control group of this folder leaves under its limit, pages of files that may be dropped not counted as
-// used; none without a limit. `unified`: cgroup v2, whose files have other names.
+// Returns the bytes left under the limit of a control group's folder; nullopt without a limit. Inactive file cache does
+// not count as used. `unified` selects the file names of cgroup v2.
 std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool unified);
 
-// Bytes of the process that are in main memory now.
+// Returns the resident memory of this process in bytes.
 std::uint64_t residentMemory();
 
-// "2GiB", "1500 MB": a whole or decimal number of B, kB, MB, GB, TB (powers of 1000), KiB, MiB, GiB or TiB (of 1024).
-// Throws Error for other text and for what is below 1 byte or above 2⁶².
+// Parses a memory size such as "2GiB" or "1500 MB". Units: B, kB, MB, GB, TB (powers of 1000), KiB, MiB, GiB, TiB
+// (powers of 1024). Throws Error for other text, and for sizes below 1 byte or above 2⁶² bytes.
 std::uint64_t parseBytes(std::string_view text);
 
-// "2 GiB", "1.5 MiB"
+// Formats a size as "2 GiB" or "1.5 MiB".
 std::string bytesText(std::uint64_t bytes);
 
 }  // namespace defocus::engine

@@ -19,7 +19,7 @@ std::string printable(std::string_view text) {
         const auto byte = static_cast<unsigned char>(text[i]);
         const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
         const bool c0 = (byte < 0x20 && byte != '\n') || byte == 0x7F;
-        const bool c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // two bytes of UTF-8
+        const bool c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // C1 control character: two bytes in UTF-8
         result.push_back(c0 || c1 ? '?' : text[i]);
         if (c1) ++i;
     }
@@ -29,7 +29,7 @@ std::string printable(std::string_view text) {
 void claimClosedOutputs() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) < 0)
-            static_cast<void>(::open("/dev/null", O_RDONLY));  // the lowest that is free
+            static_cast<void>(::open("/dev/null", O_RDONLY));  // open uses the lowest free descriptor
 }
 
 }  // namespace defocus::engine

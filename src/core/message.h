@@ -1,6 +1,5 @@
 #pragma once
-// Lines for the person at the terminal, on stderr. That nobody can read them is no reason to fail: what can't be
-// written is lost, and nothing throws.
+// Messages to the user on stderr. Write errors are ignored; nothing throws.
 
 #include <fmt/format.h>
 
@@ -12,7 +11,7 @@ namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept;
 
-// Returns the text without control characters, which a terminal would obey: a '?' stands for each but ends of lines.
+// Returns the text with '?' for control characters, which a terminal would interpret; line breaks stay.
 std::string printable(std::string_view text);
 
 template <typename... Args>
@@ -20,8 +19,8 @@ void printMessage(fmt::format_string<Args...> format, Args&&... args) {
     writeMessage(printable(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-// Call first of all: an output that the program was started without (2>&-) becomes one that can't be written to, or
-// the next file that is opened would take its number and get what is printed.
+// Call first in main. Opens /dev/null for each of stdin, stdout and stderr that is closed (2>&-). Otherwise the next
+// opened file would get that descriptor and receive the program's output.
 void claimClosedOutputs();
 
 }  // namespace defocus::engine

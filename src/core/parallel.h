@@ -1,6 +1,6 @@
 #pragma once
-// Work on several cores, by oneTBB: however deep it nests, no more threads work than the process may use cores.
-// Results must not depend on the order.
+// Parallel loops and tasks with oneTBB. Nested calls never use more threads than the process may use cores. Results
+// must not depend on the execution order.
 
 #include <cstddef>
 #include <functional>
@@ -8,26 +8,26 @@
 
 namespace defocus::engine {
 
-// Runs body(0) … body(count - 1) on all cores, each index once; returns when all are done. Indices are begun in their
-// order: what costs most is best put first. The first exception of a body is thrown again in the caller. Bodies may
-// call it in their turn; one that waits there begins no further index of its own loop.
+// Runs body(0) … body(count - 1) on all cores and returns when all are done. Indices start in order, so put the most
+// expensive ones first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits there
+// starts no index of the outer loop.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Work that comes up one piece after the other, done by threads beside the one that finds it.
+// Tasks that run on other threads while the caller produces more of them.
 class Tasks {
 public:
-    explicit Tasks(std::size_t workers);  // at most, and of the cores; 0: add() does the work itself
-    ~Tasks();                             // drops what nobody waited for
+    explicit Tasks(std::size_t workers);  // maximum threads, limited by the cores; 0: add() runs tasks itself
+    ~Tasks();                             // cancels tasks that have not started
     Tasks(const Tasks&) = delete;
     Tasks& operator=(const Tasks&) = delete;
 
     void add(std::function<void()> task);
-    // Helps until all is done. Throws the first exception of a task again.
+    // Helps to finish all tasks. Rethrows the first exception of a task.
     void wait();
 
 private:
     struct Arena;
-    std::unique_ptr<Arena> arena_;  // none without workers
+    std::unique_ptr<Arena> arena_;  // nullptr without workers
 };
 
 }  // namespace defocus::engine

@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The rule in words: "a number above 0 and at most 100", "a number from 0 to 100".
+// Describes the range: "a number above 0 and at most 100" or "a number from 0 to 100".
 std::string inWords(const Range& range) {
     if (range.aboveMin) return fmt::format("a number above {:g} and at most {:g}", range.min, range.max);
     return fmt::format("a number from {:g} to {:g}", range.min, range.max);
@@ -40,7 +40,7 @@ bool inside(double number, const Range& range) {
 }  // namespace
 
 std::vector<std::string> splitAt(std::string_view text, char separator) {
-    if (text.empty()) return {""};  // of which the standard library makes no part
+    if (text.empty()) return {""};  // std::views::split yields no part for empty text
     std::vector<std::string> parts;
     for (const auto part : std::views::split(text, separator)) parts.emplace_back(part.begin(), part.end());
     return parts;

@@ -1,5 +1,5 @@
 #pragma once
-// Wall-clock time that passed, for figures that people read.
+// Elapsed wall-clock time for reports.
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 #pragma once
-// "Did you mean …": the known word nearest to a mistyped one.
+// Suggests the known word closest to a mistyped one: "Did you mean …".
 
 #include <cstddef>
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace defocus::engine {
 
-// Empty when nothing is near: more edits than a third of the word, and than one. Edits are insertions, deletions,
-// substitutions and swaps of neighbours (optimal string alignment; Damerau 1964). Capitals of ASCII count as their
-// small letters.
+// Returns the closest known word, or an empty string if none is close. Close means at most one edit, or edits up to a
+// third of the word's length. Edits are insertions, deletions, substitutions and swaps of neighbours (optimal string
+// alignment; Damerau 1964). ASCII case is ignored.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
 
-// The first place of a name that a person gave: of the name itself, or else of the only spelling that differs from it
-// in capitals of ASCII alone.
+// Returns the index of the first exact match. Otherwise returns the first match that ignores ASCII case, unless several
+// spellings match.
 std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace defocus::engine

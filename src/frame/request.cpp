@@ -66,7 +66,7 @@ void checkStop(const Request& request) {
 namespace {
 
 void checkValue(const Setting& setting, const Request& request, Request& scratch) {
-    if (setting.lensField && setting.name != "focusDistance") {  // texts cannot hold infinity
+    if (setting.lensField && setting.name != "focusDistance") {  // infinity has no text form
         const LensField& field = *lensFieldNamed(setting.name);
         giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
     } else if (setting.repeated) {

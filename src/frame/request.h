@@ -1,5 +1,5 @@
 #pragma once
-// The public Request, and its conversions to the settings of the rooms below.
+// The public Request, and functions that convert it to the settings of the folders lens, plan and render.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -23,27 +23,27 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
     return {pixel.column, pixel.row};
 }
 
-// Returns the method with its settings. Throws UsageError for settings that it doesn't take.
+// Returns the request's method with its settings. Throws UsageError for a setting that the method doesn't have.
 MethodUse chosenMethod(const Request& request);
 
-// Returns what a plan needs of the request. A number of samples that is open is 64 in it.
+// Returns the settings for planning the frame. An automatic number of samples becomes 64.
 RenderSettings renderSettings(const Request& request);
 GivenThresholds givenThresholds(const Request& request);
 ShutterSettings shutterSettings(const Request& request);
 
-// Returns when a frame has enough samples. The number of samples is automatic if the request leaves it open; methods
-// that don't add blocks of samples, and exact motion, take 64 instead.
+// Returns the conditions that end a frame. The number of samples is automatic if the request gives neither a number, a
+// target error nor a time limit. Methods that don't add blocks of samples, and exact motion, take 64 samples instead.
 StopSettings stopSettings(const Request& request);
 
-// The lens values that the request gives, its focus distance included, in the fields' units.
+// Returns the lens values that the request gives, including its focus distance, in the units of the lens fields.
 LensValues givenLensValues(const Request& request);
-// Throws Error as setLensField does.
+// Sets a lens value of the request, in the field's unit. Throws Error as setLensField does.
 void giveLensValue(Request& request, const LensField& field, double value);
 
 // Calls checkStop (render/frame_run.h) for the request's method and shutter.
 void checkStop(const Request& request);
 
-// Throws UsageError, which names the setting, for a value out of its range.
+// Throws UsageError for a value outside its setting's range. The message names the setting.
 void checkRequest(const Request& request);
 
 }  // namespace defocus::engine

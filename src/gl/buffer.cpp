@@ -21,7 +21,8 @@ void Buffer::update(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes > 0) glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
-// Through a buffer in main memory: what is read itself, drivers move there, where shaders are slow to write it.
+// Reads through a staging buffer in main memory. Drivers may move a buffer that is read directly to main memory, where
+// shader writes are slow.
 void Buffer::read(std::size_t offset, std::size_t bytes, void* data) const {
     if (bytes == 0) return;
     GLuint name = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// An immutable-size GL buffer and a vertex array, both move-only.
+// Move-only owners of an OpenGL buffer of fixed size and of a vertex array.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,8 @@ namespace defocus::engine {
 class Buffer {
 public:
     Buffer() = default;
-    // `bytes` of storage holding `data` (null: undefined contents). Zero bytes give a valid buffer of one unused byte.
+    // Creates `bytes` of storage filled from `data` (null: undefined contents). Zero bytes create a valid buffer with
+    // one unused byte.
     explicit Buffer(std::size_t bytes, const void* data = nullptr);
 
     template <typename T>
@@ -20,8 +21,8 @@ public:
     }
 
     void update(std::size_t offset, std::size_t bytes, const void* data);
-    // Copies `bytes` from `offset` on into `data`, once all that writes them is done. Writes of shaders need a barrier
-    // of GL_BUFFER_UPDATE_BARRIER_BIT before.
+    // Copies `bytes` from `offset` into `data`; waits for the GPU. Shader writes need a prior barrier with
+    // GL_BUFFER_UPDATE_BARRIER_BIT.
     void read(std::size_t offset, std::size_t bytes, void* data) const;
 
     [[nodiscard]] GLuint name() const { return handle_.name(); }
@@ -36,14 +37,14 @@ private:
 class VertexArray {
 public:
     VertexArray();
-    // Attribute `location` reads `components` values of GL type `type` from binding point `location`; integers are
-    // normalised to [0, 1] or [−1, 1] where asked. With `perInstance` it advances once an instance.
+    // Attribute `location` reads `components` values of GL type `type` from binding point `location`. `normalized` maps
+    // integers to [0, 1] or [−1, 1]. With `perInstance`, the attribute advances once per instance.
     void attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance = false);
-    // Attaches a buffer to the binding point of `location`, from byte `offset`, `stride` bytes a vertex.
+    // Attaches a buffer to the binding point of `location`: starts at byte `offset`, `stride` bytes per vertex.
     void bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride);
     void indices(const Buffer& buffer);
-    // Draws read it from now on. Goes before Program::use: the other way round, NVIDIA's driver 580 now and then left
-    // out the first draw of a program.
+    // Binds the vertex array for later draws. Call before Program::use: in the reverse order, NVIDIA driver 580
+    // sometimes skips a program's first draw.
     void use() const { glBindVertexArray(name()); }
 
 private:

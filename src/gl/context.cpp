@@ -1,6 +1,6 @@
 #include "gl/context.h"
 
-// epoxy before EGL's own headers
+// epoxy must precede EGL's headers
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -52,15 +52,15 @@ bool listed(const char* extensions, std::string_view name) {
     return false;
 }
 
-// A display that can be tried: made lazily, because asking for one may already touch a driver.
+// Display to try. The display is created only when tried, because creating it may already load a driver.
 struct Candidate {
     std::string name;
-    EGLenum platform = EGL_NONE;  // EGL_NONE: the default display
+    EGLenum platform = EGL_NONE;  // EGL_NONE: default display
     void* native = nullptr;
-    std::string missing = {};  // why it can't be tried; empty: it can
+    std::string missing = {};  // reason why it cannot be tried; empty: it can
 };
 
-// GPUs, then software; without any, one candidate that says why.
+// Returns the EGL devices, GPUs before software. Without devices, returns one candidate that holds the reason.
 std::vector<Candidate> devices(const char* extensions) {
     const auto none = [](std::string why) {
         return std::vector<Candidate>{{"EGL devices", EGL_PLATFORM_DEVICE_EXT, nullptr, std::move(why)}};
@@ -103,7 +103,7 @@ public:
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext() override { close(); }
 
-    // Tries one display; on failure everything is undone and the reason returned, on success an empty string.
+    // Tries one display. Returns an empty string on success; otherwise cleans up and returns the reason.
     std::string open(const Candidate& candidate) {
         const std::string reason = tryOpen(candidate);
         if (!reason.empty()) close();
@@ -125,7 +125,7 @@ public:
 private:
     std::string tryOpen(const Candidate& candidate) {
         const auto failed = [](const char* call) { return fmt::format("{}: {}", call, eglErrorName(eglGetError())); };
-        // The EXT entry point: libepoxy can't resolve the core one before a display exists.
+        // Use the EXT function: libepoxy cannot resolve the core function before a display exists.
         display_ = candidate.platform == EGL_NONE
                        ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
                        : eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
@@ -165,7 +165,7 @@ private:
                 eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display_, context_);
         }
-        // The display is shared by the process and stays initialised: another context may live on it.
+        // Do not terminate the display: the process shares it, and other contexts may use it.
         context_ = EGL_NO_CONTEXT;
         display_ = EGL_NO_DISPLAY;
     }

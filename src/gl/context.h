@@ -1,7 +1,6 @@
 #pragma once
-// A current OpenGL 4.5 core context without a window, through EGL: device enumeration first (GPUs before software),
-// then the surfaceless platform, then the default display. Every step that failed, or that the driver has no extension
-// for, keeps its reason.
+// Headless OpenGL 4.5 core context through EGL. It tries enumerated devices (GPUs before software), then the
+// surfaceless platform, then the default display. The reasons of failed attempts are kept in a log.
 
 #include <memory>
 #include <string>
@@ -12,19 +11,19 @@ namespace defocus::engine {
 class GlContext {
 public:
     virtual ~GlContext() = default;
-    // Current on this thread from now on. Throws Error where another thread has it.
+    // Makes the context current on this thread. Throws Error if it is current on another thread.
     virtual void makeCurrent() = 0;
     [[nodiscard]] virtual const std::string& device() const = 0;  // GL_RENDERER
     [[nodiscard]] virtual const std::string& driver() const = 0;  // GL_VERSION
-    [[nodiscard]] virtual bool software() const = 0;              // a rasteriser on the CPU (llvmpipe …)
-    // One line a step: what was tried, and why it failed or was chosen.
+    [[nodiscard]] virtual bool software() const = 0;              // rasterizes on the CPU, such as llvmpipe
+    // Log of the attempts, one line each: the display, and why it failed or was chosen.
     [[nodiscard]] virtual const std::vector<std::string>& log() const = 0;
 };
 
-// Creates a context and makes it current on this thread. Throws Error with every reason when none can be had.
+// Creates a context and makes it current on this thread. Throws Error with all reasons if no context can be created.
 std::unique_ptr<GlContext> createHeadlessContext();
 
-// What this thread has current through EGL as the object is made is current again once it goes.
+// Restores the thread's current EGL context: saves it in the constructor and makes it current again in the destructor.
 class CurrentContextKeeper {
 public:
     CurrentContextKeeper();
@@ -33,17 +32,17 @@ public:
     CurrentContextKeeper& operator=(const CurrentContextKeeper&) = delete;
 
 private:
-    unsigned api_;  // EGL's types, whose headers stay out of this one
+    unsigned api_;  // EGL types are not used, to keep EGL headers out
     void* display_;
     void* context_;
     void* draw_;
     void* read_;
 };
 
-// GL_RENDERER and GL_VERSION of the current context.
+// Return GL_RENDERER and GL_VERSION of the current context.
 std::string currentDevice();
 std::string currentDriver();
-// Whether the current context draws on the CPU.
+// Returns whether the current context renders on the CPU.
 bool currentIsSoftware();
 
 }  // namespace defocus::engine

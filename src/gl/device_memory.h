@@ -1,5 +1,5 @@
 #pragma once
-// How much memory the device of the current context still has, where its driver says.
+// Free memory of the current context's device, if its driver reports it.
 
 #include <cstdint>
 #include <functional>
@@ -7,11 +7,12 @@
 
 namespace defocus::engine {
 
-// Bytes, by GL_NVX_gpu_memory_info or GL_ATI_meminfo. None on a software driver, which draws in main memory.
+// Returns free bytes from GL_NVX_gpu_memory_info or GL_ATI_meminfo. Returns nullopt for software drivers, which use
+// main memory.
 std::optional<std::uint64_t> freeDeviceMemory();
 
-// The same of a driver that lists an extension where `has` says so, and answers glGetIntegerv(name) with `query(name)`,
-// of which only the first number counts. None where it says nothing, or nothing sensible.
+// Same for a driver given by two functions. `has` tests for an extension; `query` returns the first value of
+// glGetIntegerv(name). Returns nullopt if the driver reports no plausible value.
 std::optional<std::uint64_t> freeDeviceMemoryOf(const std::function<bool(const char* extension)>& has,
                                                 const std::function<int(unsigned name)>& query);
 

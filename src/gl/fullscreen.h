@@ -1,23 +1,23 @@
 #pragma once
-// A triangle over the whole render target, for passes that compute a value at each pixel.
+// Full-screen triangle for passes that compute a value at each pixel.
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 
 namespace defocus::engine {
 
-// The vertex shader of such programs.
+// Vertex shader of full-screen programs.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {
 public:
     // Runs `program` on every pixel of the bound target, without depth test, culling or blending.
     void draw(const Program& program) const;
-    // Runs `program` on squares of pixels alone, as many points, whose vertex shader sets their places and sizes.
+    // Runs `program` on `count` point sprites only. Its vertex shader sets their positions and sizes.
     void drawSquares(const Program& program, int count) const;
-    // As draw(), adding to what the target holds.
+    // Same as draw(), with additive blending.
     void drawAdding(const Program& program) const;
-    // The same, laid over what the target holds: premultiplied by its alpha.
+    // Same as draw(), with "over" blending of premultiplied colours.
     void drawOver(const Program& program) const;
 
 private:

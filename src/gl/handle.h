@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owner of one GL object name.
+// Move-only owner of one OpenGL object name.
 
 #include <epoxy/gl.h>
 

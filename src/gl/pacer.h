@@ -1,7 +1,6 @@
 #pragma once
-// Keeps the work that the driver has taken but not finished within bounds. A GPU needs no help; a software driver
-// (Mesa's llvmpipe) keeps every submitted triangle with its attributes in memory until its rasteriser gets there, and
-// lets gigabytes pile up when that is the slower side.
+// Limits the work that is submitted but not finished. Mesa's llvmpipe keeps all submitted triangles in memory until its
+// rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
 
 #include <cstdint>
 #include <deque>
@@ -17,13 +16,13 @@ public:
     SubmissionPacer(const SubmissionPacer&) = delete;
     SubmissionPacer& operator=(const SubmissionPacer&) = delete;
 
-    // Most triangles that one draw call should hold; 0: any number.
+    // Returns the maximum triangles per draw call; 0: unlimited.
     [[nodiscard]] std::uint64_t maxTriangles() const { return batch_; }
-    // To be called after a draw call; waits for earlier ones where too many are open.
+    // Call after each draw call. Waits for earlier draws if too many are pending.
     void submitted(std::uint64_t triangles);
 
 private:
-    std::uint64_t batch_ = 0;  // triangles between two fences; 0: no pacing
+    std::uint64_t batch_ = 0;  // triangles between two fences; 0: no limit
     std::uint64_t open_ = 0;   // triangles since the last fence
     std::deque<GLsync> fences_;
 };

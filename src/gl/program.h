@@ -1,8 +1,8 @@
 #pragma once
-// A linked shader program. Sources come from the shaders embedded in the library, or from a folder that overrides them.
+// Linked shader program. Sources are embedded in the library, or come from a folder that overrides them.
 //
-// `#include "path"` (relative to shaders/) is resolved here, each time it stands. Every `#line` keeps the file's own
-// line numbers, so that the driver's log can be read.
+// `#include "path"` (relative to shaders/) is expanded at every occurrence. `#line` directives keep each file's line
+// numbers, so that driver logs are readable.
 
 #include <filesystem>
 #include <string>
@@ -16,9 +16,9 @@ namespace defocus::engine {
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {
-    std::vector<std::string> shaders;  // paths under shaders/; the extension names the stage: .vert .geom .frag .comp
+    std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .geom .frag .comp
     ShaderDefines defines;
-    std::filesystem::path overrideFolder;  // empty: the embedded shaders only
+    std::filesystem::path overrideFolder;  // empty: use the embedded shaders only
 };
 
 class Program {
@@ -35,11 +35,11 @@ private:
     GlHandle<destroyProgram> handle_;
 };
 
-// The text of a shader with includes and defines in place (for tests and messages).
+// Returns a shader's source with includes and defines expanded, for tests and messages.
 std::string shaderText(const std::string& path, const ShaderDefines& defines,
                        const std::filesystem::path& overrideFolder);
 
-// Whether the vertex shader may write gl_Layer (ARB_shader_viewport_layer_array or AMD_vertex_shader_layer).
+// Returns whether vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array or AMD_vertex_shader_layer).
 bool vertexShaderMayPickLayer();
 
 }  // namespace defocus::engine

@@ -1,15 +1,15 @@
 #pragma once
-// Texture → Image and back. The one place where OpenGL's bottom-up rows become top-down.
+// Transfers between textures and images. Only this code converts between OpenGL's bottom-up rows and top-down images.
 
 #include "gl/texture.h"
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// Layer 0 of a float or normalised texture with `channels` (1, 3 or 4) channels as floats.
+// Returns layer 0 of a float or normalised texture as floats with 1, 3 or 4 channels.
 Image readBack(const GlTexture& texture, int channels);
 
-// An image of the texture's size and channels as its only level.
+// Uploads an image into the texture's only mip level. Size and channels must match.
 void upload(GlTexture& texture, const Image& image);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// While it lives, only a part of what is bound is drawn into, in px from the lower left corner; or all of it.
+// Scoped scissor test: restricts drawing to a rectangle in px from the lower left corner; nullopt: no restriction.
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The shaders that were embedded when the library was built, by their path under shaders/.
+// Shaders embedded in the library at build time, by their path under shaders/.
 
 #include <map>
 #include <string_view>

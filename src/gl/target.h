@@ -1,6 +1,6 @@
 #pragma once
-// A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array
-// textures are attached with all their layers (gl_Layer picks one).
+// Framebuffer over textures that it does not own: colour attachments in order and an optional depth texture. Array
+// textures are attached with all layers; gl_Layer selects one.
 
 #include <cstdint>
 #include <optional>
@@ -13,18 +13,18 @@ namespace defocus::engine {
 class Target {
 public:
     Target() = default;
-    // At most 8 colours; none for depth alone. Throws Error in words when the driver can't render to this combination.
+    // At most 8 colours; none for depth only. Throws Error if the driver cannot render to this combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
-    // Each layer of an array texture, at most 8, is a colour.
+    // Attaches each layer of an array texture (at most 8) as a colour.
     static Target ofLayers(const GlTexture& array);
-    // An image, then the first `layers` of an array texture of its size, at most 8 together.
+    // Attaches an image and the first `layers` layers of an array texture of equal size, at most 8 colours in total.
     static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);
-    // Layer `layer` and mipmap level `level` alone of array textures of one size.
+    // Attaches only layer `layer` and mip level `level` of array textures of equal size.
     static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
-    // Layer `layer` alone of array textures; `depth` has no layers.
+    // Attaches only layer `layer` of array textures; `depth` is not layered.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
-    // Makes it current with its whole area as viewport.
+    // Binds the framebuffer and sets the viewport to its full size.
     void bind() const;
     [[nodiscard]] GLuint name() const { return handle_.name(); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A buffer that shaders read as texels (samplerBuffer), move-only.
+// Move-only buffer that shaders read as texels (samplerBuffer).
 
 #include <span>
 
@@ -10,8 +10,8 @@ namespace defocus::engine {
 class TexelBuffer {
 public:
     TexelBuffer() = default;
-    // Texels of `format` (GL_RGBA32F, GL_RGB32F), `components` floats each. `what` names them in the Error that is
-    // thrown when they are more than the driver reads in one buffer.
+    // Texels have `format` (GL_RGBA32F, GL_RGB32F) and `components` floats each. Throws Error that names `what` if they
+    // exceed the driver's limit.
     TexelBuffer(std::span<const float> values, GLenum format, int components, const char* what);
 
     void attach(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }

@@ -1,5 +1,5 @@
 #pragma once
-// An immutable GL texture (2D, or an array of layers), move-only.
+// Move-only immutable OpenGL texture: 2D, or a 2D array.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class TextureFormat {
     rgba8,
     rgb10A2,
     srgb8Alpha8,
-    r32ui,  // integer: 32 packed bits
+    r32ui,  // integer with 32 packed bits
     depth32f,
 };
 
@@ -24,11 +24,11 @@ struct TextureInfo {
     TextureFormat format = TextureFormat::rgba32f;
     int width = 1;
     int height = 1;
-    int layers = 0;  // 0: a 2D texture; ≥ 1: a 2D array
+    int layers = 0;  // 0: 2D texture; ≥ 1: 2D array
     int levels = 1;  // mipmap levels
 };
 
-struct TexelRectangle {  // from the lower left corner
+struct TexelRectangle {  // origin at the lower left corner
     int x = 0;
     int y = 0;
     int width = 0;
@@ -38,19 +38,20 @@ struct TexelRectangle {  // from the lower left corner
 class GlTexture {
 public:
     GlTexture() = default;
-    // Throws Error when the size is beyond the driver's limits or memory.
+    // Throws Error if the size exceeds the driver's limits or memory.
     explicit GlTexture(const TextureInfo& info);
 
-    // Level `level` from tightly packed pixels: bytes (rgba8, srgb8Alpha8) or floats of the format's channels.
+    // Fills mip level `level` from tightly packed pixels: bytes (rgba8, srgb8Alpha8) or floats in the format's
+    // channels.
     void upload(int level, int width, int height, const void* pixels);
     void generateMipmaps();
     void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
-    // Fills a layer with zeros: black and transparent, or a depth of 0.
+    // Clears a layer to zero: transparent black, or depth 0.
     void clearLayer(std::uint32_t layer);
-    // Copies a rectangle of layer `layer` to the same place of layer `toLayer` of a texture of the same format.
+    // Copies a rectangle of layer `layer` to the same position in layer `toLayer` of a texture of the same format.
     void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
-    // Copies layers [0, count), or the one image of a texture without layers, to those of `to`, an array of the same
-    // format and size.
+    // Copies layers [0, count), or the image of a 2D texture, to the same layers of array texture `to`. Formats and
+    // sizes must match.
     void copyLayers(const GlTexture& to, std::uint32_t count) const;
     void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }
 
@@ -64,9 +65,9 @@ private:
     TextureInfo info_;
 };
 
-// Mipmap levels of a full chain.
+// Returns the number of mip levels of a full chain.
 int mipmapLevels(int width, int height);
-// Bytes a pixel.
+// Returns the bytes per pixel.
 std::size_t pixelBytes(TextureFormat format);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// GPU time of a span of GL commands between pairs of GL_TIMESTAMP queries (llvmpipe's GL_TIME_ELAPSED is
-// off by orders of magnitude). On a software driver these miss the vertex work.
+// GPU time between pairs of GL_TIMESTAMP queries; llvmpipe's GL_TIME_ELAPSED is wrong by orders of magnitude. Software
+// drivers omit vertex work from these timestamps.
 
 #include <vector>
 
@@ -12,12 +12,12 @@ class GpuTimer {
 public:
     void begin();
     void end();
-    // Milliseconds over all spans since the last reset; waits for the GPU.
+    // Returns the milliseconds of all begin–end spans since the last reset; waits for the GPU.
     [[nodiscard]] double milliseconds();
     void reset();
 
 private:
-    std::vector<GlHandle<destroyQuery>> pending_;  // begin, end, begin, end …
+    std::vector<GlHandle<destroyQuery>> pending_;  // alternating begin and end queries
     double total_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// A window with an OpenGL 4.5 core context (GLFW), current on the thread that made it. What people do arrives as plain
-// data, in order, so that nothing is lost however slow a frame is.
+// Window with an OpenGL 4.5 core context (GLFW), current on the creating thread. Input arrives as a queue of events in
+// order, so that slow frames lose nothing.
 
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -15,7 +15,7 @@ struct GLFWwindow;
 
 namespace defocus::engine {
 
-// Letters, digits and marks are their ASCII codes on a US keyboard, capitals for letters; the others:
+// Key codes. Letters (upper case), digits and punctuation are ASCII codes on a US keyboard; other keys follow.
 namespace key {
 inline constexpr int escape = 256;
 inline constexpr int enter = 257;
@@ -40,63 +40,63 @@ enum class MouseButton { left, right, middle };
 struct WindowEvent {
     enum class Type { button, move, scroll, key, text, drop };
     Type type = Type::move;
-    glm::dvec2 position{0.0};  // of the mouse, in window units from the top left
+    glm::dvec2 position{0.0};  // mouse position in window units from the top left
     MouseButton button = MouseButton::left;
-    bool pressed = false;    // button, key
-    bool repeated = false;   // key: held down
-    glm::dvec2 scroll{0.0};  // > 0: away from the person, to the left
-    int key = 0;             // see above
-    char32_t letter = 0;     // text: as the keyboard's layout has it
+    bool pressed = false;    // for button and key events
+    bool repeated = false;   // for key events: the key is held down
+    glm::dvec2 scroll{0.0};  // > 0: away from the user, to the left
+    int key = 0;             // key code, see above
+    char32_t letter = 0;     // Unicode character from the keyboard layout, for text
     bool shift = false, control = false, alt = false;
-    std::vector<std::filesystem::path> paths;  // drop
+    std::vector<std::filesystem::path> paths;  // dropped files, for drop events
 };
 
 struct WindowOptions {
-    int width = 1280;  // units of the interface: on a dense screen the window has more px
+    int width = 1280;  // interface units; a high-density screen has more pixels
     int height = 800;
     std::string title = "defocus";
 };
 
 class Window {
 public:
-    // Throws Error where there is no display or no OpenGL 4.5 on it. One window a process.
+    // Throws Error without a display or without OpenGL 4.5. Only one window per process.
     explicit Window(const WindowOptions& options);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // What has happened since the last call; waits up to `seconds` for something to happen.
+    // Returns the events since the last call; waits up to `seconds` for the first event.
     std::vector<WindowEvent> poll(double seconds);
     [[nodiscard]] bool closing() const;
     void close();
     [[nodiscard]] bool keyHeld(int keyCode) const;
-    [[nodiscard]] bool hovered() const;  // the mouse is over it
-    [[nodiscard]] bool focused() const;  // keys go to it
+    [[nodiscard]] bool hovered() const;  // mouse is over the window
+    [[nodiscard]] bool focused() const;  // window has keyboard focus
 
     [[nodiscard]] bool fullscreen() const;
-    // Covers the screen that it is on, or goes back to where it was.
+    // Covers the window's current screen, or restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Of the latest poll(), both of one moment.
-    [[nodiscard]] glm::ivec2 size() const { return size_; }                        // window units
-    [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // px; 0 x 0 while minimised
-    [[nodiscard]] double contentScale() const;  // window units to one of the interface, 1 on a plain screen
+    // Sizes as of the latest poll(); both belong to the same moment.
+    [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
+    [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
+    [[nodiscard]] double contentScale() const;  // window units per interface unit; 1 on a standard screen
 
-    // Clears the window's framebuffer to display values and makes it the render target.
+    // Binds the window's framebuffer and clears it to a display-encoded colour.
     void beginFrame(const glm::vec3& color);
     void endFrame();
-    // The framebuffer as it is now, RGB, linear.
+    // Returns the current framebuffer as linear RGB.
     [[nodiscard]] Image pixels() const;
 
     void setTitle(const std::string& title);
     void setClipboard(const std::string& text);
     [[nodiscard]] GLFWwindow* native() const { return window_; }
     [[nodiscard]] const std::string& device() const { return device_; }
-    [[nodiscard]] bool software() const { return software_; }  // draws on the CPU
+    [[nodiscard]] bool software() const { return software_; }  // renders on the CPU
 
 private:
     void installCallbacks();
-    // A window that is just being given another size can have the old one in one answer and the new one in the next.
+    // Reads both sizes consistently: while the window is resized, GLFW may report an old and a new size.
     void readSizes();
     WindowEvent& add(WindowEvent::Type type);
 
@@ -104,7 +104,7 @@ private:
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
     glm::ivec2 size_{0}, framebufferSize_{0};
-    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // to which it goes back from the whole screen
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // position and size to restore after full screen
     std::string device_;
     bool software_ = false;
 };

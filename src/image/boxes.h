@@ -1,13 +1,12 @@
 #pragma once
-// What two images differ by once both are blurred: an error that a blur doesn't hide.
+// Difference of two images after a box blur: the error that a blur does not hide.
 
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// The root of the mean square of the differences of the means of boxes of `size`² pixels, of the first three channels,
-// in linear light. A rest of less than a box at the right and the bottom is left out. Both images have the same size,
-// of at least one box.
+// Returns the RMS difference of the means of `size` x `size` px boxes, over the first three channels in linear light.
+// Incomplete boxes at the right and bottom edges are ignored. Both images must have the same size, at least one box.
 double boxDifference(const ImageView& reference, const ImageView& test, int size);
 
 }  // namespace defocus::engine

@@ -1,7 +1,6 @@
 #pragma once
-// Colour maps for data that people look at: magma and viridis of Stéfan van der Walt and Nathaniel Smith, as
-// OpenImageIO has them. Both are perceptually uniform and rise in lightness, so that they also read in grey and with
-// colour blindness.
+// Perceptually uniform colour maps: magma and viridis by Stéfan van der Walt and Nathaniel Smith, from OpenImageIO.
+// Lightness rises monotonically, so that the maps also work in greyscale and for colour-blind readers.
 
 #include <glm/vec3.hpp>
 
@@ -9,11 +8,11 @@
 
 namespace defocus::engine {
 
-// t in [0, 1] (clamped; NaN counts as 0) → LINEAR Rec.709 RGB.
-glm::vec3 magma(float t);    // black, purple, orange, pale yellow: errors
-glm::vec3 viridis(float t);  // dark blue, green, yellow: levels and other quantities
+// Both functions map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
+glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for errors
+glm::vec3 viridis(float t);  // dark blue, green, yellow; for levels and other quantities
 
-// A 1-channel image of values in [0, 1] through magma, as linear RGB for writeImage.
+// Maps a 1-channel image with values in [0, 1] through magma to linear RGB, for writeImage.
 Image colourMapped(const Image& values);
 
 }  // namespace defocus::engine

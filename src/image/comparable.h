@@ -1,7 +1,7 @@
 #pragma once
-// Two images of one size, brought to what every metric can digest: RGB (grey repeated, alpha dropped: a premultiplied
-// colour is the colour over black) and finite. A pixel that is not finite in one image takes the other image's colour,
-// so that it spoils no neighbour through a filter, and is marked; a pixel that is not finite in both is black in both.
+// Two images prepared for all metrics: equal size, RGB and finite. Grey is replicated; alpha is dropped, which leaves
+// the premultiplied colour over black. Non-finite pixels are marked and replaced, so that filters do not spread them.
+// The replacement is the other image's colour, or black if both are non-finite.
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +15,10 @@ enum class PixelState : std::uint8_t { finite, nonFiniteInOne, nonFiniteInBoth }
 struct ComparablePair {
     Image reference;                // 3 channels, linear
     Image test;                     // 3 channels, linear
-    std::vector<PixelState> state;  // width · height
+    std::vector<PixelState> state;  // width · height entries
 };
 
-// Throws Error when the sizes differ, or an image is empty or has not as many values as its size says.
+// Throws Error if the sizes differ, or if an image is empty or has the wrong number of values.
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
-// OpenEXR, "File Layout": after eight bytes come headers, each a list of attributes that an empty name ends. An
-// attribute is its name, its type (both ended by a zero), the number of its bytes (32 bits, little-endian), and those.
+// OpenEXR "File Layout": eight bytes, then headers, each a list of attributes that ends with an empty name. An
+// attribute is a zero-terminated name, a zero-terminated type, a 32-bit little-endian byte count, and the value.
 
 #include "image/exr_structure.h"
 
@@ -18,10 +18,10 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t headersBegin = 8;
-constexpr std::size_t channelBytes = 16;     // after a channel's name
-constexpr std::int64_t widestRow = 1 << 20;  // px; far more than any image has, and OpenEXR makes room for several rows
+constexpr std::size_t channelBytes = 16;     // bytes per channel after its name, in a channel list
+constexpr std::int64_t widestRow = 1 << 20;  // px; OpenEXR allocates several rows at once
 
-// Types of one size.
+// Attribute types with a fixed size in bytes.
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{
     {"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
     {"compression", 1}, {"double", 8},   {"envmap", 1},
@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{
     {"v3f", 12},        {"v3i", 12},
 }};
 
-// The text that begins at `at`, without the zero that ends it; none where that isn't in `bytes`.
+// Returns the zero-terminated text at offset `at`; nullopt if `bytes` ends before the zero.
 std::optional<std::string_view> textAt(Bytes bytes, std::size_t at) {
     const Bytes rest = bytes.subspan(std::min(at, bytes.size()));
     const auto zero = std::ranges::find(rest, std::byte{0});
@@ -47,13 +47,13 @@ std::uint32_t number(Bytes bytes, std::size_t at) {
     return value;
 }
 
-// Of a box2i: xMin, yMin, xMax, yMax, the last column and row included.
+// Returns the width of a box2i (xMin, yMin, xMax, yMax); its bounds are inclusive.
 std::int64_t widthOf(Bytes box) {
     const auto column = [&](std::size_t at) { return std::int64_t{static_cast<std::int32_t>(number(box, at))}; };
     return column(8) - column(0) + 1;
 }
 
-// A list of channels ends with an empty name, which is its last byte.
+// Returns whether the value is a valid channel list; an empty name as last byte ends the list.
 bool isChannelList(Bytes value) {
     for (std::size_t at = 0; at < value.size();) {
         const auto channel = textAt(value, at);
@@ -67,10 +67,10 @@ bool isChannelList(Bytes value) {
 }  // namespace
 
 void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name) {
-    // A file of several parts has a header for each, and an empty one after the last.
+    // A multi-part file has one header per part, then an empty header.
     const bool parts = head.size() > 5 && (head[5] & std::byte{0x10}) != std::byte{0};
     const int last = parts ? 2 : 1;
-    int empty = 0;  // names in a row
+    int empty = 0;  // consecutive empty names
     for (std::size_t at = headersBegin; at < head.size() && empty < last;) {
         const auto attribute = textAt(head, at);
         if (!attribute) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The attributes in the header of an EXR file, checked before OpenEXR sees them: it reads values of most types without
-// a look at the size that the file says, and makes room for what a damaged one claims, up to 2 GiB.
+// Checks EXR header attributes before OpenEXR reads them. OpenEXR ignores the stored size of most types, and allocates
+// up to 2 GiB for a damaged size.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +9,8 @@
 
 namespace defocus::engine {
 
-// `head` is the beginning of a file of `fileBytes`, as far as it was read. Throws Error, naming `name`, where an
-// attribute claims more bytes than the file has, or others than its type takes, or rows have more than 2²⁰ px. Other
-// faults are left to who reads on.
+// `head` is the start of a file of `fileBytes` bytes; it may be incomplete. Throws Error that names `name` if an
+// attribute exceeds the file, has the wrong size for its type, or rows exceed 2²⁰ px. Other faults are left to OpenEXR.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// Names and constants follow the papers named in flip.h; section numbers are those of the LDR paper (HPG 2020).
+// Names and constants follow the papers cited in flip.h; section numbers refer to the LDR paper (HPG 2020).
 
 #include "image/flip.h"
 
@@ -19,7 +19,7 @@ namespace {
 using FloatPlane = Plane<float>;
 using FloatKernel = Kernel<float>;
 
-// sRGB primaries and white to XYZ (row by row), and XYZ's white.
+// Matrix from linear sRGB to XYZ in row-major order, its inverse, and the XYZ white point.
 constexpr std::array<float, 9> rgbToXyz = {0.412386564f, 0.357591491f, 0.180450491f, 0.212636822f, 0.715182982f,
                                            0.072180196f, 0.019330620f, 0.119197164f, 0.950372587f};
 constexpr std::array<float, 9> xyzToRgb = {3.241003233f, -1.537398969f, -0.498615882f, -0.969224252f, 1.875929984f,
@@ -35,11 +35,11 @@ constexpr SensitivityTerm achromaticTerm{1.0, 0.0047};
 constexpr SensitivityTerm redGreenTerm{1.0, 0.0053};
 constexpr std::array<SensitivityTerm, 2> blueYellowTerms = {{{34.1, 0.04}, {13.5, 0.025}}};
 
-// Section 4.1: colour difference (exponent, and the knee that maps 0.4 of the largest to 0.95).
+// Section 4.1: exponent of the colour difference, and the knee that maps 0.4 of the maximum to 0.95.
 constexpr float colourExponent = 0.7f;
 constexpr float kneeIn = 0.4f;
 constexpr float kneeOut = 0.95f;
-// Section 4.2: features of 0.082 degrees, and their exponent.
+// Section 4.2: feature width in degrees, and exponent of feature differences.
 constexpr double featureWidth = 0.082;
 constexpr float featureExponent = 0.5f;
 
@@ -57,7 +57,7 @@ Colour transformed(const std::array<float, 9>& m, const Colour& c) {
             m[6] * c.x + m[7] * c.y + m[8] * c.z};
 }
 
-// YCxCz, the opponent space in which the eye's spatial filters act; linear in RGB.
+// Converts to YCxCz, the opponent colour space of the spatial filters. The conversion is linear in RGB.
 Colour opponentFromRgb(const Colour& rgb) {
     const Colour xyz = transformed(rgbToXyz, rgb);
     const float x = xyz.x / white[0], y = xyz.y / white[1], z = xyz.z / white[2];
@@ -76,7 +76,7 @@ float labCurve(float t) {
     return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0f / 29.0f;
 }
 
-// L*a*b* with the Hunt effect: colours look less colourful in the dark.
+// Converts to L*a*b* with the Hunt effect: dark colours appear less colourful.
 Colour huntLabFromRgb(const Colour& rgb) {
     const Colour xyz = transformed(rgbToXyz, rgb);
     const float x = labCurve(xyz.x / white[0]), y = labCurve(xyz.y / white[1]), z = labCurve(xyz.z / white[2]);
@@ -84,7 +84,8 @@ Colour huntLabFromRgb(const Colour& rgb) {
     return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
 }
 
-// HyAB: city block in lightness, Euclidean in chroma; better than CIE's formulas for large differences.
+// Returns the HyAB distance: absolute difference in lightness plus Euclidean distance in chroma. It suits large
+// differences better than CIE formulas.
 float colourDistance(const Colour& p, const Colour& q) {
     return std::abs(p.x - q.x) + std::hypot(p.y - q.y, p.z - q.z);
 }
@@ -93,14 +94,14 @@ Colour clamped(const Colour& c) {
     return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
 
-// K. Narkowicz's ACES curve with the 0.6 of the original's exposure folded in. The input is capped where the curve has
-// long passed 1, so that its squares stay finite.
+// ACES curve of K. Narkowicz with an exposure factor of 0.6. Inputs are clamped far above saturation, so that squares
+// stay finite.
 float acesCurve(float value) {
     const float x = 0.6f * std::clamp(value, 0.0f, 1e6f);
     return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-// Weights exp(−x²·falloff), x in pixels, before normalisation.
+// Returns unnormalised weights exp(−x²·falloff), x in pixels.
 std::vector<double> gaussian(int radius, double falloff) {
     std::vector<double> weights;
     for (int i = -radius; i <= radius; ++i) weights.push_back(std::exp(-falloff * i * i));
@@ -119,7 +120,7 @@ FloatKernel scaled(const std::vector<double>& weights, double scale) {
     return kernel;
 }
 
-// A difference filter: its positive weights sum to 1, its negative ones to −1.
+// Normalises a derivative filter: positive weights sum to 1, negative weights to −1.
 FloatKernel balanced(const std::vector<double>& weights) {
     double positive = 0, negative = 0;
     for (const double weight : weights) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -131,8 +132,8 @@ FloatKernel balanced(const std::vector<double>& weights) {
 
 struct SpatialFilters {
     FloatKernel achromatic, redGreen;
-    std::array<FloatKernel, 2> blueYellow;   // each sums to 1
-    std::array<float, 2> blueYellowWeights;  // of the two, sum 1
+    std::array<FloatKernel, 2> blueYellow;   // each kernel sums to 1
+    std::array<float, 2> blueYellowWeights;  // weights of the two kernels; sum to 1
 };
 
 SpatialFilters spatialFilters(double pixelsPerDegree) {
@@ -146,7 +147,7 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
         const std::vector<double> weights = weightsOf(term);
         return scaled(weights, 1 / sum(weights));
     };
-    // The 2D sum of two Gaussians is separable term by term; a term's share is its 2D weight.
+    // A 2D sum of two Gaussians is separable term by term; `share` is the 2D weight of each term.
     std::array<double, 2> share;
     for (std::size_t i = 0; i < share.size(); ++i) {
         const double total = sum(weightsOf(blueYellowTerms[i]));
@@ -176,7 +177,7 @@ FeatureFilters featureFilters(double pixelsPerDegree) {
     return {scaled(smooth, 1 / sum(smooth)), balanced(edge), balanced(point)};
 }
 
-template <typename ToDisplay>  // float(float): linear channel → what the monitor emits, in [0, 1]
+template <typename ToDisplay>  // ToDisplay: float(float), maps a linear channel to displayed light in [0, 1]
 ColourPlanes opponentPlanes(const Image& rgb, const ToDisplay& toDisplay) {
     ColourPlanes planes(rgb.width, rgb.height);
     forEachRow(rgb.height, [&](int y) {
@@ -195,7 +196,7 @@ FloatPlane filtered(const FloatPlane& in, const FloatKernel& alongRows, const Fl
     return filteredAlongColumns(filteredAlongRows(in, alongRows), alongColumns);
 }
 
-// What the eye resolves of an image (opponent space → L*a*b* with Hunt effect).
+// Filters with the eye's contrast sensitivity and converts to L*a*b* with the Hunt effect.
 ColourPlanes perceived(const ColourPlanes& opponent, const SpatialFilters& filters) {
     const FloatPlane achromatic = filtered(opponent.x, filters.achromatic, filters.achromatic);
     const FloatPlane redGreen = filtered(opponent.y, filters.redGreen, filters.redGreen);
@@ -217,7 +218,7 @@ ColourPlanes perceived(const ColourPlanes& opponent, const SpatialFilters& filte
 }
 
 struct Features {
-    FloatPlane edges, points;  // strengths
+    FloatPlane edges, points;  // feature strengths
 };
 
 Features features(const FloatPlane& achromatic, const FeatureFilters& filters) {
@@ -238,7 +239,7 @@ Features features(const FloatPlane& achromatic, const FeatureFilters& filters) {
     return {strength(filters.edge), strength(filters.point)};
 }
 
-// The colour difference in [0, 1]: a power, then most of the range for differences up to the knee.
+// Maps colour differences to [0, 1]: a power function, then a piecewise linear curve with a knee.
 class ColourDifference {
 public:
     ColourDifference()
@@ -251,24 +252,25 @@ public:
     }
 
 private:
-    float largest_;  // between green and blue
+    float largest_;  // distance between green and blue
 };
 
-// One LDR-FLIP of the two images as `toDisplay` shows them; `map` keeps the larger of its value and the new one.
+// Computes LDR-FLIP for the images as displayed by `toDisplay`. Stores the maximum of the result and the previous value
+// in `map`.
 template <typename ToDisplay>
 void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDisplay& toDisplay, Image& map) {
-    // What reaches the eye.
+    // Displayed light in the opponent space.
     const ColourPlanes opponentA = opponentPlanes(pair.reference, toDisplay);
     const ColourPlanes opponentB = opponentPlanes(pair.test, toDisplay);
-    // The colour pipeline.
+    // Colour pipeline.
     const SpatialFilters spatial = spatialFilters(pixelsPerDegree);
     const ColourPlanes labA = perceived(opponentA, spatial);
     const ColourPlanes labB = perceived(opponentB, spatial);
-    // The feature pipeline: edges and points that are in one image only.
+    // Feature pipeline: edges and points that only one image has.
     const FeatureFilters filters = featureFilters(pixelsPerDegree);
     const Features featuresA = features(opponentA.x, filters);
     const Features featuresB = features(opponentB.x, filters);
-    // Features amplify the colour difference.
+    // Feature differences amplify colour differences.
     const ColourDifference colourDifference;
     forEachRow(map.height, [&](int y) {
         for (int x = 0; x < map.width; ++x) {
@@ -305,7 +307,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
         raiseToFlip(
             pair, pixelsPerDegree, [](float value) { return std::clamp(value, 0.0f, 1.0f); }, map);
     } else {
-        // The worst over the exposures.
+        // Take the maximum over all exposures.
         const double step = hdr->exposures > 1 ? (hdr->stopExposure - hdr->startExposure) / (hdr->exposures - 1) : 0.0;
         for (int i = 0; i < hdr->exposures; ++i) {
             const auto gain = static_cast<float>(std::exp2(hdr->startExposure + i * step));
@@ -313,7 +315,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
                 pair, pixelsPerDegree, [gain](float value) { return acesCurve(gain * value); }, map);
         }
     }
-    // Pixels without a finite colour in one of the two images.
+    // Overwrite non-finite pixels.
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
         if (pair.state[i] == PixelState::nonFiniteInOne) map.pixels[i] = 1;
         if (pair.state[i] == PixelState::nonFiniteInBoth) map.pixels[i] = 0;

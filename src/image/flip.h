@@ -1,11 +1,12 @@
 #pragma once
-// FLIP, the difference a person sees when alternating between two images.
-//   LDR: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for
-//   Alternating
-//        Images", HPG 2020.
-//   HDR: Andersson, Nilsson, Shirley, Akenine-Möller: "Visualizing Errors in Rendered High Dynamic Range Images",
-//        Eurographics Short Papers 2021. The largest LDR-FLIP over a range of exposures, each through the ACES curve of
-//        K. Narkowicz. The exposures are given, as the automatic ones fail on mostly black images.
+// FLIP: the difference that a viewer perceives when alternating between two images.
+//
+// LDR: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating
+// Images", HPG 2020.
+//
+// HDR: Andersson, Nilsson, Shirley, Akenine-Möller: "Visualizing Errors in Rendered High Dynamic Range Images",
+// Eurographics Short Papers 2021. HDR-FLIP is the maximum of LDR-FLIP over several exposures, tone-mapped with the ACES
+// curve of K. Narkowicz. Exposures are explicit, because the automatic ones fail on mostly black images.
 
 #include <optional>
 
@@ -15,16 +16,16 @@ namespace defocus::engine {
 
 struct HdrFlipOptions {
     double startExposure = -4;  // EV
-    double stopExposure = 2;    // EV, not below startExposure
-    int exposures = 4;          // evenly spaced from start to stop, 1 (start alone) to 64
+    double stopExposure = 2;    // EV, ≥ startExposure
+    int exposures = 4;          // evenly spaced from start to stop; 1 (start only) to 64
 };
 
-// FLIP's own default: a 0.7 m wide 3840 px monitor seen from 0.7 m.
+// Default of the FLIP papers: a 3840 px wide, 0.7 m wide monitor at 0.7 m distance.
 inline constexpr double defaultPixelsPerDegree = 67.0;
 
-// FLIP per pixel in [0, 1], 1 channel. Both images are LINEAR, of one size, with 1, 3 or 4 channels (alpha takes no
-// part); LDR clips them to [0, 1]. A pixel that is NaN or infinite in exactly one image gets 1, in both 0; it takes no
-// part in its neighbours. Throws Error for sizes that differ or options out of range.
+// Returns FLIP per pixel in [0, 1] with 1 channel. Images are linear, of equal size, with 1, 3 or 4 channels; alpha is
+// ignored. LDR-FLIP clips colours to [0, 1]. A pixel that is NaN or infinite gets 1 if only one image has it, or 0 if
+// both do. It does not affect its neighbours. Throws Error if sizes differ or options are out of range.
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr = {},
                    double pixelsPerDegree = defaultPixelsPerDegree);
 

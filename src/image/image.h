@@ -1,5 +1,5 @@
 #pragma once
-// Images: the float image of the public API, and textures as files hold them.
+// Image types: the float image of the public API, and 8-bit textures.
 
 #include <cstdint>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace defocus::engine {
 
-// An 8-bit RGBA texture as a file holds it (encoded values, straight alpha), row 0 at the top.
+// 8-bit RGBA texture as stored in files: encoded values, straight alpha, top row first.
 struct TextureImage {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgba;  // width · height · 4
+    std::vector<std::uint8_t> rgba;  // width · height · 4 bytes
 };
 
 }  // namespace defocus::engine

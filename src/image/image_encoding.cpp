@@ -17,7 +17,7 @@ Image copyOf(const ImageView& view) {
     return image;
 }
 
-// Colours divided by their coverage; where nothing covers, nothing can be stored.
+// Divides colours by alpha; pixels with alpha 0 become black.
 Image withStraightAlpha(const ImageView& premultiplied) {
     Image image = copyOf(premultiplied);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
@@ -35,7 +35,7 @@ Image withoutAlpha(const ImageView& image) {
     return opaque;
 }
 
-// Adds the metadata in EXR's types, or as text for PNG, which has no other.
+// Adds metadata with EXR's types; PNG supports only text.
 struct MetadataWriter {
     OIIO::ImageSpec& spec;
     FileKind kind;

@@ -1,6 +1,5 @@
 #pragma once
-// What writing whole images and writing them by rows share: kinds of files, and pixels as each has them. Private to
-// src/image.
+// File kinds and pixel encoding, shared by writing complete images and writing rows. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 
@@ -14,15 +13,15 @@ namespace defocus::engine {
 
 enum class FileKind { exr, png, jpeg };
 
-// By the extension. Throws Error for another one.
+// Returns the file kind for the path's extension. Throws Error for unknown extensions.
 FileKind fileKind(const std::filesystem::path& path);
-const char* formatName(FileKind kind);  // OpenImageIO's
+const char* formatName(FileKind kind);  // name in OpenImageIO
 
-// Of a file with these pixels; a JPEG keeps no fourth channel and of the metadata only `comments`.
+// Returns the OpenImageIO description of a file. JPEG drops alpha and all metadata except `comments`.
 OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, const Metadata& metadata);
 
-// The rows of a PNG or JPEG file from linear ones. `firstRow` is the number of the first of them in the file: what lies
-// between two bytes is dithered by its place.
+// Encodes linear rows as PNG or JPEG bytes. `firstRow` is the index of the first row in the file, which determines the
+// dither pattern.
 std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
                                        int firstRow);
 

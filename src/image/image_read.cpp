@@ -26,15 +26,15 @@ namespace defocus::engine {
 
 namespace {
 
-// 268 million pixels: a 16384 × 16384 texture. More is a damaged header or more than a float image should take.
+// Maximum size: 268 million pixels, a 16384 × 16384 texture. A larger header is probably damaged.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
-// A byte of a JPEG file: each block of 8 × 8 has a code of a bit or more. What a short file claims beyond that, libjpeg
-// would make up, for as long as it takes.
+// Maximum pixels per byte of a JPEG file: each 8 × 8 block takes at least one bit. For shorter files, libjpeg would
+// spend a long time inventing the missing pixels.
 constexpr std::uint64_t maxJpegPixels = 2 * 8 * 8 * 8;
 
 struct Format {
     std::string_view magic;
-    const char* name;  // OpenImageIO's
+    const char* name;  // name in OpenImageIO
 };
 constexpr std::array<Format, 7> formats = {{
     {"\x89PNG\r\n\x1a\n", "png"},
@@ -54,8 +54,8 @@ std::optional<std::string_view> formatOf(std::span<const std::byte> encoded) {
     return std::nullopt;
 }
 
-// Bytes as a file that ends where they do, and begins there too: OpenImageIO's own reads before the beginning where a
-// damaged file says that something lies there.
+// In-memory file with checked bounds. For damaged files, OpenImageIO's own reader may read before the start of the
+// buffer.
 class CheckedMemory final : public OIIO::Filesystem::IOMemReader {
 public:
     using IOMemReader::IOMemReader;
@@ -75,7 +75,7 @@ public:
     }
 };
 
-// A reader and what it reads from, which must outlive it.
+// Image reader and its data, which must outlive the reader.
 struct OpenImage {
     std::vector<unsigned char> bytes;
     std::unique_ptr<CheckedMemory> memory;
@@ -96,7 +96,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
     if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
 
-    // Alpha as the file has it: OpenImageIO would premultiply encoded values.
+    // Keep straight alpha: OpenImageIO would premultiply encoded values.
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
@@ -114,7 +114,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     return image;
 }
 
-// Which channels of a file become grey, RGB or RGBA, in this order.
+// Returns the indices of the channels that form grey, RGB or RGBA, in this order.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
         const auto found = std::ranges::find(spec.channelnames, channel);
@@ -132,7 +132,7 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
     return channels;
 }
 
-// The chosen channels of all pixels, one after the other.
+// Returns the selected channels of all pixels, interleaved.
 template <typename T>
 std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
     const int first = *std::ranges::min_element(channels);
@@ -142,7 +142,7 @@ std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, 
     std::vector<T> read(pixels * stride);
     const bool complete =
         image.input->read_image(0, 0, first, end, OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value), read.data());
-    // libjpeg fills up what is missing and only warns.
+    // libjpeg only warns about truncated data and fills the gap.
     const std::string message = image.input->geterror();
     if (!complete || message.find("Premature end") != std::string::npos)
         fail("{}: cannot be read: {}", name, firstLine(message));
@@ -162,7 +162,7 @@ bool isEncoded(const OIIO::ImageSpec& spec) {
            !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
 }
 
-// sRGB → linear, and straight → premultiplied alpha.
+// Converts sRGB to linear values, and straight to premultiplied alpha.
 void linearise(Image& image, bool encoded, bool straightAlpha) {
     if (!encoded && !(straightAlpha && image.channels == 4)) return;
     const int colours = std::min(image.channels, 3);
@@ -180,7 +180,7 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     if (type == OIIO::TypeString) return attribute.get_string();
     if (type == OIIO::TypeInt) return attribute.get_int();
     if (type == OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE)) return *static_cast<const double*>(attribute.data());
-    if (type == OIIO::TypeFloat)  // as the shortest decimal that is this float: 1.4, not 1.39999998
+    if (type == OIIO::TypeFloat)  // shortest decimal of the float: 1.4 instead of 1.39999998
         return std::stod(fmt::format("{}", attribute.get_float()));
     if (type == OIIO::TypeMatrix) {
         glm::mat4 matrix;
@@ -203,14 +203,14 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
 }
 
 Image readImage(const std::filesystem::path& path, Metadata& metadata) {
-    // The whole file, and what it is.
+    // Read the file and detect its format.
     const std::string name = path.string();
     const std::vector<std::byte> encoded = readFile(path);
     if (encoded.empty()) fail("{}: cannot be read: the file is empty", name);
     const auto format = formatOf(encoded);
     if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name);
 
-    // Its pixels as floats.
+    // Decode the pixels as floats.
     OpenImage file = openImage(encoded, *format, name);
     const std::vector<int> channels = colourChannels(file.spec, name);
     Image image;
@@ -219,7 +219,7 @@ Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     image.channels = static_cast<int>(channels.size());
     image.pixels = readChannels<float>(file, channels, name);
 
-    // Linear and premultiplied.
+    // Convert to linear, premultiplied colours.
     linearise(image, isEncoded(file.spec), file.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0);
     metadata = metadataOf(file.spec);
     return image;
@@ -231,8 +231,8 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
     if (formatOf(encoded) != "openexr") fail("{}: not an EXR file with layers", name);
     OpenImage file = openImage(encoded, "openexr", name);
 
-    // Which channels are whose.
-    std::map<std::string, std::vector<int>> channels;  // R, G, B, A of each layer
+    // Group channels by layer.
+    std::map<std::string, std::vector<int>> channels;  // channel indices of R, G, B, A by layer
     const std::vector<std::string>& names = file.spec.channelnames;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::size_t dot = names[i].rfind('.');

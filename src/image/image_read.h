@@ -1,5 +1,5 @@
 #pragma once
-// What reading whole images and reading them by rows share. Private to src/image.
+// Code shared by reading complete images and reading rows. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// A file's attributes, under EXR's names.
+// Returns a file's attributes under EXR names.
 Metadata metadataOf(const OIIO::ImageSpec& spec);
 
 }  // namespace defocus::engine

@@ -24,7 +24,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int rowsAtOnce = 64;  // that are encoded; an integer of an EXR file's blocks of 16
+constexpr int rowsAtOnce = 64;  // encoded per call; multiple of EXR's 16-row blocks
 
 ImageView rowsOf(const ImageView& image, int first, int count) {
     const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
@@ -34,7 +34,7 @@ ImageView rowsOf(const ImageView& image, int first, int count) {
     return rows;
 }
 
-// As much of a file as any header takes that it is worth looking at.
+// Returns the first 64 KiB of a file, enough for the checked part of a header.
 std::vector<std::byte> beginOf(const std::filesystem::path& path) {
     std::vector<std::byte> head(std::size_t{1} << 16);
     std::ifstream file(path, std::ios::binary);
@@ -45,7 +45,7 @@ std::vector<std::byte> beginOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-// A file for a library that doesn't look at each write: it remembers that one failed, and why.
+// File writer that remembers the first write error, for libraries that do not check each write.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedFile(const std::filesystem::path& path)
@@ -81,7 +81,7 @@ public:
         return done;
     }
     [[nodiscard]] size_t size() const override { return size_; }
-    // errno of the first write that failed; 0: none did.
+    // Returns errno of the first failed write; 0 without failure.
     [[nodiscard]] int failure() const { return failure_; }
 
 private:
@@ -101,7 +101,7 @@ struct ImageRowWriter::State {
         fail("{}: cannot be written: {}", name, reason);
     }
 
-    // Not before there are rows: libpng prints a line of its own where a file that was begun ends without any.
+    // Called with the first rows: libpng prints a message if a file ends without rows.
     void open() {
         output = OIIO::ImageOutput::create(formatName(kind), &file);
         if (!output) fail("{}: cannot be written: {}", name, firstLine(OIIO::geterror()));
@@ -116,8 +116,8 @@ struct ImageRowWriter::State {
     CheckedFile file;
     std::unique_ptr<OIIO::ImageOutput> output;
     OIIO::ImageSpec spec;
-    int channels = 0;  // of what comes in
-    int written = 0;   // rows
+    int channels = 0;  // channels of the input rows
+    int written = 0;   // number of rows written
 };
 
 ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels,
@@ -178,7 +178,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     s.name = path.string();
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // says why it can't be read
+        static_cast<void>(readFile(path));  // throws Error with the reason
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("{}: cannot be read: {}", s.name, firstLine(OIIO::geterror()));

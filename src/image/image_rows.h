@@ -1,7 +1,6 @@
 #pragma once
-// Image files row by row, for images that don't fit into memory. All three formats are written from the top, some rows
-// after the other, with the same pixels as writeImage gives them. EXR files are read so too; what is in the way of PNG
-// and JPEG is only that nobody needs it.
+// Row-wise access to image files that do not fit into memory. EXR, PNG and JPEG are written from the top row down, with
+// the same pixels as writeImage. Only EXR can be read by rows.
 
 #include <filesystem>
 #include <memory>
@@ -10,23 +9,23 @@
 
 namespace defocus::engine {
 
-// Where the rows of a file lie in a larger image. In an EXR file it is the data window within the display window.
+// Position of a file's rows in a larger image; in EXR, the data window within the display window.
 struct RowPlace {
     int firstRow = 0;
-    int imageHeight = 0;  // px; 0: the file is the whole image
+    int imageHeight = 0;  // px; 0: the file holds the complete image
 };
 
 class ImageRowWriter {
 public:
-    // Throws Error naming the path. `place` is for EXR files alone.
+    // Throws Error that names the path. `place` applies to EXR only.
     ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels, const Metadata& metadata,
                    const WriteOptions& options = {}, const RowPlace& place = {});
-    ~ImageRowWriter();  // removes what isn't finished
+    ~ImageRowWriter();  // removes an unfinished file
     ImageRowWriter(ImageRowWriter&&) noexcept;
 
-    // The next rows, of the width and channels given.
+    // Appends rows with the width and channels given to the constructor.
     void write(const ImageView& rows);
-    // After the last row: the file is flushed to the disk and gets its name.
+    // Call after the last row: flushes the file to disk and renames it to `path`.
     void finish();
 
 private:
@@ -36,17 +35,17 @@ private:
 
 class ImageRowReader {
 public:
-    // Throws Error naming the path, also for what isn't an EXR file with the channels R, G, B and maybe A.
+    // Throws Error that names the path, also if the file is not an EXR file with channels R, G, B and optionally A.
     explicit ImageRowReader(const std::filesystem::path& path);
     ~ImageRowReader();
     ImageRowReader(ImageRowReader&&) noexcept;
 
     [[nodiscard]] int width() const;
-    [[nodiscard]] int height() const;  // of the rows that the file has
+    [[nodiscard]] int height() const;  // number of rows in the file
     [[nodiscard]] int channels() const;
     [[nodiscard]] RowPlace place() const;
     [[nodiscard]] Metadata metadata() const;
-    // Rows [first, first + count) of the file.
+    // Returns rows [first, first + count) of the file.
     Image read(int first, int count);
 
 private:

@@ -26,7 +26,8 @@ void checkImage(const ImageView& image, const std::string& name) {
         fail("{}: cannot be written: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
-// The whole file in memory: a library's late or silent write errors can't happen, and the disk sees one plain write.
+// Encodes the complete file in memory, which avoids late or silent write errors of a library. The disk then gets one
+// plain write.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
                                   const void* pixels) {
     std::vector<unsigned char> bytes;
@@ -70,7 +71,7 @@ void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer
         for (int c = 0; c < layer.image.channels; ++c) channels.push_back(layer.name + '.' + "RGBA"[c]);
     }
 
-    // Pixel by pixel, the channels of all layers.
+    // Interleave the channels of all layers per pixel.
     const std::size_t stride = channels.size();
     std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * stride);
     std::size_t first = 0;

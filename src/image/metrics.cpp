@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-// SSIM, Wang et al. 2004, section III-C.
+// SSIM parameters of Wang et al. 2004, section III-C.
 constexpr int windowRadius = 5;
 constexpr double windowDeviation = 1.5;
 constexpr double c1 = 0.01 * 0.01;
@@ -41,8 +41,8 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
                       static_cast<std::size_t>(x)];
 }
 
-// Fills mae, rmse, psnr, the largest error and the counts. Rows are summed apart and then in order, so that the result
-// doesn't depend on the number of cores.
+// Computes MAE, RMSE, PSNR, the maximum error and the pixel counts. Each row is summed separately and rows are added in
+// order, so that the result does not depend on the number of cores.
 void measureErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask,
                    Difference& difference) {
     std::vector<ErrorSums> rows(static_cast<std::size_t>(displayA.height));
@@ -115,7 +115,7 @@ DoublePlane product(const DoublePlane& a, const DoublePlane& b) {
     return result;
 }
 
-// SSIM at every pixel, edges repeated.
+// Returns SSIM per pixel; edge pixels are repeated outside the image.
 DoublePlane similarityMap(const ComparablePair& pair, const Image& displayA, const Image& displayB) {
     const Kernel<double> window = ssimWindow();
     const auto mean = [&](const DoublePlane& plane) {
@@ -174,7 +174,7 @@ double meanValue(const Image& map, const Image* mask) {
 }  // namespace
 
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
-    // RGB over black, finite, then as a display shows it.
+    // Convert to finite RGB over black, then to display-encoded values.
     const ComparablePair pair = comparablePair(reference, test);
     const Image* mask = options.mask;
     if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height || mask->channels != 1))
@@ -183,11 +183,11 @@ Difference compareImages(const ImageView& reference, const ImageView& test, cons
     const Image displayA = displayEncoded(pair.reference);
     const Image displayB = displayEncoded(pair.test);
 
-    // Per channel.
+    // Per-channel errors.
     Difference difference;
     measureErrors(pair, displayA, displayB, mask, difference);
 
-    // Per neighbourhood.
+    // Neighbourhood metrics.
     difference.ssim = meanSimilarity(similarityMap(pair, displayA, displayB), mask);
     Image flip = flipErrorMap(reference, test, options.hdrFlip);
     difference.flip = meanValue(flip, mask);

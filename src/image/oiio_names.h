@@ -1,6 +1,5 @@
 #pragma once
-// What reading and writing share about OpenImageIO: its names for EXR's standard attributes, and its messages as one
-// line.
+// Shared by reading and writing through OpenImageIO: names of EXR's standard attributes, and one-line messages.
 
 #include <array>
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace defocus::engine {
 
-// EXR attribute name and the one that OpenImageIO turns it into.
+// Pairs of an EXR attribute name and the name that OpenImageIO uses for it.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> oiioNames = {{
     {"aperture", "FNumber"},
     {"expTime", "ExposureTime"},
@@ -32,7 +31,7 @@ inline std::string exrNameOf(std::string_view oiioName) {
     return std::string(oiioName);
 }
 
-// The first line of a library's message, which names the cause; the rest repeats it in other words.
+// Returns the first line of a library's message, which states the cause; further lines only rephrase it.
 inline std::string firstLine(const std::string& message) {
     const std::string line = message.substr(0, message.find('\n'));
     return line.empty() ? "no reason given" : line;

@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t signatureLength = 8;
-constexpr std::size_t chunkOverhead = 12;  // length, type, checksum
+constexpr std::size_t chunkOverhead = 12;  // length, type and checksum of a chunk
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
 constexpr std::array<std::uint32_t, 256> makeChecksumTable() {
@@ -26,7 +26,7 @@ constexpr std::array<std::uint32_t, 256> makeChecksumTable() {
 }
 constexpr std::array<std::uint32_t, 256> checksumTable = makeChecksumTable();
 
-// CRC-32 of ISO 3309, section 5.5.
+// Returns the CRC-32 of ISO 3309, section 5.5.
 std::uint32_t checksum(std::span<const std::byte> bytes) {
     std::uint32_t value = 0xffffffffu;
     for (const std::byte byte : bytes) value = checksumTable[(value ^ std::uint32_t(byte)) & 0xff] ^ (value >> 8);

@@ -1,6 +1,6 @@
 #pragma once
-// The chunks of a PNG file, checked before libpng sees them: it would print its complaints to stderr by itself.
-// W3C: "Portable Network Graphics (PNG) Specification", section 5.
+// Checks PNG chunks before libpng reads them, since libpng prints its errors to stderr. Source: W3C, "Portable Network
+// Graphics (PNG) Specification", section 5.
 
 #include <cstddef>
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace defocus::engine {
 
-// A copy of the PNG file `encoded` with the chunks that its pixels and texts need (colour profiles, which libpng
-// comments on, are left out). Throws Error with `name` for a truncated file, a wrong checksum or a missing chunk.
+// Returns a copy of the PNG file `encoded` with only the chunks for pixels and text. Colour profiles are dropped
+// because libpng prints warnings about them. Throws Error with `name` for a truncated file, a wrong checksum or a
+// missing chunk.
 std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const std::string& name);
 
 }  // namespace defocus::engine

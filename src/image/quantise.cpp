@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 namespace {
 
-// In [0, 1), even over each neighbourhood of 3 × 3 pixels.
+// Returns interleaved gradient noise in [0, 1), evenly distributed over each 3 × 3 px neighbourhood.
 double gradientNoise(int x, int y) {
     const double inner = 0.06711056 * x + 0.00583715 * y;
     const double outer = 52.9829189 * (inner - std::floor(inner));
@@ -17,8 +17,8 @@ double gradientNoise(int x, int y) {
 }  // namespace
 
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
-    constexpr int betweenChannels = 47;  // px, so that the pattern isn't grey
-    constexpr double ownValue = 1e-3;    // of a step: rounding of floats
+    constexpr int betweenChannels = 47;  // px; decorrelates the channels' patterns
+    constexpr double ownValue = 1e-3;    // tolerance in steps for values equal to a byte
     std::vector<std::uint8_t> bytes;
     bytes.reserve(display.pixels.size());
     for (int y = 0; y < display.height; ++y)

@@ -1,5 +1,6 @@
 #pragma once
-// From display-encoded values to bytes, dithered: a slow gradient, as every blur makes many, would show bands.
+// Dithered conversion of display-encoded values to bytes. Without dithering, the slow gradients of blurred images would
+// show bands.
 
 #include <cstdint>
 #include <vector>
@@ -8,10 +9,10 @@
 
 namespace defocus::engine {
 
-// A byte for each value of [0, 1], row by row. What lies between two bytes becomes the one or the other, the nearer
-// more often, by a pattern that is the same in every image (interleaved gradient noise: Jimenez 2014, Next Generation
-// Post Processing in Call of Duty: Advanced Warfare). A value that is a byte's own stays, and coverage (a fourth
-// channel) is rounded. `firstRow`: the number of the first row in the picture that these rows are part of.
+// Converts values in [0, 1] to bytes, row by row. Values between two bytes are dithered with a fixed pattern:
+// interleaved gradient noise (Jimenez 2014, Next Generation Post Processing in Call of Duty: Advanced Warfare). Values
+// equal to a byte stay exact, and alpha (channel 4) is rounded. `firstRow` is the index of the first row within the
+// full image.
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow = 0);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// One-dimensional filters along the rows and the columns of a one-channel plane; the image's edge pixels are repeated
-// outside. Loops run over contiguous memory so that the compiler vectorises them; rows are spread over the cores.
+// 1D filters along rows and columns of a one-channel plane; edge pixels are repeated outside the image. Loops access
+// contiguous memory so that the compiler vectorises them; rows run in parallel.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@ template <typename T>
 struct Plane {
     int width = 0;
     int height = 0;
-    std::vector<T> values;  // width · height, row 0 first
+    std::vector<T> values;  // width · height values, top row first
 
     Plane(int planeWidth, int planeHeight)
         : width(planeWidth),
@@ -28,11 +28,11 @@ struct Plane {
     }
 };
 
-// An odd number of weights, the middle one at offset 0.
+// Odd number of weights; the middle weight has offset 0.
 template <typename T>
 using Kernel = std::vector<T>;
 
-// body(y) for every row, on all cores.
+// Calls body(y) for each row in parallel.
 template <typename Body>
 void forEachRow(int height, const Body& body) {
     parallelFor(static_cast<std::size_t>(height), [&](std::size_t y) { body(static_cast<int>(y)); });

@@ -1,4 +1,5 @@
-// OpenImageIO's render_text is no match: up to version 2.4 it loses all but the last byte of characters beyond ASCII.
+// stb_truetype is used because OpenImageIO's render_text, up to version 2.4, drops all but the last byte of non-ASCII
+// characters.
 #include "image/text.h"
 
 #include <stb_truetype.h>
@@ -41,7 +42,7 @@ std::unique_ptr<Typeface> loadedTypeface() {
     return stbtt_InitFont(&typeface->outlines, bytes, 0) != 0 ? std::move(typeface) : nullptr;
 }
 
-// The next code point of UTF-8 text, which moves on; a byte that begins none is replaced.
+// Removes the next code point from UTF-8 text and returns it; invalid bytes give '?'.
 std::uint32_t takeCodePoint(std::string_view& text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
     const std::uint32_t first = byte(0);
@@ -58,7 +59,7 @@ std::uint32_t takeCodePoint(std::string_view& text) {
     return whole ? point : std::uint32_t{'?'};
 }
 
-// `value` over the image, as far as `coverage` (0 to 255, row by row) covers its pixels.
+// Blends `value` over the image with `coverage` as opacity (0 to 255, row by row).
 void blend(Image& image, int left, int top, int width, int height, const unsigned char* coverage, float value) {
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < width; ++column) {

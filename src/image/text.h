@@ -1,5 +1,5 @@
 #pragma once
-// Words in images: labels of contact sheets, in a sans serif of the system.
+// Text in images, such as labels of contact sheets, in a sans-serif system font.
 
 #include <filesystem>
 #include <optional>
@@ -9,12 +9,13 @@
 
 namespace defocus::engine {
 
-// The TrueType file of a sans serif with Latin and Greek letters, if the system has one in the usual places.
+// Returns the path of a sans-serif TrueType font with Latin and Greek letters, if one is installed in a common
+// location.
 std::optional<std::filesystem::path> sansSerifFile();
 
-// One line of UTF-8, `value` in all channels of the image, over what is there. It begins at `x` and stands on the line
-// `y` (px from the top left corner); what lies outside the image is left out. `size` is the typeface's em, px. False,
-// and nothing is drawn, without a typeface.
+// Draws one line of UTF-8 text with `value` in all channels. The text starts at `x` on baseline `y`, in px from the top
+// left corner, and is clipped to the image. `size` is the font size (em) in px. Returns false and draws nothing if no
+// font is available.
 bool writeText(Image& image, int x, int y, std::string_view text, double size, float value);
 
 }  // namespace defocus::engine

@@ -1,10 +1,13 @@
 // sRGB: IEC 61966-2-1.
-// ACES: Stephen Hill's fit of the reference rendering and output transforms (RRT, ODT for Rec.709), published in MJP's
-// BakingLab; the input matrix goes from sRGB to the RRT's saturated AP1, the output matrix from the ODT's back to sRGB.
-// AgX: Troy Sobotka's picture formation; matrices and polynomial for the base look by Benjamin Wrensch, "Minimal AgX
-// Implementation", 2023. Its result is encoded for a display of power 2.2.
-// Neutral: Khronos PBR Neutral Tone Mapper, specification 1.0, 2024: takes away the 4 % that a dielectric mirrors, so
-// that a grey-lit surface shows its base colour, and compresses what lies above 0.8.
+//
+// ACES: Stephen Hill's fit of the RRT and the Rec.709 ODT, published in MJP's BakingLab. The input matrix converts sRGB
+// to the RRT's saturated AP1; the output matrix converts the ODT's space to sRGB.
+//
+// AgX: Troy Sobotka's picture formation. Matrices and polynomial of the base look are from Benjamin Wrensch, "Minimal
+// AgX Implementation", 2023. Its output is encoded for a display with gamma 2.2.
+//
+// Neutral: Khronos PBR Neutral Tone Mapper, specification 1.0, 2024. It subtracts the 4 % specular reflection of
+// dielectrics, so that a surface under grey light shows its base colour, and compresses values above 0.8.
 
 #include "image/tone_map.h"
 
@@ -24,13 +27,13 @@ namespace defocus::engine {
 
 namespace {
 
-// Beyond this every curve is flat, and squares are still finite.
+// Upper clamp of inputs: all curves are flat there, and squares stay finite.
 constexpr float brightest = 1e6f;
 
 constexpr std::array<std::pair<std::string_view, ToneMap>, 4> names = {
     {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}}};
 
-// [0, brightest], NaN to 0 (the comparison is false for NaN).
+// Clamps to [0, brightest]; NaN gives 0, since the comparison is false for NaN.
 float finite(float value) {
     return value > 0 ? std::min(value, brightest) : 0.0f;
 }
@@ -48,7 +51,7 @@ glm::vec3 acesEncoded(const glm::vec3& linear) {
     return srgbEncoded(output * fitted);
 }
 
-// The sigmoid of AgX's base look over normalised log2 exposure, as a polynomial of degree 6.
+// Polynomial of degree 6 for the sigmoid of AgX's base look, over normalised log2 exposure.
 float agxContrast(float x) {
     return ((((((15.5f * x - 40.14f) * x + 31.96f) * x - 6.868f) * x + 0.4298f) * x + 0.1191f) * x) - 0.00232f;
 }
@@ -73,7 +76,7 @@ glm::vec3 agxEncoded(const glm::vec3& linear) {
 
 glm::vec3 neutralEncoded(glm::vec3 v) {
     constexpr float mirrored = 0.04f;
-    constexpr float kept = 0.8f - mirrored;  // what lies below is not compressed
+    constexpr float kept = 0.8f - mirrored;  // lower values are not compressed
     constexpr float desaturation = 0.15f;
     const float min = std::min({v.r, v.g, v.b});
     v -= min < 2 * mirrored ? min - min * min / (4 * mirrored) : mirrored;
@@ -129,7 +132,7 @@ Image displayEncoded(const ImageView& linear, ToneMap toneMap, double exposure) 
             const float* in = linear.at(x, y);
             float* out = display.at(x, y);
             if (grey) {
-                // The curves keep greys grey up to their matrices' rounding; green carries most of the luminance.
+                // The curves keep grey values grey except for rounding; green carries most of the luminance.
                 out[0] = encoded(glm::vec3(finite(gain * in[0])), toneMap).g;
                 continue;
             }

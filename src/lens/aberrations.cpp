@@ -1,4 +1,4 @@
-// Welford 1986, Aberrations of Optical Systems.
+// Source: Welford 1986, Aberrations of Optical Systems.
 
 #include "lens/aberrations.h"
 

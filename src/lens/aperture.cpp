@@ -1,4 +1,4 @@
-// Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// Source: Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
 
 #include "lens/aperture.h"
 
@@ -16,7 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Cells along the longer side of an image: enough for the disk's rim to be round, and no more than pays.
+// Min and max number of cells along the longer side of an image. The min keeps the rim of the disk round; the max
+// limits the cost.
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 
@@ -31,7 +32,7 @@ double edgeRadius(const Blade& blade, double angle) {
     return (1 - blade.curvature) * std::cos(blade.halfAngle) / std::cos(angle) + blade.curvature;
 }
 
-// ∫ edgeRadius² from 0 to `angle`.
+// Returns ∫ edgeRadius² from 0 to `angle`.
 double sectorArea(const Blade& blade, double angle) {
     const double chord = (1 - blade.curvature) * std::cos(blade.halfAngle);
     const double tangent = std::tan(angle);
@@ -39,9 +40,9 @@ double sectorArea(const Blade& blade, double angle) {
            blade.curvature * blade.curvature * angle;
 }
 
-// The angle between which and the blade's middle lies the signed `share` ∈ [−1, 1] of half the blade's area. Newton's
-// steps from the straight blade's angle: the integrand varies by no more than 4 (three straight blades), and they
-// settle in three or four.
+// Returns the angle from the blade's middle that encloses `share` ∈ [−1, 1] of half the blade's area, with its sign.
+// Newton's method starts from the straight blade's angle. It converges in three or four steps, because the integrand
+// varies by at most a factor of 4 (three straight blades).
 double angleOfShare(const Blade& blade, double share) {
     double angle = std::atan(share * std::tan(blade.halfAngle));
     if (blade.curvature == 0) return angle;
@@ -54,8 +55,8 @@ double angleOfShare(const Blade& blade, double share) {
     return angle;
 }
 
-// From the disk to the area between the blades, keeping areas' shares: the angle picks the blade and the share of its
-// area, the distance from the centre becomes that share of the distance to the edge. The first corner lies at angle 0.
+// Maps the disk to the aperture polygon, preserving relative areas. The angle selects the blade and the fraction of its
+// area. The distance from the centre scales with the distance of the edge. The first corner lies at angle 0.
 glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
     const Blade blade{pi / aperture.bladeCount, aperture.bladeCurvature};
     const double turn = std::atan2(disk.y, disk.x) / (2 * blade.halfAngle);
@@ -66,16 +67,16 @@ glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
     return radius * glm::dvec2(std::cos(direction), std::sin(direction));
 }
 
-// ---- light over the radius ------------------------------------------------------------------------------------------
+// ---- radial light distribution --------------------------------------------------------------------------------------
 
-// The t at which ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² is `share`, k ∈ [−1, 1].
+// Returns the t at which ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² equals `share`, k ∈ [−1, 1].
 double aberratedShare(double k, double share) {
     const double linear = 1 - k;
     const double divisor = linear + std::sqrt(std::max(linear * linear + 4 * k * share, 0.0));
     return divisor > 0 ? std::min(2 * share / divisor, 1.0) : 0;
 }
 
-// Moves a point of the disk along its radius.
+// Moves a point of the disk along its radius to obtain the obstruction and the spherical aberration.
 glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
     const double share = glm::dot(disk, disk);
     const double lit = aberratedShare(aperture.sphericalAberration, share);
@@ -83,9 +84,9 @@ glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
     return share > 0 ? disk * (radius / std::sqrt(share)) : glm::dvec2(radius, 0);
 }
 
-// ---- images ---------------------------------------------------------------------------------------------------------
+// ---- aperture images ------------------------------------------------------------------------------------------------
 
-// Rec. 709 luminance, or the only channel.
+// Returns the Rec. 709 luminance, or the value of the only channel.
 double valueAt(const Image& image, int x, int y) {
     const float* pixel = image.at(x, y);
     for (int c = 0; c < image.channels; ++c)
@@ -96,17 +97,17 @@ double valueAt(const Image& image, int x, int y) {
     return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// From cells to the unit square around the longer side, y up.
+// Maps a cell position to the square [−1, 1]² around the longer side, y up.
 glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
     const double half = 0.5 * std::max(image.columns, image.rows);
     return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};
 }
 
-// Each cell's light, 0 where its middle lies outside the unit disk.
+// Returns each cell's light; 0 if its centre lies outside the unit disk.
 std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
     const int longer = std::max(image.width, image.height);
-    const int parts = (fewestCells + longer - 1) / longer;  // of a pixel, each way
-    const int group = (longer + maxCells - 1) / maxCells;   // of pixels, each way
+    const int parts = (fewestCells + longer - 1) / longer;  // cells per pixel, along each axis
+    const int group = (longer + maxCells - 1) / maxCells;   // pixels per cell, along each axis
     cells.columns = (image.width * parts + group - 1) / group;
     cells.rows = (image.height * parts + group - 1) / group;
     std::vector<double> values(static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows));
@@ -141,7 +142,8 @@ ApertureImage readApertureImage(const Image& image) {
     return cells;
 }
 
-// Where `share` falls among the ends of intervals that cover [0, 1]: the interval's index plus the place in it.
+// Finds `share` among the ends of intervals that cover [0, 1]; returns the interval's index plus the fraction within
+// it.
 template <typename Iterator>
 double placeAmong(Iterator first, Iterator last, double share) {
     const Iterator found = std::min(std::upper_bound(first, last, share), last - 1);
@@ -151,14 +153,14 @@ double placeAmong(Iterator first, Iterator last, double share) {
     return static_cast<double>(found - first) + place;
 }
 
-// The inverse of the cumulative sums: `s` picks the row, from the bottom, and `r` the place in it.
+// Inverts the cumulative sums: `s` selects the row from the bottom, and `r` the position in the row.
 glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
-    const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1: a black row at the end has no share
+    const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1: a black last row is never selected
     const double row = placeAmong(image.rowEnds.begin(), image.rowEnds.end(), share);
     const auto index = std::min(static_cast<std::ptrdiff_t>(row), static_cast<std::ptrdiff_t>(image.rows) - 1);
     const auto first = image.cellEnds.begin() + index * image.columns;
     const glm::dvec2 point = lensPoint(image, placeAmong(first, first + image.columns, square.x), row);
-    // Cells on the rim reach over it by less than one of them.
+    // Cells on the rim extend beyond the disk by less than a cell.
     return point / std::max(glm::length(point), 1.0);
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-// The shape of the aperture and how its light is spread: a map of the unit square to the lens. It is continuous but for
-// a ring's or an image's seams, so that points that are well spread over the square are so over the lens.
+// Aperture shape and light distribution, as a map from the unit square to the lens. The map is continuous except at the
+// seams of a ring or an image. Well-distributed points on the square are therefore well distributed on the lens.
 //
-// Lens samples weigh the same, so a blurred point has the same energy, and an image the same exposure, whatever the
-// shape. With t ∈ [0, 1] the share of the area that lies nearer to the centre, the light's density is
+// Lens samples have equal weight. A blurred point keeps its energy, and an image its exposure, whatever the shape. Let
+// t ∈ [0, 1] be the fraction of the area that lies nearer to the centre. The light density over a disk, polygon or ring
+// is
 //   1 + k·(2t − 1)                                                              (k: Lens::sphericalAberration)
-// over the disk, polygon or ring, and the image's value over an image. A blade's edge at angle φ from its middle has
-// the radius (1 − q)·cos(π/n)/cos φ + q for n blades of curvature q: a chord at 0, an arc of the circle at 1.
+// and over an aperture image it is the image's value. For n blades of curvature q, the edge at angle φ from a blade's
+// middle has the radius (1 − q)·cos(π/n)/cos φ + q. The edge is a chord for q = 0 and an arc of the circle for q = 1.
 
 #include <glm/vec2.hpp>
 #include <vector>
@@ -15,42 +16,42 @@
 
 namespace defocus::engine {
 
-// Where the light of an aperture image passes, as cumulative sums over square cells, row by row from the top: pixels,
-// or parts of pixels of a small image, or groups of pixels of a large one.
+// Cumulative light transmission of an aperture image over square cells, row by row from the top. A cell is a pixel, a
+// part of one in small images, or a group of pixels in large images.
 struct ApertureImage {
     int columns = 0;
     int rows = 0;
-    std::vector<double> rowEnds;  // share of all light up to the end of each row; the last is 1
-    std::vector<float> cellEnds;  // columns · rows; share of its row's light up to the end of each cell
+    std::vector<double> rowEnds;  // cumulative fraction of all light at the end of each row; the last is 1
+    std::vector<float> cellEnds;  // columns · rows; cumulative fraction of the row's light at the end of each cell
 };
 
-// What Lens says of its aperture, ready to be sampled. Costly to make for an image only.
+// Precomputed aperture of a Lens, ready for sampling. Construction is expensive only for an aperture image.
 struct Aperture {
     int bladeCount = 0;
     double bladeRotation = 0;  // radians
     double bladeCurvature = 0;
     double anamorphicRatio = 1;
-    double obstruction = 0;  // share of the area
+    double obstruction = 0;  // obstructed fraction of the area
     double sphericalAberration = 0;
-    ApertureImage image;  // without rows: none
+    ApertureImage image;  // no rows: the lens has no aperture image
 };
 
-// The longer side of an aperture image spans the lens; what lies outside the unit disk is blocked. The image's top is
-// the lens's top. Throws Error for an image that is empty, black within the disk, or holds values below 0, NaN or
-// infinity.
+// Prepares the aperture of a lens. The longer side of an aperture image spans the lens, and its top is the lens's top.
+// The area outside the unit disk is opaque. Throws Error if the image is empty, black within the disk, or contains
+// negative, NaN or infinite values.
 Aperture makeAperture(const Lens& lens);
 
-// (r, s) ∈ [0, 1)² → (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) is the centre, where the shape has one: a
-// ring and an image have none.
+// Maps (r, s) ∈ [0, 1)² to the lens point (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) maps to the centre,
+// except with a ring or an image.
 glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 
-// (r, s) ∈ [0, 1)² → the unit disk, area preserving and continuous (Shirley and Chiu 1997).
+// Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).
 glm::dvec2 concentricDisk(const glm::dvec2& square);
 
-// The inverse of concentricDisk, for a point of the unit disk.
+// Returns the point of the square that concentricDisk maps to `disk`, a point of the unit disk.
 glm::dvec2 squareOfConcentricDisk(const glm::dvec2& disk);
 
-// Is it a disk of which each part lets the same light through?
+// Returns true if the aperture is a disk with uniform light density.
 bool isUniformDisk(const Aperture& aperture);
 
 }  // namespace defocus::engine

@@ -1,23 +1,23 @@
 #pragma once
-// The circle of confusion (CoC) as a function of the clip position, with an artist's controls: the same function as in
-// shaders/include/lens.glsl, for level selection, culling, plans and tests.
+// The circle of confusion (CoC) as a function of the clip position, including artistic controls.
+// shaders/include/lens.glsl implements the same function. This version serves level selection, culling, plans and
+// tests.
 //
 // In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk, k = W/H. The thin
-// lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s (A the aperture's diameter, s the focus distance, m).
-// This is Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, with the
-// opposite sign of C: here C > 0 behind the focus plane. The signed diameter is c = C/w·W px, a function of 1/w and of
-// the place n = (x/w, y/w) in the image, in normalised device coordinates:
+// lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s. A is the aperture's diameter and s the focus
+// distance, both in m. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization. C has the opposite sign here: C > 0 behind the focus plane. The signed diameter is c = C/w·W px. It
+// depends on 1/w and on the image position n = (x/w, y/w) in normalised device coordinates:
 //   focus term    q = 1 + κ·r² + t·n,   r² = n.x² + (n.y/k)²      (curved focus surface, tilted focus plane)
 //   in front      F = a/w + b₁·q,       b₁ = −a/(s − focusRangeFront)
 //   behind        B = a₂/w + b₂·q,      a₂ = a·(1 + focusRangeBehind/s), b₂ = −a/s
 //                 refocused:            a₂ = a,                          b₂ = −a/(s + focusRangeBehind)
 //   c/W = clamp(factor·(1 + g·r²)·(min(0, F) + max(0, B)) + added, −R₁, R₂)
-// Between the two ends of the focus range everything is sharp. In C, which is linear in w, its range keeps what the
-// thin lens has at the two ends of all depths: a right before the lens, w = 0, and b·w far away. So the range preserves
-// near and far blur, and lights in the distance keep their disks. Refocused, the blur behind is that of a lens which is
-// focused at the range's far end, and smaller; in front, the two forms are one. R₁, R₂ are the limits of the blur in
-// front and behind, as shares of the image's width. A surface has a factor (0 switches the lens's blur off) and may add
-// a blur of its own.
+// Everything within the focus range is sharp. C keeps the thin lens's limits at both ends of the depth range: a at w =
+// 0 and b·w for w → ∞. The focus range thus preserves strong near and far blur, and distant lights keep their disk
+// size. Refocused, the blur behind the range is smaller: that of a lens focused at the range's far end. In front of the
+// range the two forms are equal. R₁ and R₂ are the blur limits in front and behind, as fractions of the image's width.
+// A surface has a factor (0 disables the lens's blur) and may add blur of its own.
 
 #include <glm/vec2.hpp>
 #include <limits>
@@ -38,38 +38,40 @@ struct ClipCircleOfConfusion {
     double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁
     double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂
     double aspect = 1;                                                 // k
-    double shareOfMillimetre = 0;  // of the image's width, of blur that vertices have in mm on the sensor
+    double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor, for added vertex blur
     double astigmatism = 0;        // A of aberrations.h
     double coma = 0;               // B of aberrations.h
-    double chromatic = 0;          // the most that a wavelength adds to b₁ and b₂ or takes from them
+    double chromatic = 0;          // largest change of b₁ and b₂ by a wavelength
 
-    // F and B differ.
+    // Returns true if F and B differ.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
-    // C = a + b·w everywhere, and nothing else moves what the lens shows: none of the controls is in use.
+    // Returns true if C = a + b·w everywhere and no other control is in use.
     [[nodiscard]] bool thinLens() const;
-    // What the lens does depends on the place in the image.
+    // Returns true if the blur depends on the position in the image.
     [[nodiscard]] bool varies() const;
-    // Points in focus aren't points.
+    // Returns true if points in focus are not imaged as points.
     [[nodiscard]] bool aberrates() const { return astigmatism != 0 || coma != 0; }
 };
 
-// Of an image of `width` x `height` px.
+// Returns the circle of confusion of a lens for an image of `width` x `height` px.
 ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int height);
 
-// Signed CoC diameter in px at depth `z` (m, > 0; infinity is allowed) of an image `width` px wide, at the place `ndc`,
-// of a surface with a factor and what it adds, a share of the image's width; > 0 behind the focus plane.
+// Returns the signed CoC diameter in px at depth `z` (m, > 0; infinity is allowed); > 0 behind the focus plane. `width`
+// is the image's width in px, and `ndc` is the position in the image. `factor` and `added` are the surface's blur
+// modifiers; `added` is a fraction of the image's width.
 double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc = glm::dvec2(0),
                          double factor = 1, double added = 0);
 
-// Aberrations move what lens points show as blur would do, so they widen the range to both sides.
+// Range of the CoC in a box. Aberrations displace rays like blur does, so they widen the range on both sides.
 struct CocRange {
-    double nearest = 0;   // least signed CoC, px: that of the nearest depth
-    double farthest = 0;  // greatest signed CoC, px: that of the farthest depth
-    double smallest = 0;  // least |CoC|, px; 0 when it straddles what is in focus
-    double largest = 0;   // greatest |CoC|, px
+    double nearest = 0;   // min signed CoC, px: that of the nearest depth
+    double farthest = 0;  // max signed CoC, px: that of the farthest depth
+    double smallest = 0;  // min |CoC|, px; 0 if the range contains the focus
+    double largest = 0;   // max |CoC|, px
 };
 
-// What surfaces make of the lens's blur: bounds of their factor and of what they add, as a share of the image's width.
+// Bounds of the blur modifiers of surfaces: a factor on the lens's blur and an added blur. The added blur is a fraction
+// of the image's width.
 struct OwnBlur {
     double factorMin = 1;
     double factorMax = 1;
@@ -79,11 +81,11 @@ struct OwnBlur {
     [[nodiscard]] bool none() const { return !varies() && factorMin == 1 && addedMin == 0; }
 };
 
-// Of an object whose blur is scaled by `factor` ≥ 0 and whose vertices have a blur of their own within `vertices`.
+// Returns the bounds for an object with blur factor `factor` ≥ 0 and vertex blur within `vertices`.
 OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices);
 
-// What a box shows of itself: depths [zNear, zFar], 0 < zNear ≤ zFar (infinity is allowed), places [ndcLeast, ndcMost]
-// and what its surfaces make of the blur.
+// Part of a box that the lens sees. Depths are [zNear, zFar] in m with 0 < zNear ≤ zFar; infinity is allowed. Image
+// positions are [ndcMin, ndcMax]. `own` bounds the blur modifiers of its surfaces.
 struct CocBox {
     double zNear = 0;
     double zFar = 0;
@@ -92,18 +94,17 @@ struct CocBox {
     OwnBlur own{};
 };
 
-// Bounds of the CoC over all of the box, by interval arithmetic: exact for the thin lens, otherwise on the safe side.
-// They move continuously with the box.
+// Returns bounds of the CoC over the box by interval arithmetic. They are exact for the thin lens and conservative
+// otherwise, and continuous in the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
-// The largest |CoC| of what lies infinitely far behind the image's pixels, px.
+// Returns the largest |CoC| at infinite depth over the image, px.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
-// Bounds, in px, how far C can be from its linear interpolation inside a triangle in the box whose edges are at most
-// `longestEdge` m long; `tanHalf` is (tan(θx/2), tan(θy/2)).
+// Bounds, in px, on the error of interpolating C linearly inside a triangle.
 struct CocDeviation {
-    double kinks = 0;   // where C is made of several linear pieces; triangles can be split there
-    double curved = 0;  // of the curved forms, and of blur that vertices have themselves; triangles must be small
+    double kinks = 0;   // error at the kinks between linear pieces of C; splitting triangles removes it
+    double curved = 0;  // error from curved C and from vertex blur; only small triangles reduce it
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

@@ -1,5 +1,5 @@
-// Jeong, Kim, Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth, Akenine-Möller 2012, Per-Vertex
-// Defocus Blur for Stochastic Rasterization (C with the opposite sign).
+// Sources: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth and Akenine-Möller 2012,
+// Per-Vertex Defocus Blur for Stochastic Rasterization (with the opposite sign of C).
 
 #include "lens/lens.h"
 
@@ -15,7 +15,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
+constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane passes through the camera
 constexpr double maxAberration = 100;                       // mm
 
 void requireWithin(double value, double min, double max, const char* name) {
@@ -27,7 +27,8 @@ void requirePositive(double value, const char* name, const char* unit) {
         fail("lens: {} must be a finite number above 0{}, not {}", name, unit, value);
 }
 
-// Distance from the lens to the sensor, mm: the focal length, or the image distance f·s/(s − f) of the thin lens.
+// Returns the distance from the lens to the sensor in mm. It is the focal length, or the thin lens's image distance
+// f·s/(s − f) with focus breathing.
 double imageDistance(const Lens& lens) {
     if (!lens.focusBreathing || std::isinf(lens.focusDistance)) return lens.focalLength;
     const double f = lens.focalLength * millimetre;

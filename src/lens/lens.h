@@ -1,9 +1,9 @@
 #pragma once
-// A lens in the words of photographers, USD and Blender, and what an off-axis graphics camera makes of it.
+// A lens in the terms of photographers, USD and Blender, and its parameters for an off-axis graphics camera.
 //
 // With A the aperture's diameter and s the focus distance (m), a point at depth z is blurred to a disk of diameter
 //   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels,
-// the circle of confusion (CoC); circle_of_confusion.h has it with all that may change it.
+// the circle of confusion (CoC). circle_of_confusion.h adds the artistic controls.
 
 #include <limits>
 #include <memory>
@@ -18,45 +18,45 @@ struct Lens {
     // Camera.
     double focalLength = 50;         // mm
     double fStop = 2.8;              // f-number, > 0
-    double focusDistance = 2.5;      // m from the camera, along the view axis, > 0 (infinity is allowed)
-    double horizontalAperture = 36;  // mm, sensor width
-    bool dofEnabled = true;          // false: a pinhole, whatever the f-number
-    double blurScale = 1;            // 1 is physical; ≥ 0
-    bool focusBreathing = false;     // true: textbook thin lens, the field of view narrows as the focus comes nearer
-    double exposureTime = 0;         // s, of photographic_exposure.h; 0: brightness is not a matter of the lens
+    double focusDistance = 2.5;      // m from the camera along the view axis, > 0 (infinity is allowed)
+    double horizontalAperture = 36;  // mm, width of the sensor
+    bool dofEnabled = true;          // false: a pinhole camera, whatever the f-number
+    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physical
+    bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
+    double exposureTime = 0;         // s, see photographic_exposure.h; 0: the lens doesn't affect the exposure
     double iso = 100;                // sensitivity, > 0
 
     // Aperture; see aperture.h.
-    int bladeCount = 0;                   // 0: a disk, else a polygon of 3 or more blades
-    double bladeRotation = 0;             // radians; turns aperture images too
+    int bladeCount = 0;                   // 0: a disk; else a polygon of 3 or more blades
+    double bladeRotation = 0;             // radians; rotates aperture images too
     double bladeCurvature = 0;            // 0: straight blades, 1: a circle
     double anamorphicRatio = 1;           // > 1 narrows the aperture horizontally (tall ovals)
-    double obstruction = 0;               // of a mirror lens: diameter of its inner disk over the outer, [0, 1)
+    double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
     double sphericalAberration = 0;       // [−1, 1]; > 0 moves light to the rim (soap bubbles), < 0 inwards (creamy)
-    double catEye = 0;                    // [0, 1]; how far the rim of the barrel reaches in at the image's corners
-    double axialChromaticAberration = 0;  // dioptres between the focus of red and of blue; > 0: red focuses farther
+    double catEye = 0;                    // [0, 1]; fraction of the aperture's radius hidden in the corners
+    double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
     double astigmatism = 0;               // mm on the sensor; see aberrations.h
     double coma = 0;                      // mm on the sensor; > 0: tails point outwards
     std::shared_ptr<const Image> apertureImage;  // grey values as transmission; null: the shape above
 
-    // An artist's controls of C(w); see circle_of_confusion.h.
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // largest CoC in front of the focus, px
-    double backgroundLimit = std::numeric_limits<double>::infinity();  // largest CoC behind the focus, px
+    // Artistic controls of the blur; see circle_of_confusion.h.
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus, px
+    double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus, px
     double focusRangeFront = 0;        // m in front of the focus distance that stay sharp, [0, focusDistance)
     double focusRangeBehind = 0;       // m behind the focus distance that stay sharp, ≥ 0
-    bool focusRangeRefocuses = false;  // behind the range, the blur of a lens that is focused at its far end
+    bool focusRangeRefocuses = false;  // true: blur behind the range as if focused at its far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
     double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κr²); r is 1 at the left and right edges
     double radialBlurGain = 0;  // κ of the gain 1 + κr² on the blur
 };
 
-// Throws Error naming the value that makes an impossible lens (NaN, fStop ≤ 0, blades 1 or 2, focus inside the focal
-// length with focus breathing …).
+// Throws Error naming the value that makes the lens impossible. Examples: NaN, fStop ≤ 0, 1 or 2 blades, or focus
+// inside the focal length with focus breathing.
 void checkLens(const Lens& lens);
 
 double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); follows the focus with focusBreathing
-double apertureDiameter(const Lens& lens);      // A in m, blurScale included; 0 without depth of field
+double apertureDiameter(const Lens& lens);      // A in m, including blurScale; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
 
 }  // namespace defocus::engine

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Infinity is no value that anybody types; a default of infinity stands for "none".
+// Infinity is not a valid input; a default of infinity is shown as "none".
 const LensField fields[] = {
     {"focalLength", "--focal-length", "MM", 1e-2, 1e6, &Lens::focalLength, &LensSettings::focalLength,
      "Focal length, which sets the field of view. Default: from the camera's field of view", "50", LensFeature::camera,
@@ -146,7 +146,7 @@ std::optional<double> givenLensValue(const LensSettings& given, const LensField&
 void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value) {
     if (value) {
         Lens scratch;
-        setLensField(scratch, field, *value);  // finds fault with what no lens can have
+        setLensField(scratch, field, *value);  // throws Error for values that no lens can have
     }
     std::visit(
         [&](auto member) {

@@ -1,6 +1,7 @@
-// van der Corput 1935 and Halton 1960 (radical inverse); Sobol' 1967; Joe and Kuo 2008, Constructing Sobol Sequences
-// with Better Two-Dimensional Projections; Owen 1995, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences; Burley 2020,
-// Practical Hash-Based Owen Scrambling; Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences.
+// Sources: van der Corput 1935 and Halton 1960 (radical inverse); Sobol' 1967; Joe and Kuo 2008, Constructing Sobol
+// Sequences with Better Two-Dimensional Projections; Owen 1995, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences;
+// Burley 2020, Practical Hash-Based Owen Scrambling; Roberts 2018, The Unreasonable Effectiveness of Quasirandom
+// Sequences.
 
 #include "lens/lens_samples.h"
 
@@ -15,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Dimensions: lens r and s, pixel x and y, time, band, light x and y.
+// The dimensions are lens r and s, pixel x and y, time, band, and light x and y.
 constexpr std::size_t dimensionCount = 8;
 using Coordinates = std::array<double, dimensionCount>;
 
@@ -29,7 +30,7 @@ std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
     return fmix32(a * 0x9e3779b9u + fmix32(b + 0x7f4a7c15u));
 }
 
-// A well mixed shift in [0, 1) for (seed, dimension); seed 0 shifts by nothing.
+// Returns a pseudo-random shift in [0, 1) for (seed, dimension); 0 for seed 0.
 double seedShift(std::uint32_t seed, std::size_t dimension) {
     if (seed == 0) return 0;
     return fmix32(seed * 0x9e3779b9u + static_cast<std::uint32_t>(dimension) * 0x85ebca6bu) * 0x1p-32;
@@ -39,13 +40,15 @@ double seedShift(std::uint32_t seed, std::size_t dimension) {
 
 constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13, 17, 19};
 
-// Point index + 1, as point 0 is a corner; shifted so that index 0 lies in the middle.
+// Returns point index + 1, because point 0 is a corner of the cube. The points are shifted so that index 0 lies in the
+// middle.
 double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     return fraction(radicalInverse(base, index + 1) - 1.0 / base + 0.5 + seedShift(seed, dimension));
 }
 
-// What `digit` becomes after digits that hash to `before`: a shuffle of all digits (Fisher and Yates).
+// Returns the permuted value of `digit` in a random permutation (Fisher–Yates shuffle). The permutation depends on
+// `before`, a hash of the preceding digits.
 std::uint32_t permuted(std::uint32_t base, std::uint32_t digit, std::uint32_t before) {
     std::array<std::uint32_t, bases.back()> digits{};
     std::iota(digits.begin(), digits.begin() + base, 0u);
@@ -53,9 +56,9 @@ std::uint32_t permuted(std::uint32_t base, std::uint32_t digit, std::uint32_t be
     return digits[digit];
 }
 
-// Owen's scramble of the radical inverse. With seed 0 every digit is turned, too, so that those of index 0 become those
-// of 1/2: 0.1000… in base 2, 0.1111… in base 3, 0.2222… in base 5. This keeps what a shift on the torus would not: how
-// many points lie in each elementary interval.
+// Returns the Owen-scrambled radical inverse. With seed 0, a rotation of every digit also moves index 0 to 1/2: 0.1000…
+// in base 2, 0.1111… in base 3, 0.2222… in base 5. Unlike a shift on the torus, the rotation preserves the number of
+// points in each elementary interval.
 double scrambledHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     std::uint32_t before = hashOf(seed, static_cast<std::uint32_t>(dimension));
@@ -86,8 +89,8 @@ std::uint32_t reversedBits(std::uint32_t x) {
     return (x << 16) | (x >> 16);
 }
 
-// Owen's scramble of a fraction in 32 bits: each bit is flipped by a hash of those above it, one by one, as the hashes
-// that do all bits at once leave traces.
+// Returns the Owen-scrambled 32-bit fraction. Each bit is flipped by a hash of the higher bits. The bits are hashed one
+// by one, because hashes that scramble all bits at once leave visible patterns.
 std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
     std::uint32_t flips = 0;
     std::uint32_t before = seed;
@@ -98,14 +101,14 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
     return x ^ flips;
 }
 
-// A primitive polynomial over the integers modulo 2 and the first direction numbers, as Joe and Kuo list them.
+// Primitive polynomial modulo 2 and its first direction numbers, as listed by Joe and Kuo.
 struct Direction {
     std::uint32_t degree = 0;
-    std::uint32_t coefficients = 0;  // of the inner powers, highest first
+    std::uint32_t coefficients = 0;  // coefficients of the inner powers, highest first
     std::array<std::uint32_t, 5> first{};
 };
 
-using Columns = std::array<std::uint32_t, 32>;  // of the generator matrix; the first bit is the highest
+using Columns = std::array<std::uint32_t, 32>;  // generator matrix; the first bit is the highest
 
 constexpr Columns columnsOf(const Direction& direction) {
     Columns columns{};
@@ -122,7 +125,7 @@ constexpr Columns columnsOf(const Direction& direction) {
     return columns;
 }
 
-// Dimensions 2 to 8; the first is the index with its bits in reverse.
+// Dimensions 2 to 8. Dimension 1 is the bit-reversed index.
 constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {columnsOf({1, 0, {1}}),
                                                                   columnsOf({2, 1, {1, 3}}),
                                                                   columnsOf({3, 1, {1, 3, 1}}),
@@ -139,11 +142,11 @@ std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     return result;
 }
 
-// What seed 0 is scrambled with: of 3,000 scrambles the one whose first 8 to 256 points, and whose prefixes and
-// suffixes of 64, err least in the area of half planes of the lens.
+// Scramble for seed 0, the best of 3,000 candidates. It minimises the area error of half planes of the lens. The error
+// covers the first 8 to 256 points and the prefixes and suffixes of 64 points.
 constexpr std::uint32_t chosenScramble = 935;
 
-// With seed 0 index 0, whose coordinates are all 0, becomes 1/2 by a further flip of the same bits of all points.
+// With seed 0, index 0 has all coordinates 0. Flipping the same bits in all points moves it to 1/2.
 double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + static_cast<std::uint32_t>(dimension));
     const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
@@ -152,9 +155,9 @@ double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t 
 
 // ---- additive recurrences -------------------------------------------------------------------------------------------
 
-// The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d dimensions: d = 2 for the lens, the last two of
-// d = 4 for the pixel, whose points must not follow the lens's; the golden ratio for time, √2 for the band, and the
-// last two of d = 6 for the lights.
+// The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d dimensions. The lens uses d = 2. The pixel uses the
+// last two of d = 4, so that its points are independent of the lens points. Time uses the golden ratio, the band √2,
+// and the lights the last two of d = 6.
 constexpr double plastic2 = 1.32471795724474602596;
 constexpr double plastic4 = 1.16730397826141868426;
 constexpr double plastic6 = 1.11277568427870547063;
@@ -167,7 +170,7 @@ constexpr Coordinates r2Steps = {1 / plastic2,
                                  1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6),
                                  1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6 * plastic6)};
 
-// Rounded to a float that is still below 1.
+// Rounds to a float below 1.
 float belowOne(double value) {
     return std::min(static_cast<float>(value), 0x1.fffffep-1f);
 }

@@ -68,7 +68,7 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
     });
 }
 
-// Depths and blur of an object's box, before anything is decided.
+// Returns the object's pose, bounding box, depths and blur; levels and draws are not chosen yet.
 ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
     const Object& object = world.pose.objects[index];
     ObjectPlan result;
@@ -115,7 +115,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     return levelOfDetail(pyramid, query, plan.settings.metric, thresholds);
 }
 
-// λ, the two levels around it and the samples that draw each.
+// Chooses λ, the two levels around it and the samples that draw each level.
 void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& plan) {
     const auto sampleCount = static_cast<std::uint32_t>(plan.samples.size());
     if (object.nearestDepth > 0)
@@ -133,7 +133,7 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
-// Can C be taken as linear inside the triangles of the levels that are drawn?
+// Chooses whether the drawn levels' triangles must be divided so that C is linear inside them.
 void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
     if (!plan.usesCocControls) return;
     if (object.nearestDepth <= plan.view.nearPlane) {
@@ -154,7 +154,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
     if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
 }
 
-// Why this object need not be drawn; empty if it must.
+// Returns the reason why the object need not be drawn; empty if it must be drawn.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
@@ -163,7 +163,7 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     return "";
 }
 
-// Puts value order[i] into place i. Each is moved once, along the permutation's cycles.
+// Moves values[order[i]] to values[i] in place, along the cycles of the permutation.
 void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
     for (std::size_t begin = 0; begin < order.size(); ++begin) {
         if (order[begin] == begin) continue;
@@ -179,8 +179,8 @@ void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
     }
 }
 
-// The objects that may be seen, nearest first: what is drawn first hides the rest. `all`, where it isn't null: the
-// others too, in the order of the pose.
+// Adds the potentially visible objects to the plan, nearest first, so that near objects occlude the rest early. If
+// `all` isn't null, it receives all objects in the order of the pose.
 void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
     const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
     std::vector<ObjectPlan>& objects = plan.objects;
@@ -205,7 +205,7 @@ void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* 
     arrange(objects, std::move(order));
 }
 
-// The blur of whatever is drawn, the background included where it isn't the same everywhere.
+// Returns the largest blur in px of anything drawn. The background counts if its blur varies over the image.
 double largestBlur(const FramePlan& plan, const World& world) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
@@ -228,7 +228,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
                      "samples remain",
                      blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
-    const double aspect = plan.coc.aspect;  // the image still has it
+    const double aspect = plan.coc.aspect;  // the aspect ratio is kept without the lens
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
@@ -247,7 +247,7 @@ bool hasOwnBlur(const FramePlan& plan, const World& world) {
     });
 }
 
-// Shadows that nobody asked for come with a ground to catch them.
+// Returns true if the frame has shadows. By default, only scenes with a ground plane have them.
 bool drawsShadows(const World& world, const RenderSettings& settings) {
     return settings.shadows == Shadows::on ||
            (settings.shadows == Shadows::automatic && std::ranges::any_of(world.pose.objects, &Object::ground));
@@ -356,7 +356,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
-    // Decide on the lens first: levels depend on the blur that remains.
+    // The lens must be decided first, because the levels depend on the remaining blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());

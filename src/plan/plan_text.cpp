@@ -51,7 +51,7 @@ json objectJson(const ObjectPlan& object, const ObjectRates& rates, const LensCe
     return result;
 }
 
-// `shared`: how much of a sample that it shares with the other level it leaves to it.
+// Describes one draw. `shared` is the share of the boundary sample that the other level draws.
 std::string drawText(const LevelDraw& draw, double shared) {
     if (draw.sampleCount == 0) return "";
     return fmt::format("{} ({} tri) x {:.4g}", draw.level, draw.triangleCount, draw.sampleCount - shared);
@@ -69,7 +69,7 @@ std::size_t movingCount(const FramePlan& plan) {
                                                   [](const ObjectPlan& object) { return !object.motion.empty(); }));
 }
 
-// Of the shutter; 0 where nothing moves.
+// Returns the number of shutter moments; 0 if nothing moves.
 std::size_t momentCount(const FramePlan& plan) {
     std::size_t count = 0;
     for (const ObjectPlan& object : plan.objects) count = std::max(count, object.motion.size());
@@ -83,7 +83,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// How images are blurred as lens cells, or why they aren't.
+// Describes how images are blurred as lens cells, or the reason why they aren't.
 std::string ratesText(const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
     const LensCells& cells = rates.cells;
@@ -96,12 +96,12 @@ std::string ratesText(const FramePlan& plan) {
     return fmt::format("--method multirate draws this frame as the accumulation does: {}\n", cells.reason);
 }
 
-// No blur has no sign.
+// Rounds a tiny CoC to 0, to avoid printing −0.00.
 double shownCoc(double coc) {
     return std::abs(coc) < 0.005 ? 0 : coc;
 }
 
-// Where the camera stands (m) and the directions of its image's right, up and back.
+// Returns the camera's position (m) and its right, up and back directions.
 json cameraJson(const View& view) {
     const auto column = [&](int c) {
         const glm::dvec4& v = view.worldFromCamera[c];

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a FramePlan as text: as a table for people, and as JSON for programs.
+// Prints a FramePlan as a table for people and as JSON for programs.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 namespace defocus::engine {
 
 std::string planTable(const FramePlan& plan);
-// The keys are image, lens, samples, shutter, objects[], leftOut[] and triangles. An object has name, depth, coc,
-// projectedEdge, lambda, blended, transmits, moves and draws[], and boundaryShare if its first draw shares its last
-// sample with the second.
+// Returns the plan as JSON with the keys image, lens, samples, shutter, objects[], leftOut[] and triangles. An object
+// has name, depth, coc, projectedEdge, lambda, blended, transmits, moves and draws[]. It also has boundaryShare if its
+// two draws share a sample.
 std::string planJson(const FramePlan& plan);
 
 }  // namespace defocus::engine

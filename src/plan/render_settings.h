@@ -1,12 +1,12 @@
 #pragma once
-// The settings that a plan depends on, with a number of samples that is known.
+// Settings that a plan depends on. The number of samples is fixed.
 
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
 namespace defocus::engine {
 
-// What may hide that a level is coarse. Benches isolate one cause; images need both.
+// Causes that hide the simplification of a level. Benchmarks isolate one cause; images need both.
 enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
@@ -16,8 +16,8 @@ enum class LodCause {
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;         // selects another set of sample points
-    std::uint32_t firstSample = 0;  // offset into the sequence; references have their own
+    std::uint32_t seed = 0;         // selects a different set of sample points
+    std::uint32_t firstSample = 0;  // offset into the sequence, so that references use other points
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;
@@ -25,11 +25,11 @@ struct RenderSettings {
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds = {};
     Shadows shadows = Shadows::automatic;
-    double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
-    bool keepAll = false;       // leave nothing out: the image must be the same
+    double cocTolerance = 0.5;  // px, maximum error of interpolating C inside a triangle, > 0
+    bool keepAll = false;       // disables culling; the image must not change
 };
 
-// Fixes the thresholds at `factor` times those that frames of `sampleCount` samples have.
+// Sets the thresholds to `factor` times the defaults for frames of `sampleCount` samples.
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// A view says from where, through which lens and at which size a posed scene is rendered.
+// A view defines camera, lens and image size for rendering a posed scene.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -17,33 +17,32 @@
 namespace defocus::engine {
 
 struct View {
-    glm::dmat4 worldFromCamera{1.0};  // a rigid transform; the camera looks along its −z axis
+    glm::dmat4 worldFromCamera{1.0};  // rigid transform; the camera looks along its −z axis
     Lens lens;
     double nearPlane = 0.01;  // m, > 0
     int width = 1024;         // px
     int height = 768;         // px
     // worldFromCamera at each moment of World::shutter; empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
-    std::map<std::string, double> methodValues;  // of the method's settings, by name, where a shot gives them keys
+    std::map<std::string, double> methodValues;  // values of the method's settings that a shot animates, by name
 };
 
-// The poses of the scene while the shutter is open.
+// Poses of the scene while the shutter is open.
 struct Shutter {
-    std::vector<Pose> poses;  // they have the same objects as World::pose; empty if the scene doesn't move
-    // false: the moments are evenly spaced, from opening to closing, and vertices move in straight lines from one to
-    // the next (Munkberg, Toth and Akenine-Möller 2012 have one such line). true: each lens sample has a moment of its
-    // own, at its LensSample::time.
+    std::vector<Pose> poses;  // same objects as World::pose; empty if the scene doesn't move
+    // false: moments are evenly spaced from opening to closing, and vertices move linearly between them. Munkberg, Toth
+    // and Akenine-Möller 2012 use one such segment. true: each lens sample has its own moment, LensSample::time.
     bool perSample = false;
 };
 
-// A scene that is ready to be planned: it has a pose, lights and one pyramid for each mesh.
+// A scene that is ready to be planned, with a pose, lights and one pyramid per mesh.
 struct World {
     std::shared_ptr<const Scene> scene;
-    Pose pose;        // in the middle of the exposure
-    Shutter shutter;  // lights and sky keep their state from the middle of the exposure
+    Pose pose;        // pose in the middle of the exposure
+    Shutter shutter;  // lights and sky stay fixed at the middle of the exposure
     std::vector<PlacedLight> lights;
     Environment environment;
-    std::vector<Pyramid> pyramids;  // one for each mesh of the scene
+    std::vector<Pyramid> pyramids;  // one per mesh of the scene
 };
 
 }  // namespace defocus::engine

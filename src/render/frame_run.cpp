@@ -55,7 +55,8 @@ void FrameRun::startAutomatic(RenderSettings settings) {
     renderer_->start(plan_);
 }
 
-// A few samples of the frame with levels, coarse and fine, against the same samples at full detail.
+// Measures the level-of-detail error: compares a few samples with coarse and fine levels to the same samples at full
+// detail.
 std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
     if (settings.lod == LodMode::off) return {};
     const auto drawn = [&] {

@@ -1,8 +1,8 @@
 #pragma once
-// A frame from its view to its image, whether its lens samples are counted beforehand or not:
+// Renders a frame from its view to its image, with a fixed or an open number of lens samples:
 //   FrameRun run(world, renderer); run.start(view, settings, stop); while (run.advance()) {} renderer.image();
-// Without StopSettings it is one plan and Renderer::start; with them, as many blocks as the picture or the time asks
-// for, each planned for the samples that are expected, all added to one sum.
+// Without StopSettings, a frame is one plan and one Renderer::start. With them, blocks are added to one sum until the
+// error or time limit is reached. Each block is planned for the expected final number of samples.
 
 #include <chrono>
 #include <optional>
@@ -13,30 +13,30 @@
 
 namespace defocus::engine {
 
-// Throws UsageError where the settings can't be followed: by a method that doesn't sum blocks (Method::sumsBlocks), or
-// with a pose of its own for each of a number of samples that isn't known.
+// Throws UsageError if the stop settings can't be followed. The method must sum blocks (Method::sumsBlocks), and motion
+// must not need one pose per sample, since the number of samples is open.
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter);
 
 class FrameRun {
 public:
-    // Both must outlive it; `renderer` was made for `world`.
+    // Both must outlive this object; `renderer` must have been made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Begins a frame, forgetting the one before. checkStop must have passed. An automatic number of samples needs
-    // a method that sums blocks, and no exact motion.
+    // Begins a new frame. The settings must pass checkStop. An automatic number of samples also needs a method that
+    // sums blocks, and no exact motion.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
-    // Draws one wave of samples; false once the frame is done.
+    // Draws one wave of samples. Returns false once the frame is finished.
     bool advance();
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
-    // When the frame is done; with StopSettings an expectation that changes.
+    // Number of samples of the finished frame. With StopSettings this is an estimate that changes.
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // Of the frame; with StopSettings that of the latest block, whose thresholds and levels are the finest, with the
-    // triangles of all blocks.
+    // Plan of the frame. With StopSettings it is the plan of the latest block, which has the finest levels, with the
+    // triangle counts of all blocks.
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
-    // Wall clock; of all blocks that were begun.
+    // Wall-clock time of planning, for all blocks begun.
     [[nodiscard]] double planMilliseconds() const { return planMilliseconds_; }
-    // Renderer::stats() of the frame, all blocks together.
+    // Returns Renderer::stats() of the frame, summed over all blocks.
     [[nodiscard]] RenderStats stats() const;
 
 private:
@@ -48,10 +48,10 @@ private:
     const World* world_;
     Renderer* renderer_;
     View view_;
-    std::optional<BlockSchedule> schedule_;  // none: one plan
+    std::optional<BlockSchedule> schedule_;  // empty: the frame has one plan
     FramePlan plan_;
     double planMilliseconds_ = 0;
-    RenderStats before_;  // of the blocks before the latest: times
+    RenderStats before_;  // times of all blocks before the latest
     std::chrono::steady_clock::time_point begin_;
 };
 

@@ -1,8 +1,7 @@
 #pragma once
-// The name table of rendering methods, and what each can be asked for, by name and as text: the options of `render`,
-// the methods of a bench and the metadata of an image say it alike, for example
-// "circular:far-components=5,resolution=half". Optional builds (the Embree ray tracer) add their methods with
-// registerMethod before use.
+// The table of rendering methods and their settings, by name and as text. The options of `render`, the methods of a
+// bench and the metadata of an image use the same text, for example "circular:far-components=5,resolution=half".
+// Optional builds (the Embree ray tracer) add their methods with registerMethod before use.
 
 #include <filesystem>
 #include <functional>
@@ -18,78 +17,80 @@
 namespace defocus::engine {
 
 struct MethodSetting {
-    std::string name;                  // "far-components"; on the command line --far-components
-    std::string standard;              // its value when nothing is said
+    std::string name;                  // such as "far-components", on the command line --far-components
+    std::string standard;              // default value, as text
     std::string description;           // for --help
-    std::vector<std::string> choices;  // one of these, or, when empty, a number:
+    std::vector<std::string> choices;  // allowed values; if empty, the value is a number in [min, max]
     double min = 0;
     double max = 0;
     bool whole = true;          // an integer
-    std::string onlyWith = {};  // "resolve=published": the setting without which a method refuses this one
-    bool ofTheScene = false;    // no value suits all scenes: benches over all settings leave it out
-    bool keyed = false;         // a number that a shot may give keys: see valueAt
+    std::string onlyWith = {};  // such as "resolve=published": the setting that this one requires
+    bool ofTheScene = false;    // no default suits all scenes; benches over all settings skip it
+    bool keyed = false;         // a number that a shot may animate with keys: see valueAt
 };
 
-// Values by name, as text.
+// Values as text, keyed by name.
 using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::uint32_t wave = 0;                  // K, lens samples drawn at once; 0: as many as waveBytes allow
+    std::uint32_t wave = 0;                  // K, lens samples drawn at once; 0: as many as fit into waveBytes
     std::uint64_t waveBytes = 160ull << 20;  // memory for a wave's layers
-    bool geometryShaderLayers = false;       // pick layers in a geometry shader even where the vertex shader may
-    std::filesystem::path shaderFolder;      // overrides the embedded shaders; empty: none
-    MethodSettings settings;                 // of the method (Method::settings); what is not said is standard
+    bool geometryShaderLayers = false;       // selects layers in a geometry shader even if the vertex shader could
+    std::filesystem::path shaderFolder;      // folder with shaders that replace the embedded ones; empty: none
+    MethodSettings settings;                 // of the method (Method::settings); missing ones take their default
 };
 
-// What of the lens's aperture an image shows.
-enum class ApertureShown { oval, shape, all };  // oval: of any ratio; shape: all but a cat's eye
+// Aperture features that a method reproduces.
+enum class ApertureShown { oval, shape, all };  // oval: anamorphic ratio only; shape: all but the cat's eye
 
 struct Method {
     std::string name;
     std::string description;
-    bool needsGl = true;          // a current GL context
-    bool usesLensSamples = true;  // false: the plan's number of samples means nothing to it (post-process methods)
-    bool shadesAsLit = true;      // false: only unlit, opaque surfaces look as with the other methods
-    bool showsThrough = true;     // false: what transmits is drawn opaque
-    bool sumsBlocks = false;      // Renderer::continueWith adds to the sum: the number of samples may be left open
-    bool drawsTiles = false;      // FramePlan::tile is honoured; else the whole image is drawn, whatever the plan says
-    bool drawsShadows = true;     // false: lights shine through whatever stands before them
-    bool drawsMotion = true;      // false: everything stands still while the shutter is open
+    bool needsGl = true;          // needs a current GL context
+    bool usesLensSamples = true;  // false: ignores the plan's number of samples (post-process methods)
+    bool shadesAsLit = true;      // false: only unlit, opaque surfaces match the other methods
+    bool showsThrough = true;     // false: draws transmitting surfaces as opaque
+    bool sumsBlocks = false;      // Renderer::continueWith adds to the sum, so the number of samples may stay open
+    bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always draws the full image
+    bool drawsShadows = true;     // false: lights shine through occluders
+    bool drawsMotion = true;      // false: draws moving objects as frozen at one moment of the exposure
     ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
-    MethodSettings best = {};  // that come closest to the reference, at whatever cost; what isn't said is standard
-    // Throws Error for settings that the method doesn't take.
+    MethodSettings best = {};  // settings closest to the reference at any cost; missing ones take their default
+    // Returns a renderer. Throws Error for settings that the method doesn't accept.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
 };
 
-// A method with its settings, complete.
+// A method with complete settings.
 struct MethodUse {
     const Method* method = nullptr;
     MethodSettings settings;
     [[nodiscard]] bool sharesImages() const;  // "multirate" with cells=off
-    [[nodiscard]] std::string text() const;   // "name" or "name:setting=value,…": what differs from the standard
+    // "name" or "name:setting=value,…" with the settings that differ from their default.
+    [[nodiscard]] std::string text() const;
 };
 
 const std::vector<Method>& methods();
 void registerMethod(Method method);
-// Throws Error listing the known names for an unknown one.
+// Returns the method of this name. Throws Error listing all names if it is unknown.
 const Method& methodNamed(std::string_view name);
-// The inverse of MethodUse::text. Throws Error for an unknown method or setting and for a value out of range.
+// Parses the text of MethodUse::text. Throws Error for an unknown method or setting, or a value out of range.
 MethodUse parseMethodUse(std::string_view text);
 
-// `given` with the standard values filled in. Throws Error, naming `method`, for a name that isn't in `known` (it lists
-// those that are) and for a value that the setting doesn't take.
+// Returns `given` with defaults filled in. Throws Error, naming `method`, for a name that is not in `known` (and lists
+// the known names), or for a value that the setting doesn't accept.
 MethodSettings completeSettings(std::string_view method, const std::vector<MethodSetting>& known,
                                 const MethodSettings& given);
 
-// The value of a setting that is a number; `settings` must be complete.
+// Returns the value of a numeric setting; `settings` must be complete.
 double numberOf(const MethodSettings& settings, const std::string& name);
 
-// The same of a setting that may have keys: View::methodValues goes before what is set.
+// Returns the value of a numeric setting that a shot may animate: View::methodValues takes precedence over `settings`.
 double valueAt(const View& view, const MethodSettings& settings, const std::string& name);
 
-// "taps=16,coc=thin-lens": what differs from the standard values, in the table's order; empty when nothing does.
+// Returns the settings that differ from their default, in the order of `known`, as in "taps=16,coc=thin-lens". Empty if
+// none differs.
 std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings);
 
 }  // namespace defocus::engine

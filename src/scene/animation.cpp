@@ -12,7 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Where a moment falls among the keys: between `key` and `key + 1`, at `fraction` of the way; `span` seconds apart.
+// Position of a time between two key frames: `fraction` in [0, 1) from `key` to `key + 1`. The keys are `span` seconds
+// apart; `span` is 0 outside the keys.
 struct Segment {
     std::size_t key = 0;
     double fraction = 0;
@@ -28,8 +29,8 @@ Segment segmentAt(const std::vector<float>& times, double time) {
     return {key, (time - static_cast<double>(times[key])) / span, span};
 }
 
-// glTF 2.0 C.5: Hermite spline through v_k and v_(k+1) with the out-tangent b_k and the in-tangent a_(k+1), scaled by
-// the time between the keys. A key holds in-tangent, value, out-tangent.
+// Returns one component of a Hermite spline between two keys (glTF 2.0, C.5). A key stores in-tangent, value and
+// out-tangent; tangents are scaled by the seconds between the keys.
 double cubicSpline(const float* key, const float* next, std::size_t count, const Segment& segment) {
     const double t = segment.fraction;
     const double t2 = t * t;

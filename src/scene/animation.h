@@ -1,5 +1,5 @@
 #pragma once
-// Key frames at a moment: STEP, LINEAR and CUBICSPLINE as in glTF 2.0, appendix C.
+// Evaluation of key frames at a time: STEP, LINEAR and CUBICSPLINE of glTF 2.0, appendix C.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -9,17 +9,19 @@
 
 namespace defocus::engine {
 
-// `count` floats of the channel at `time` (3 for translation and scale, one a target for weights). Times outside the
-// keys hold the first or last value.
+// Returns `count` components of the channel at `time`: 3 for translation and scale, one per morph target for weights.
+// Times outside the keys give the first or last value.
 std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time);
 
-// The clip of that name, else that number (from 0). Throws Error listing the scene's clips.
+// Returns the index of the clip with this name, or else with this index (from 0). Throws Error that lists the scene's
+// clips.
 int clipNamed(const Scene& scene, std::string_view nameOrNumber);
 
-// `time` in [0, duration) as the clip repeats for ever.
+// Wraps `time` (seconds) into [0, duration) of a repeating clip; returns 0 for clips without duration.
 double loopedTime(const AnimationClip& clip, double time);
 
-// A rotation channel (x, y, z, w a key) at `time`: spherical interpolation along the shorter arc, unit length.
+// Returns the unit quaternion of a rotation channel (x, y, z, w per key) at `time`. LINEAR keys are interpolated
+// spherically along the shorter arc.
 glm::dquat sampleRotation(const AnimationChannel& channel, double time);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Surroundings that need no file: high-dynamic-range maps that are computed. Each throws an illuminance of
-// π lux on a level surface, so that a matt white one has a radiance of 1.
+// Procedural environment maps that need no file. Each is scaled to an illuminance of π lux on a horizontal surface, so
+// that a white diffuse surface there has radiance 1.
 
 #include <span>
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace defocus::engine {
 
-// "studio" (softboxes in a dark room), "overcast" (the CIE's overcast sky), "sunset" (a low sun)
+// Names: "studio" (softboxes in a dark room), "overcast" (CIE overcast sky), "sunset" (low sun).
 std::span<const std::string_view> builtInEnvironments();
 bool isBuiltInEnvironment(const std::string& name);
 
-// The equirectangular map of that name (EnvironmentType::map), 512 x 256 px of linear Rec.709. The light of the studio
-// and the sun come from the left of a camera that looks at the front of a model, which faces +z.
+// Returns the named equirectangular map (EnvironmentType::map): 512 x 256 px, linear Rec.709. For a camera that looks
+// at a model's front (+z), the key softbox and the sun are on the left.
 Image builtInEnvironment(const std::string& name);
 
-// The map turned counter-clockwise, seen from above, by an angle in radians.
+// Returns the map rotated by `angle` radians, counter-clockwise as seen from above.
 Image turnedEnvironment(const Image& map, double angle);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// A camera as a file gives it. Lens values that a file doesn't give stay empty and fall back to the lens's defaults.
+// Camera as stored in a file. Lens values that the file omits stay empty; the lens then uses its defaults.
 
 #include <glm/vec2.hpp>
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace defocus::engine {
 
-// The draft extension EXT_camera_physical: the lens and sensor of a camera, whose field of view stays that of the file.
+// Lens and sensor of a camera from the draft glTF extension EXT_camera_physical. The field of view remains
+// Camera::yfov.
 struct PhysicalCamera {
     double focalLength = 0;    // mm, > 0
     glm::dvec2 sensorSize{0};  // mm, width and height, > 0
@@ -18,14 +19,14 @@ struct PhysicalCamera {
 struct Camera {
     std::string name;
     double yfov = 0.6911112;            // radians, full vertical angle
-    std::optional<double> aspectRatio;  // width / height that yfov was chosen for
+    std::optional<double> aspectRatio;  // width / height for which yfov was authored
     double znear = 0.01;                // m
-    // Numbers of the camera's extras by their names ("fStop", "focusDistance" …; lens/lens_fields.h knows which count);
-    // truth values are 0 and 1.
+    // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 and 1.
+    // lens/lens_fields.h lists the names that the lens reads.
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
-    std::string apertureImage;                // of the extras: a file's path, relative to the scene's; empty: none
-    std::optional<std::string> orthographic;  // set to why the camera can't be used (orthographic cameras)
+    std::string apertureImage;                // image path from extras, relative to the scene file; empty: none
+    std::optional<std::string> orthographic;  // reason for rejecting an orthographic camera
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {
         const auto found = lens.find(lensName);

@@ -1,19 +1,19 @@
 #pragma once
-// A ground for scenes that hang in the air: a neutral disk beneath them, which catches their shadows.
+// Neutral ground disk for scenes without a floor; it receives their shadows.
 
 #include "scene/pose.h"
 
 namespace defocus::engine {
 
-// Adds a mesh, a material and a node (Node::ground): a level, matt, grey disk at the lowest point
-// of `pose`, the scene's own at some time, and about its middle. It reaches 30 times as far as what stands on it, so
-// that cameras that frame the scene see it up to the horizon. Nothing is added where the pose shows nothing.
+// Adds a mesh, a material and a node (Node::ground): a horizontal, diffuse, grey disk centred below `pose` at its
+// lowest point. Its radius is 30 times that of the scene, so that framing cameras see it up to the horizon. `pose` must
+// be a pose of this scene; an empty pose adds nothing.
 void addGround(Scene& scene, const Pose& pose);
 
-// Takes the ground away again, the last mesh, material and node of the scene.
+// Removes the ground again; it must be the last mesh, material and node of the scene.
 void removeGround(Scene& scene);
 
-// Has it been added?
+// Returns whether addGround has added a ground.
 bool hasGround(const Scene& scene);
 
 }  // namespace defocus::engine

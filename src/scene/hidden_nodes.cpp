@@ -10,14 +10,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Whether the node or one above it is in `hidden`.
+// Returns whether the node or one of its ancestors is in `hidden`.
 bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent)
         if (hidden[static_cast<std::size_t>(node)]) return true;
     return false;
 }
 
-// As poseAt (scene/pose.h) measures it: each mesh once.
+// Returns the bounding box of the pose's objects without the ground; each mesh is measured once, as in poseAt.
 Bounds boundsOf(const Scene& scene, const Pose& pose) {
     Bounds result;
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes whose objects are left out of pictures, as people switch them off in a tree of the scene.
+// Nodes that the user has hidden: their objects are not drawn.
 
 #include <span>
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace defocus::engine {
 
-// Takes the objects of these nodes, and of all nodes below them, out of the pose. Bounds that it had are those of what
-// is left; cameras and lights stay. A node is called by its name, or, where it has none or shares it, by its number in
-// Scene::nodes, "7" or "#7". Throws Error for a name that the scene doesn't have.
+// Removes the objects of these nodes and of their descendants from the pose; cameras and lights stay. Non-empty bounds
+// are updated for the remaining objects. A node is given by its name, or by its index in Scene::nodes ("7" or "#7") if
+// the name is empty or ambiguous. Throws Error for unknown names.
 void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, Pose& pose);
 
-// The node that hideNodes means by the text.
+// Returns the index of the node that the text names; see hideNodes for the syntax.
 int nodeCalled(const Scene& scene, const std::string& nameOrNumber);
 
-// What a node is to be called; see hideNodes.
+// Returns a text that nodeCalled resolves to this node: its name if unique, else its index.
 std::string callingOf(const Scene& scene, int node);
 
 }  // namespace defocus::engine

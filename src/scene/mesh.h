@@ -1,5 +1,5 @@
 #pragma once
-// A mesh as all its primitives over ONE set of vertices, so that one pyramid can simplify it as a whole.
+// Mesh whose primitives share one vertex array, so that a single pyramid can simplify the mesh as a whole.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -13,52 +13,52 @@
 
 namespace defocus::engine {
 
-// What a vertex makes of the blur c that the lens gives its place: factor·c, and signed millimetres on the sensor
-// besides (> 0 as behind the focus), which change linearly from the opening of the shutter to its closing. That is the
-// linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
+// Per-vertex change to the circle of confusion c of the lens: C(t) = factor·c + added(t). added(t) is a signed diameter
+// in mm on the sensor (> 0 behind the focus), linear from the shutter's opening to its closing. Source: linear C(t) of
+// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
-    float factor = 1;   // ≥ 0; 0: what is added replaces the lens's blur
-    float opening = 0;  // mm
-    float closing = 0;  // mm
+    float factor = 1;   // ≥ 0; 0: the added blur replaces the lens's blur
+    float opening = 0;  // mm, added blur when the shutter opens
+    float closing = 0;  // mm, added blur when the shutter closes
     bool operator==(const VertexBlur&) const = default;
 };
 
-// Of all vertices of a mesh.
+// Range of the vertex blurs of a mesh.
 struct VertexBlurBounds {
     float factorMin = 1;
     float factorMax = 1;
-    float addedMin = 0;  // mm, at any time
+    float addedMin = 0;  // mm, over the whole exposure
     float addedMax = 0;
-    bool moves = false;  // some vertex's changes while the shutter is open
+    bool moves = false;  // some vertex blur changes during the exposure
     bool operator==(const VertexBlurBounds&) const = default;
 };
 
-// Vertex attributes, one array each; an array is empty (the mesh doesn't have it) or as long as `positions`.
+// Vertex attributes, one array each. An array is empty if the mesh lacks the attribute, else as long as `positions`.
 struct Vertices {
     std::vector<glm::vec3> positions;  // object units
     std::vector<glm::vec3> normals;    // unit length
     std::vector<glm::vec4> tangents;   // xyz unit length, w = ±1 handedness (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::vec4> colors;     // linear, straight alpha; those of a file lie in [0, 1]
+    std::vector<glm::vec4> colors;     // linear, straight alpha; in [0, 1] if read from a file
     std::vector<glm::u16vec4> joints;  // indices into the skin's joints, influences one to four
-    std::vector<glm::vec4> weights;    // of all influences; they sum to 1
+    std::vector<glm::vec4> weights;    // sum to 1 together with weights1
     std::vector<VertexBlur> blurs;
-    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty where four are enough
+    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty if four suffice
     std::vector<glm::vec4> weights1;
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }
 };
 
-struct MorphTarget {  // displacements, each empty or one a vertex
+struct MorphTarget {  // displacements; each array is empty or has one entry per vertex
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;
 };
 
 struct Primitive {
-    int material = -1;                   // into Scene::materials; -1: glTF's default material
-    std::vector<std::uint32_t> indices;  // triangles, into Mesh::vertices, front faces counter-clockwise
+    int material = -1;                   // index into Scene::materials; -1: glTF's default material
+    std::vector<std::uint32_t> indices;  // triangle list into Mesh::vertices; front faces are counter-clockwise
 };
 
 struct Mesh {
@@ -66,20 +66,20 @@ struct Mesh {
     Vertices vertices;
     std::vector<Primitive> primitives;
     std::vector<MorphTarget> morphTargets;
-    std::vector<float> morphWeights;  // defaults, one a target
-    VertexBlurBounds blurBounds;      // of vertices.blurs
+    std::vector<float> morphWeights;  // defaults, one per morph target
+    VertexBlurBounds blurBounds;      // ranges of vertices.blurs
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles
+    [[nodiscard]] Bounds bounds() const;  // bounds of the vertices that triangles use; empty without any
 };
 
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs);
 
-// The box of the finite ones among positions.
+// Returns the bounding box of the finite positions; others are ignored.
 Bounds boundsOf(const std::vector<glm::vec3>& positions);
 
-// Area-weighted smooth normals (positions welded exactly) for triangles `indices` over `positions`; a vertex without
-// any proper triangle gets +y.
+// Returns area-weighted smooth normals of a triangle list. Vertices at equal positions share a normal; vertices without
+// a non-degenerate triangle get +y.
 std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
                                      const std::vector<std::uint32_t>& indices);
 

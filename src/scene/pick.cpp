@@ -1,5 +1,5 @@
-// Ray against triangle: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Boxes by slabs:
-// Kay and Kajiya, "Ray Tracing Complex Scenes", 1986.
+// Ray–triangle intersection: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Slab test
+// for boxes: Kay and Kajiya, "Ray Tracing Complex Scenes", 1986.
 #include "scene/pick.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 struct Ray {
     glm::dvec3 origin;
-    glm::dvec3 direction;  // the parameter counts in multiples of it, whatever its length
+    glm::dvec3 direction;  // any length; ray parameters are multiples of it
 };
 
 bool reaches(const Ray& ray, const Bounds& box, double farthest) {
@@ -30,14 +30,14 @@ bool reaches(const Ray& ray, const Bounds& box, double farthest) {
         double first = (box.minimum[axis] - ray.origin[axis]) / ray.direction[axis];
         double second = (box.maximum[axis] - ray.origin[axis]) / ray.direction[axis];
         if (first > second) std::swap(first, second);
-        // A hair wider, so that rounding never rejects a triangle that lies in a face of the box.
+        // Widen the interval slightly so that rounding never rejects a triangle in a face of the box.
         enter = std::max(enter, first - 1e-12 * std::abs(first));
         leave = std::min(leave, second + 1e-12 * std::abs(second));
     }
     return enter <= leave;
 }
 
-// The ray's parameter where it crosses the triangle a, b, c from either side, or infinity.
+// Returns the ray parameter at which the ray hits the triangle from either side, or infinity.
 double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double miss = std::numeric_limits<double>::infinity();
     const glm::dvec3 ab = b - a;
@@ -53,7 +53,7 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// The nearest crossing of the mesh's triangles, their vertices placed by `place`, that is nearer than `nearest`.
+// Returns the smaller of `nearest` and the ray parameter of the first hit. `place(index)` returns a vertex position.
 template <typename Place>
 double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
     for (const Primitive& primitive : mesh.primitives)
@@ -64,7 +64,8 @@ double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const P
     return nearest;
 }
 
-// In object space while the matrix can be inverted; a flattened object has its triangles brought to the world instead.
+// Same for a rigid object. The ray is transformed to object space if the matrix is invertible; otherwise the triangles
+// are transformed to world space.
 double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject, const Ray& world,
                        double nearest) {
     const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);
@@ -83,7 +84,7 @@ double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4&
                            [&](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); });
 }
 
-// A ball in the world.
+// Bounding sphere in world space.
 struct Ball {
     glm::dvec3 centre;
     double radius;
@@ -97,7 +98,7 @@ Ball ballAround(const Bounds& bounds, const glm::dmat4& worldFromBounds) {
     return {glm::dvec3(worldFromBounds * glm::dvec4(bounds.centre(), 1)), radius};
 }
 
-// Certain that the ray, whose direction has the length 1, passes the ball by.
+// Returns true only if the ray certainly misses the ball. The ray's direction must have unit length.
 bool misses(const Ray& ray, const Ball& ball) {
     constexpr double rounding = 1e-12;
     const glm::dvec3 toCentre = ball.centre - ray.origin;
@@ -106,7 +107,7 @@ bool misses(const Ray& ray, const Ball& ball) {
     return square - along * along > ball.radius * ball.radius * (1 + rounding) + rounding * square;
 }
 
-// An object's triangles, ready for any number of rays.
+// Triangles of one object, prepared for many rays.
 class Target {
 public:
     Target(const Mesh& mesh, const Bounds& meshBounds, const Object& object)
@@ -128,11 +129,11 @@ public:
 
 private:
     const Mesh& mesh_;
-    Bounds bounds_;  // of the mesh; of a deformed object, in the world
+    Bounds bounds_;  // in object space, or in world space if the object is deformed
     Ball ball_{};
     const Object& object_;
     bool deformed_;
-    std::vector<glm::dvec3> positions_;  // of a deformed object, in the world
+    std::vector<glm::dvec3> positions_;  // world space; only for deformed objects
 };
 
 }  // namespace

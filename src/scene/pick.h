@@ -1,6 +1,5 @@
 #pragma once
-// The first surface along rays, by brute force over all triangles of the scene (exact, no GPU; milliseconds a million
-// triangles).
+// First surface hit by rays, computed exactly on the CPU by brute force: milliseconds per million triangles.
 
 #include <optional>
 #include <vector>
@@ -11,10 +10,10 @@ namespace defocus::engine {
 
 struct Hit {
     double distance = 0;  // m along the unit direction
-    int object = -1;      // into Pose::objects
+    int object = -1;      // index into Pose::objects
 };
 
-// Along each direction from `origin`; each object is posed once for all of them.
+// Returns the first hit along each direction from `origin`. Each object is posed once for all directions.
 std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
                                           const std::vector<glm::dvec3>& directions);
 std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,

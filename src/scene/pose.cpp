@@ -14,17 +14,17 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t namesListed = 40;  // in an error message
+constexpr std::size_t namesListed = 40;  // maximum count in an error message
 
-// What animation moves of a node.
+// Animated properties of a node.
 struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
     glm::dvec3 scale;
-    std::vector<double> morphWeights;  // one a target of its mesh
+    std::vector<double> morphWeights;  // one per morph target of the node's mesh
 };
 
-// What animation moves of a scene.
+// Animated properties of a scene.
 struct SceneState {
     std::vector<NodeState> nodes;
     std::vector<Camera> cameras;
@@ -35,7 +35,7 @@ glm::dmat4 matrixOf(const NodeState& node) {
     return glm::scale(glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
-// The node's own weights where it has any, else its mesh's.
+// Returns the node's own morph weights if it has any, else those of its mesh.
 std::vector<double> restWeights(const Scene& scene, const Node& node) {
     if (node.mesh < 0) return {};
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
@@ -56,7 +56,7 @@ void animateNode(const AnimationChannel& channel, double time, NodeState& node) 
     }
 }
 
-// A spline may overshoot: values that no camera or light can have are brought back to the nearest that they can.
+// Splines may overshoot, so values are clamped to the valid range of cameras and lights.
 void animateCamera(const AnimationChannel& channel, double time, Camera& camera) {
     constexpr double minAngle = 1e-4;
     const double value = sampleValues(channel, 1, time)[0];
@@ -115,7 +115,8 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
     return state;
 }
 
-// Lengths of cameras and lights. What a light does to a surface stays as it is.
+// Converts lengths of cameras and lights from scene units to metres. Light intensities are adjusted to keep the
+// illuminance of surfaces.
 void toMetres(double metresPerUnit, SceneState& state) {
     constexpr std::string_view lengths[] = {"focusDistance", "focusRangeFront", "focusRangeBehind"};
     for (Camera& camera : state.cameras) {
@@ -129,8 +130,8 @@ void toMetres(double metresPerUnit, SceneState& state) {
     }
 }
 
-// Walks down from `start` (without recursion: a hierarchy may be deeper than the stack) and calls `visit(node,
-// parent)`.
+// Visits the nodes below `start` and calls `visit(node, parent)`. Iterative, since a hierarchy may be too deep for
+// recursion.
 template <typename Visit>
 void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const Visit& visit) {
     struct Step {
@@ -149,7 +150,7 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// Where a skin's joints take its vertices.
+// Returns the matrices from mesh space to world space, one per joint of the skin.
 std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode) {
     std::vector<glm::dmat4> matrices;
     matrices.reserve(skin.joints.size());
@@ -202,13 +203,13 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
 }  // namespace
 
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
-    // Local matrices of the moment, multiplied down the hierarchy: first the scene, then what only joints need.
+    // Multiply the local matrices down the hierarchy: first the drawn scene, then nodes that only serve as joints.
     SceneState state = stateAt(scene, time, clip);
     toMetres(scene.metresPerUnit, state);
     const glm::dmat4 metresFromUnits = glm::scale(glm::dmat4(1.0), glm::dvec3(scene.metresPerUnit));
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
-    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // a group is scaled as a whole
+    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // factors multiply down the hierarchy
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
@@ -222,7 +223,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].parent < 0) walkDown(scene, static_cast<int>(i), visited, place);
 
-    // Objects and lights in the order of their nodes.
+    // Place objects and lights in node order.
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (!drawn[i]) continue;
@@ -235,7 +236,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
 
 Pose poseAt(const Scene& scene, double time, int clip) {
     Pose pose = unmeasuredPoseAt(scene, time, clip);
-    // The box around all objects; each mesh is measured once.
+    // Compute the bounding box of all objects; each mesh is measured once.
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
     for (const Object& object : pose.objects) {
         if (object.ground) continue;

@@ -1,6 +1,5 @@
 #pragma once
-// The node hierarchy at one moment, and what a renderer needs of it: objects (mesh instances), lights and cameras in
-// world space.
+// Node hierarchy at one time: objects (mesh instances), lights and cameras in world space.
 
 #include <glm/mat4x4.hpp>
 #include <string>
@@ -11,17 +10,17 @@
 
 namespace defocus::engine {
 
-struct Object {  // a mesh instance with all its primitives
+struct Object {  // mesh instance with all its primitives
     int mesh = -1;
     int node = -1;
-    std::string name;  // the node's, else the mesh's name; instances carry "#i"
-    // Of a skinned object: where its first joint takes it, for what needs one matrix.
+    std::string name;  // name of the node, or else of the mesh; instances append "#i"
+    // For a skinned object: the matrix of its first joint, for code that needs a single matrix.
     glm::dmat4 worldFromObject{1.0};
-    double cocScale = 1;  // factor on the blur, ≥ 0
-    // Each joint's place times its inverse bind matrix (the node's own place does not count); empty without a skin.
+    double cocScale = 1;  // factor on the circle of confusion, ≥ 0
+    // World matrix times inverse bind matrix of each joint; empty without a skin. The node's own matrix does not apply.
     std::vector<glm::dmat4> worldFromJoint;
-    std::vector<double> morphWeights;  // one a morph target of the mesh
-    // What the scene stands on: no subject of cameras and focus, and below everything that could be in its shadow.
+    std::vector<double> morphWeights;  // one per morph target of the mesh
+    // Ground added below the scene. Cameras do not frame or focus on it, and it casts no shadow on the scene.
     bool ground = false;
 
     [[nodiscard]] bool skinned() const { return !worldFromJoint.empty(); }
@@ -30,29 +29,31 @@ struct Object {  // a mesh instance with all its primitives
 struct PlacedLight {
     Light light;
     glm::dvec3 position{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit, the way the light shines
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector; direction in which the light shines
 };
 
 struct Pose {
-    std::vector<glm::dmat4> worldFromNode;  // as many as Scene::nodes
+    std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;
-    std::vector<Camera> cameras;  // as many as Scene::cameras, with their values of the moment
-    Bounds bounds;                // of all objects but the ground, world space
+    std::vector<Camera> cameras;  // one per entry of Scene::cameras, with animated values
+    Bounds bounds;                // world space, of all objects except the ground
 };
 
-// The scene in metres at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.
+// Returns the scene in metres at `time` seconds into clip `clip` (-1: no animation). Times outside the clip give its
+// first or last frame.
 Pose poseAt(const Scene& scene, double time, int clip = 0);
-// The same with empty `bounds`, which take the longest.
+// Returns the same pose with empty `bounds`; computing the bounds takes most of the time of poseAt.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 
-// The pose's lights, as large as those that stood for them `before`; those where the pose has none.
+// Returns the pose's lights with the angular diameters and radii of `before`, matched by index. Returns `before` if the
+// pose has no lights.
 std::vector<PlacedLight> movedLights(const std::vector<PlacedLight>& before, const Pose& pose);
 
-// The node of that name; throws Error listing the names that exist.
+// Returns the index of the node with this name. Throws Error that lists the existing names.
 int nodeNamed(const Scene& scene, std::string_view name);
 
-// World position of a node: the centre of its mesh's bounds, as posed, where it has one, else its origin.
+// Returns a node's world position: the centre of its posed mesh's bounding box, or the node's origin without a mesh.
 glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// The vertices of an object as its pose has them: morph targets, then the skin or the object's place (glTF 2.0, 3.7.2.2
-// and 3.7.3). The renderer does the same on the GPU; this is for all that needs vertices on the CPU, and its truth.
+// Posed vertices on the CPU: morph targets, then the skin or the object's matrix (glTF 2.0, 3.7.2.2 and 3.7.3). They
+// are the reference for the renderer's GPU code, which computes the same.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -12,30 +12,31 @@
 
 namespace defocus::engine {
 
-// A vertex is p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j with joint weights w and morph weights m. A weight that is
-// no number counts as 0, the skin's first joint for those that it lacks, and for vertices without any.
+// Returns p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j for each vertex, with joint weights w and morph weights m.
+// Weights that are negative, NaN or infinite count as 0. Missing joints, and vertices without weights, use the skin's
+// first joint.
 std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object);  // world space, m
 
-// The matrix of a vertex, Σ w_j · M_j / Σ w_j, over the joints' matrices M, of which there is at least one.
+// Returns the matrix of a vertex, Σ w_j · M_j / Σ w_j. `joints` holds at least one matrix M_j.
 glm::dmat4 skinMatrix(const Vertices& vertices, std::span<const glm::dmat4> joints, std::size_t vertex);
 
-// Adds Σ m_t · d_t, of positions or normals, with a weight for each morph target of the mesh. `source` says which
-// vertex of the mesh each value is; empty: value i is vertex i.
+// Adds Σ m_t · d_t to positions or normals, with one weight per morph target. `source[i]` is the mesh vertex of value
+// i; if `source` is empty, value i belongs to vertex i.
 void addMorphs(const Mesh& mesh, std::span<const double> weights, std::vector<glm::vec3> MorphTarget::*kind,
                std::span<const std::uint32_t> source, std::vector<glm::dvec3>& values);
 
-// Normals turn with the inverse transpose of Σ w_j · M_j; world space, each as long as the mesh's (which morph targets
-// may change). Empty where the mesh has none.
+// Returns world-space normals, transformed by the inverse transpose of Σ w_j · M_j. Each keeps the length of the
+// (morphed) mesh normal. Empty if the mesh has no normals.
 std::vector<glm::vec3> posedNormals(const Mesh& mesh, const Object& object);
 
-// Does the pose move the vertices against each other?
+// Returns whether the pose deforms the mesh: it has a skin or a nonzero morph weight.
 bool deformed(const Object& object);
 
-// Of the vertices that triangles use; world space. Exact where the object is deformed, else the transformed box of the
-// mesh.
+// Returns the world-space bounding box of the vertices that triangles use. Exact for deformed objects, else the
+// transformed bounding box of the mesh.
 Bounds posedBounds(const Mesh& mesh, const Object& object);
 
-// As posedBounds, for `meshBounds` that were measured before.
+// Same, with precomputed `meshBounds`.
 Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object);
 
 }  // namespace defocus::engine

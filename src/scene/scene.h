@@ -1,6 +1,6 @@
 #pragma once
-// A scene as read from a file or made by a generator: plain data, in glTF 2.0's terms. Nothing here knows of the GPU.
-// Units: metres, radians, linear Rec.709; right-handed, y up, cameras look along -z.
+// Scene data in glTF 2.0's terms, read from a file or generated; independent of the GPU. Units: metres, radians, linear
+// Rec.709. Right-handed, y up, cameras look along -z.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,7 @@ enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 enum class Filter { nearest, linear };
 
 struct Texture {
-    int image = -1;  // into Scene::images
+    int image = -1;  // index into Scene::images
     Wrap wrapS = Wrap::repeat;
     Wrap wrapT = Wrap::repeat;
     Filter magnification = Filter::linear;
@@ -38,7 +38,7 @@ struct Texture {
 };
 
 struct TextureUse {
-    int texture = -1;             // into Scene::textures; -1: none
+    int texture = -1;             // index into Scene::textures; -1: none
     int uvSet = 0;                // 0 or 1
     glm::mat3 uvTransform{1.0f};  // KHR_texture_transform: uv' = (uvTransform · (u, v, 1)).xy
     [[nodiscard]] bool used() const { return texture >= 0; }
@@ -51,51 +51,51 @@ struct Material {
     glm::vec4 baseColorFactor{1.0f};  // linear, straight alpha
     float metallicFactor = 1.0f;
     float roughnessFactor = 1.0f;
-    glm::vec3 emissiveFactor{0.0f};  // KHR_materials_emissive_strength multiplied in
+    glm::vec3 emissiveFactor{0.0f};  // includes KHR_materials_emissive_strength
     float normalScale = 1.0f;
     float occlusionStrength = 1.0f;
-    TextureUse baseColor;          // sRGB
-    TextureUse metallicRoughness;  // linear; G roughness, B metallic
+    TextureUse baseColor;          // sRGB-encoded
+    TextureUse metallicRoughness;  // linear; roughness in G, metalness in B
     TextureUse normal;             // linear, tangent space, +y up
-    TextureUse occlusion;          // linear; R
-    TextureUse emissive;           // sRGB
+    TextureUse occlusion;          // linear; uses R
+    TextureUse emissive;           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;  // AlphaMode::mask
+    float alphaCutoff = 0.5f;  // for AlphaMode::mask
     bool doubleSided = false;
     bool unlit = false;  // KHR_materials_unlit
 
-    // KHR_materials_ior and KHR_materials_specular, of what isn't metal.
-    float ior = 1.5f;  // ≥ 1; 0: it mirrors everything
+    // KHR_materials_ior and KHR_materials_specular, for the dielectric part of the material.
+    float ior = 1.5f;  // ≥ 1; 0: reflects all light
     float specularFactor = 1.0f;
     glm::vec3 specularColorFactor{1.0f};
-    TextureUse specular;       // linear; A
-    TextureUse specularColor;  // sRGB
+    TextureUse specular;       // linear; uses A
+    TextureUse specularColor;  // sRGB-encoded
 
     // KHR_materials_transmission and KHR_materials_volume.
     float transmissionFactor = 0.0f;
-    TextureUse transmission;       // linear; R
-    float thicknessFactor = 0.0f;  // object units along the refracted ray; 0: a thin wall, which doesn't refract
-    TextureUse thickness;          // linear; G
-    float attenuationDistance = std::numeric_limits<float>::infinity();  // scene units, to `attenuationColor`
+    TextureUse transmission;       // linear; uses R
+    float thicknessFactor = 0.0f;  // object units along the refracted ray; 0: thin wall without refraction
+    TextureUse thickness;          // linear; uses G
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // in scene units, for `attenuationColor`
     glm::vec3 attenuationColor{1.0f};
 
     // KHR_materials_clearcoat.
     float clearcoatFactor = 0.0f;
     float clearcoatRoughnessFactor = 0.0f;
     float clearcoatNormalScale = 1.0f;
-    TextureUse clearcoat;           // linear; R
-    TextureUse clearcoatRoughness;  // linear; G
-    TextureUse clearcoatNormal;     // as `normal`; without one the coat is as smooth as the mesh
+    TextureUse clearcoat;           // linear; uses R
+    TextureUse clearcoatRoughness;  // linear; uses G
+    TextureUse clearcoatNormal;     // as `normal`; without one, the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
     float sheenRoughnessFactor = 0.0f;
-    TextureUse sheenColor;      // sRGB
-    TextureUse sheenRoughness;  // linear; A
+    TextureUse sheenColor;      // sRGB-encoded
+    TextureUse sheenRoughness;  // linear; uses A
 
-    // Shows what lies behind it.
+    // Returns whether surfaces behind this one show through it.
     [[nodiscard]] bool transmits() const { return !unlit && transmissionFactor > 0; }
-    // What isn't metal reflects otherwise than glTF's 4 %.
+    // Returns whether the dielectric reflectance differs from glTF's default of 4 %.
     [[nodiscard]] bool hasOwnReflectance() const {
         return !unlit && (ior != 1.5f || specularFactor != 1 || specularColorFactor != glm::vec3(1) ||
                           specular.used() || specularColor.used());
@@ -106,7 +106,7 @@ struct Material {
 
 inline constexpr std::size_t materialTextureCount = 14;
 
-// All textures of a material; the shaders (surface_shading.glsl) know them by these places.
+// Returns all textures of a material, in the order that surface_shading.glsl expects.
 inline std::array<const TextureUse*, materialTextureCount> textureUses(const Material& m) {
     return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
             &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,
@@ -125,18 +125,18 @@ struct Light {  // KHR_lights_punctual
     float range = 0.0f;           // m; 0: unlimited
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
-    // What casts soft shadows: a disk that faces whatever it shines on. glTF knows no sizes; these are the sun's and
-    // that of a bulb.
-    float angularDiameter = 0.00925f;  // rad, of a directional light
-    float radius = 0.03f;              // m, of a point or spot light
+    // Size of the light's disk, which faces the lit point; it softens shadows. glTF has no light sizes: the defaults
+    // are those of the sun and of a light bulb.
+    float angularDiameter = 0.00925f;  // rad; directional lights
+    float radius = 0.03f;              // m; point and spot lights
 };
 
-// What lies behind everything and lights it from all around. Radiance L(d) for a direction d with d.y up.
+// Type of the environment that surrounds and lights the scene, with radiance L(d) for a direction d (d.y up).
 enum class EnvironmentType {
     none,      // black and transparent: alpha is the coverage of the geometry
     uniform,   // L = zenith everywhere
-    gradient,  // L = mix(horizon, zenith, d.y) above, mix(horizon, nadir, -d.y) below
-    map,       // equirectangular HDR image; its centre column lies at -z, its right half at +x
+    gradient,  // L = mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below
+    map,       // equirectangular HDR image; centre column at -z, right half at +x
 };
 
 struct Environment {
@@ -144,9 +144,9 @@ struct Environment {
     glm::vec3 zenith{0.0f};
     glm::vec3 horizon{0.0f};
     glm::vec3 nadir{0.0f};
-    std::shared_ptr<const Image> map;  // EnvironmentType::map; NaN is black
-    bool visible = true;    // false: it lights the surfaces, but behind them is nothing (alpha is their coverage)
-    float lighting = 1.0f;  // scales the light it throws on surfaces (its own look stays)
+    std::shared_ptr<const Image> map;  // for EnvironmentType::map; NaN counts as black
+    bool visible = true;               // false: lights the scene, but the background is transparent
+    float lighting = 1.0f;             // factor on the light on surfaces; the background keeps its radiance
 };
 
 // ---- hierarchy and animation --------------------------------------------------------------------
@@ -158,79 +158,78 @@ struct Node {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    std::optional<glm::dmat4> matrix;  // replaces translation, rotation, scale (never animated then)
+    std::optional<glm::dmat4> matrix;  // replaces translation, rotation and scale; never animated
     int mesh = -1;
     int skin = -1;
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
-    double cocScale = 1;                // factor on the blur of its subtree (extras), ≥ 0; 0: always sharp
-    bool ground = false;                // its mesh belongs to the surroundings (scene/ground.h)
-    std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: the mesh is drawn once for each, in the node's space
+    double cocScale = 1;                // factor on the blur of the node's subtree (extras), ≥ 0; 0: always sharp
+    bool ground = false;                // mesh is the added ground (scene/ground.h)
+    std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
 };
 
 struct Skin {
     std::string name;
-    std::vector<int> joints;                     // node indices
-    std::vector<glm::mat4> inverseBindMatrices;  // as many as joints
+    std::vector<int> joints;                     // indices into Scene::nodes
+    std::vector<glm::mat4> inverseBindMatrices;  // one per joint
 };
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // of a node, as the next three
+    translation,  // node property, like the next three
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; of a camera (KHR_animation_pointer), as the next two
+    cameraYfov,   // radians; camera property (KHR_animation_pointer), like the next two
     cameraZnear,  // m
-    cameraLens,   // the value `lensValue` of Camera::lens
-    lightColor,   // of a light (KHR_animation_pointer), as the next two
+    cameraLens,   // entry `lensValue` of Camera::lens
+    lightColor,   // light property (KHR_animation_pointer), like the next two
     lightIntensity,
     lightRange,  // m
 };
 
 struct AnimationChannel {
-    int target = -1;  // by its path: into Scene::nodes, Scene::cameras or Scene::lights
+    int target = -1;  // index into Scene::nodes, Scene::cameras or Scene::lights, depending on `path`
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // 3, 4, (targets) or 1 floats a key; cubicSpline: in-tangent, value, out-tangent
-    std::string lensValue;      // ChannelPath::cameraLens
+    std::vector<float> values;  // floats per key: 1, 3, 4 or one per morph target; times 3 for cubicSpline
+    std::string lensValue;      // for ChannelPath::cameraLens
 };
 
 struct AnimationClip {
     std::string name;
     std::vector<AnimationChannel> channels;
-    float duration = 0.0f;  // seconds, the last key
+    float duration = 0.0f;  // seconds; time of the last key
 };
 
-// Something in the file that is not drawn, and why; `count` equal things in one entry.
+// Content of the file that is not drawn, and the reason. `count` equal items share one entry.
 struct Ignored {
     std::string what;
     std::string reason;
     std::uint64_t count = 1;
-    bool damage = false;  // a fault of the file, worth a warning, not something that is only not drawn
+    bool damage = false;  // the file is damaged here, which deserves a warning
 };
 
 struct Scene {
     std::string name;
-    std::filesystem::path file;  // that it was read from; empty: none
+    std::filesystem::path file;  // source file; empty: none
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;  // a primitive's material -1 is glTF's default material
+    std::vector<Material> materials;  // Primitive::material -1 is glTF's default material
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
-    std::vector<std::string> imageNames;  // as many as images
+    std::vector<std::string> imageNames;  // one per image
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;  // of the chosen glTF scene and everything joints need
+    std::vector<Node> nodes;  // nodes of the chosen glTF scene, and all nodes that joints need
     std::vector<int> roots;
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
-    std::optional<Environment> environment;  // none given: see withDefaults
-    double metresPerUnit = 1;                // of all lengths above; poses are in metres
-    std::optional<double>
-        ownMetresPerUnit;                 // as the file itself says (extras); else it is only believed to hold metres
-    std::vector<std::string> extensions;  // used by the file, sorted
+    std::optional<Environment> environment;  // empty: see environmentOrDefault
+    double metresPerUnit = 1;                // length unit of all fields above; poses are in metres
+    std::optional<double> ownMetresPerUnit;  // unit stated by the file's extras; empty: assumed to be metres
+    std::vector<std::string> extensions;     // used by the file, sorted
     std::vector<Ignored> ignored;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// The direction in which u grows on a triangle, and whether its texture is seen mirrored.
+// Direction in which u grows on a triangle, and whether its texture appears mirrored.
 struct TextureFrame {
-    glm::dvec3 tangent{0.0};  // zero where the texture coordinates span no area
+    glm::dvec3 tangent{0.0};  // zero if the texture coordinates span no area
     bool mirrored = false;
 };
 
@@ -25,7 +25,7 @@ TextureFrame textureFrame(const Vertices& vertices, const std::vector<glm::vec2>
     const glm::dvec2 uv2 = glm::dvec2(uv[triangle[2]]) - glm::dvec2(uv[triangle[0]]);
     const double area = uv1.x * uv2.y - uv2.x * uv1.y;
     if (area == 0 || !std::isfinite(area)) return {};
-    // v grows downwards in glTF, so a texture that reads properly has a negative area on a counter-clockwise triangle.
+    // In glTF, v grows downwards: an unmirrored texture has negative area on a counter-clockwise triangle.
     return {(edge1 * uv2.y - edge2 * uv1.y) * (area < 0 ? -1.0 : 1.0), area > 0};
 }
 
@@ -36,7 +36,7 @@ double cornerAngle(const Vertices& vertices, const std::uint32_t* triangle, std:
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// A vertex and its mirrored double, numbered as they are first met.
+// Splits vertices into a plain and a mirrored copy, numbered in order of first use.
 class MirrorSplit {
 public:
     explicit MirrorSplit(std::size_t count) : plain_(count, none), mirrored_(count, none) {}
@@ -72,8 +72,8 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
     const std::vector<glm::vec2> zero(chosen.empty() ? vertices.count() : 0);
     const std::vector<glm::vec2>& uv = chosen.empty() ? zero : chosen;
 
-    // Every corner adds its triangle's tangent, projected and weighted, to its vertex; triangles change to split
-    // vertices.
+    // Add each triangle's projected tangent, weighted by the corner angle, to its vertices. Redirect the triangles to
+    // the split vertices.
     MirrorSplit split(vertices.count());
     std::vector<glm::dvec3> sums;
     for (std::vector<std::uint32_t>* list : indices)
@@ -90,7 +90,7 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
             }
         }
 
-    // The split vertices with their tangents at unit length.
+    // Gather the split vertices with unit tangents.
     VertexBlock result = gathered(block, split.order());
     result.vertices.tangents.resize(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
-// Tangents for normal maps where a file has none, in the manner of MikkTSpace (Mikkelsen 2008): per corner, weighted by
-// the corner's angle, projected into the plane of the vertex normal; mirrored texture coordinates never share a vertex.
+// Tangents for normal maps if a file has none, similar to MikkTSpace (Mikkelsen 2008). Corner tangents are weighted by
+// angle and projected into the plane of the vertex normal. Triangles with mirrored texture coordinates get vertices of
+// their own.
 
 #include <cstdint>
 #include <span>
@@ -10,9 +11,9 @@
 
 namespace defocus::engine {
 
-// `block` with tangents from its normals and texture coordinates (`uvSet` 0 or 1; without any, tangents are arbitrary).
-// A vertex that mirrored and plain triangles share is doubled, and `indices` follow. w as glTF has it: bitangent =
-// cross(normal, tangent) · w points up in the image, against v.
+// Returns `block` with tangents from its normals and texture coordinates `uvSet` (0 or 1); arbitrary tangents without
+// coordinates. A vertex shared by mirrored and unmirrored triangles is duplicated, and `indices` are updated. As in
+// glTF, bitangent = cross(normal, tangent) · w points up in the image, against v.
 VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices, int uvSet);
 
 }  // namespace defocus::engine

@@ -35,7 +35,7 @@ std::string unitOfMetres(double metres) {
 }
 
 double guessedMetresPerUnit(double extent) {
-    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // m
+    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // metres
     if (!(extent > 0) || !std::isfinite(extent) || (extent >= thumb && extent <= building)) return 1;
     return std::pow(10, std::round(std::log10(everyday / extent)));
 }

@@ -1,19 +1,19 @@
 #pragma once
-// What a length of 1 in a scene is. glTF has metres; many files hold centimetres, millimetres or nothing in particular.
+// Length unit of a scene. glTF prescribes metres, but many files use centimetres, millimetres or arbitrary units.
 
 #include <string>
 
 namespace defocus::engine {
 
-// Metres of a unit: "m", "cm", "mm", or a number of metres from 1e-9 to 1e9. Throws Error for anything else.
+// Returns the metres per unit of a text: "m", "cm", "mm", or a number from 1e-9 to 1e9. Throws Error otherwise.
 double metresOfUnit(const std::string& text);
 
-// The text that metresOfUnit reads as `metres`: a unit's name where it has one.
+// Inverse of metresOfUnit: returns "m", "cm" or "mm" if `metres` matches, else the number.
 std::string unitOfMetres(double metres);
 
-// A guess for a scene of which the image frames `extent` units: metres, where that is a thing from the size of a thumb
-// (5 cm) to that of a building (30 m); else the power of ten that makes of it what comes nearest to 75 cm. 1 for an
-// extent that is no positive number.
+// Guesses the metres per unit of a scene whose framed extent is `extent` units. Returns 1 if the extent in metres lies
+// between a thumb (5 cm) and a building (30 m). Otherwise returns the power of ten that brings the extent closest to 75
+// cm. Returns 1 for extents that are not positive and finite.
 double guessedMetresPerUnit(double extent);
 
 }  // namespace defocus::engine

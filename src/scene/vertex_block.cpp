@@ -1,5 +1,5 @@
-// perpendicular(): Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012, with the
-// branch of Duff et al. 2017.
+// perpendicular() follows Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012,
+// with the sign handling of Duff et al. 2017.
 #include "scene/vertex_block.h"
 
 #include <cmath>
@@ -22,7 +22,8 @@ std::vector<T> pick(const std::vector<T>& values, std::span<const std::uint32_t>
     return result;
 }
 
-// Joins `added` (empty or `addedCount` long) to `values` (empty or `count` long): a side without values gets `neutral`.
+// Appends `added` (empty, or `addedCount` values) to `values` (empty, or `count` values). An empty side is filled with
+// `neutral` if the other is not empty.
 template <typename T>
 void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added, std::size_t addedCount,
           const T& neutral) {
@@ -34,7 +35,7 @@ void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added
         values.insert(values.end(), added.begin(), added.end());
 }
 
-// Each three positions are a triangle, whose normal its corners get; +y for one without area.
+// Returns per-vertex face normals; every three positions form a triangle. Triangles without area get +y.
 std::vector<glm::vec3> faceNormals(const std::vector<glm::vec3>& positions) {
     std::vector<glm::vec3> normals(positions.size());
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
@@ -47,7 +48,7 @@ std::vector<glm::vec3> faceNormals(const std::vector<glm::vec3>& positions) {
     return normals;
 }
 
-// Tangents for vertices [first, first + count) that have none.
+// Sets arbitrary perpendicular tangents for vertices [first, first + count).
 void fillTangents(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>& normals, std::size_t first,
                   std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i)

@@ -1,5 +1,6 @@
 #pragma once
-// Vertices on their way into a mesh: picked, multiplied, joined to others that have different attributes.
+// Vertex arrays during mesh assembly: gathering, compacting, flat shading, and appending blocks with different
+// attributes.
 
 #include <cstdint>
 #include <span>
@@ -14,23 +15,23 @@ struct VertexBlock {
     std::vector<MorphTarget> morphTargets;
 };
 
-// The vertices `order[0]`, `order[1]`, … of the others; an index may come several times or never.
+// Returns the vertices `order[0]`, `order[1]`, …; an index may repeat or be absent.
 Vertices gathered(const Vertices& vertices, std::span<const std::uint32_t> order);
 VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> order);
 
-// Keeps the vertices that `indices` use, in the order of their first use, and renumbers.
+// Returns only the vertices that `indices` use, in order of first use, and renumbers `indices`.
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Flat shading as glTF asks for without normals: every triangle gets vertices of its own with its face's normal. A
-// triangle without area gets +y. Morph targets turn the normals to those of their own faces.
+// Returns the block with flat shading, which glTF requires without normals: each triangle gets its own vertices with
+// its face normal. Triangles without area get +y. Morph targets change the normals to those of their own faces.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first. What only one side has is filled with
-// neutral values on the other: normal +y, a tangent perpendicular to the normal, uv 0, white, the first joint, no
-// displacement, the lens's blur.
+// Appends `block` to the mesh's vertices and returns the index of its first vertex. Attributes that only one side has
+// are filled with neutral values on the other. These are normal +y, a perpendicular tangent, uv 0, white, the first
+// joint, no displacement, and no added blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
-// Any unit vector perpendicular to the unit vector `normal`.
+// Returns an arbitrary unit vector perpendicular to the unit vector `normal`.
 glm::vec3 perpendicular(const glm::vec3& normal);
 
 }  // namespace defocus::engine

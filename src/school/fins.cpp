@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float rimHalfThickness = 0.0013f;  // body lengths
+constexpr float rimHalfThickness = 0.0013f;  // in body lengths
 constexpr float rootHalfThickness = 0.007f;
 constexpr float rayRelief = 0.0018f;
 
@@ -23,13 +23,13 @@ float rayLength(const std::array<float, 6>& heights, float t) {
     const float p2 = at(i + 1);
     const float p3 = i + 2 > 5 ? 2.0f * at(5) - at(4) : at(i + 2);
     const float f = x - static_cast<float>(i);
-    // Catmull-Rom
+    // Catmull-Rom spline
     const float length =
         p1 + 0.5f * f * (p2 - p0 + f * (2.0f * p0 - 5.0f * p1 + 4.0f * p2 - p3 + f * (3.0f * (p1 - p2) + p3 - p0)));
     return std::max(length, 0.0f);
 }
 
-// 1 on each of `rays` rays, 0 halfway between two.
+// Returns 1 on each of `rays` rays and 0 halfway between two rays.
 float rayWave(float t, int rays) {
     return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
@@ -39,7 +39,8 @@ Fin medianFin(const FishShape& shape, const MedianFin& fin) {
     const auto ray = [&shape, fin, up](float t) {
         const float a = glm::mix(fin.start, fin.end, t);
         const FishSection section = fishSection(shape, a);
-        // Rooted a little below the skin; the first and last ray deeper, so that the ends grow out of the body.
+        // The fin's root lies slightly below the skin. The first and last rays start deeper, so that the fin's ends
+        // blend into the body.
         const float sunk = std::min(0.018f, 0.5f * section.halfHeight);
         const glm::vec3 root(-a, section.centre + up * (section.halfHeight - sunk), 0.0f);
         const float length = sunk + rayLength(fin.heights, t) * (1.0f - fin.scallop * (1.0f - rayWave(t, fin.rays)));
@@ -93,7 +94,7 @@ Fin pairedFin(const FishShape& shape, const PairedFin& fin, float side) {
     const auto ray = [=](float t) {
         const float s = 1.0f - 2.0f * t;
         const float notch = 1.0f - 0.03f * (1.0f - rayWave(t, fin.rays));
-        // Longest a little above the middle, and round at both ends.
+        // Rays are longest slightly above the middle; both ends are round.
         const float off = (s - 0.35f) / 1.35f;
         const float length =
             fin.length * notch * (1.0f - 0.45f * off * off) * (1.0f - 0.3f * std::pow(std::abs(s), 6.0f));
@@ -130,7 +131,7 @@ float halfThickness(const Fin& fin, float t, float r) {
     return rimHalfThickness + root + rayRelief * ends * rayWave(t, fin.rays) * (1.0f - 0.7f * r);
 }
 
-// Length of a row of vertices at `at`.
+// Returns the length of the vertex row at `at`.
 float rowLength(const Fin& fin, float at) {
     constexpr int pieces = 24;
     float sum = 0.0f;
@@ -144,7 +145,8 @@ float rowLength(const Fin& fin, float at) {
     return sum;
 }
 
-// Distance between the rows at `from` and `to`, square to them; the mean of a few places, as rows fan out.
+// Returns the distance between the rows at `from` and `to`, perpendicular to them. Rows fan out, so several distances
+// are averaged.
 float rowGap(const Fin& fin, float from, float to) {
     float sum = 0.0f;
     constexpr std::array<float, 3> places{0.15f, 0.45f, 0.8f};
@@ -198,7 +200,7 @@ FinRows finRows(const Fin& fin, float edge) {
 void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, FishSurface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
     std::vector<VertexRow> strips;
-    std::vector<glm::vec3> halves;  // half the thickness as a vector towards the front
+    std::vector<glm::vec3> halves;  // half the thickness, as a vector towards the front side
     for (std::size_t row = 0; row < rows.at.size(); ++row) {
         const std::uint32_t count = rows.counts[row];
         strips.push_back({first + static_cast<std::uint32_t>(halves.size()), count, 0.0f});
@@ -208,7 +210,7 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
             const float t = fin.rowsAlongRays ? rows.at[row] : along;
             const float r = fin.rowsAlongRays ? along : rows.at[row];
             const FinRay ray = fin.rowsAlongRays ? shared : fin.ray(t);
-            // Front: across the rows × along the row.
+            // The front normal is the derivative across the rows times the derivative along the row.
             constexpr float step = 0.004f;
             const float tStep = t + step > 1.0f ? -step : step;
             const float rStep = r + step > 1.0f ? -step : step;

@@ -1,6 +1,5 @@
 #pragma once
-// The fins of a fish: thin closed shells spanned between rays, each ray a quadratic Bézier curve from the body to the
-// edge.
+// Fish fins: thin closed shells spanned by rays. Each ray is a quadratic Bézier curve from the body to the fin's edge.
 
 #include <cstdint>
 #include <functional>
@@ -18,15 +17,15 @@ struct FinRay {
 
 struct Fin {
     FinKind kind = FinKind::dorsal;
-    std::function<FinRay(float t)> ray;    // t in 0 … 1 from the first to the last
-    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // the way it ripples
+    std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last ray
+    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // direction of the ripple
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
-    bool rowsAlongRays = false;  // rows of vertices follow the rays (long low fins), else cross them (fans)
+    bool rowsAlongRays = false;  // vertex rows follow the rays (long low fins) or cross them (fans)
 };
 
-// Where a fin's rows of vertices lie (t, or r across the rays) and how many each has, for triangle edges of `edge`.
+// Positions of a fin's vertex rows (t along rays, else r) and their vertex counts, for triangle edges of length `edge`.
 struct FinRows {
     std::vector<float> at;
     std::vector<std::uint32_t> counts;

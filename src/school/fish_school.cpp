@@ -1,5 +1,5 @@
-// The school after the test scene of Jeong, Kim and Lee, Multi-Resolution Depth-of-Field Rendering (2011): twenty fish
-// at depths from about one to eight metres. The first twenty are placed by hand, as a picture; more are scattered
+// Fish school modelled on the test scene of Jeong, Kim and Lee, Multi-Resolution Depth-of-Field Rendering (2011):
+// twenty fish at depths of about one to eight metres. The first twenty are placed by hand; further fish are scattered
 // behind and among them.
 
 #include "school/fish_school.h"
@@ -24,22 +24,22 @@ constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
 constexpr std::int64_t maximumTotal = 400'000'000;  // about 10 GB of meshes
 
-// A 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m: the CoC at 1024 px is 74.9 px · |1/2 − 1/z|, z in m: 37 px
-// at 1 m, under 2 px from 1.90 to 2.11 m, and never more than 37 px behind the focus.
+// Camera: 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m. The CoC diameter at 1024 px width is 74.9 px · |1/2 −
+// 1/z|, z in m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px behind the focus.
 constexpr double horizontalAperture = 36.0;
 constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
 constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
 constexpr double tanHalfHeight = 0.27;  // at 4:3
-constexpr double cameraTilt = 0.28;     // radians upwards: the bright water above is the backdrop
+constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright water surface is the backdrop
 
 struct Placement {
     FishSpecies species;
     int variant;
-    double x, y;        // on the image, −1 … 1, right and up
+    double x, y;        // image position in [−1, 1], right and up
     double depth;       // m
-    float length;       // m, without the tail fin
-    double yaw, pitch;  // degrees: 0 swims to the right, yaw > 0 towards the camera, pitch > 0 upwards
+    float length;       // m, without tail fin
+    double yaw, pitch;  // degrees; 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards
 };
 
 using enum FishSpecies;
@@ -49,12 +49,12 @@ constexpr std::array<Placement, 20> composition{{
     {butterflyfish, 0, 0.71, -0.28, 2.02, 0.25f, 16, -6},
     {anthias, 0, -0.48, 0.46, 2.03, 0.26f, 24, 6},
     {tang, 0, 0.62, 0.62, 2.03, 0.26f, 18, -2},
-    // Before the focus plane.
+    // In front of the focus plane.
     {clownfish, 0, -0.42, -0.38, 1.62, 0.22f, 26, 8},
     {goldfish, 0, -0.82, -0.84, 1.10, 0.175f, 22, 12},
     {tang, 1, 0.72, -0.86, 1.16, 0.17f, 26, 8},
     {anthias, 2, -0.90, 0.84, 1.26, 0.19f, 14, 0},
-    // Behind it.
+    // Behind the focus plane.
     {anthias, 1, 0.06, -0.66, 2.45, 0.30f, 30, 8},
     {parrotfish, 0, -0.86, 0.06, 2.90, 0.42f, 18, 5},
     {butterflyfish, 1, -0.06, 0.66, 3.00, 0.36f, 24, 2},
@@ -78,8 +78,8 @@ glm::dvec3 worldPosition(const Placement& fish) {
            glm::dvec3(fish.x * tanHalfWidth * fish.depth, fish.y * tanHalfHeight * fish.depth, -fish.depth);
 }
 
-// Fish beyond the composition: scattered through the view, behind the focus plane, clear of every fish before them. The
-// view deepens with their number, and with every try that finds no room.
+// Adds fish beyond the composed ones: scattered in the view behind the focus plane, without overlapping other fish. The
+// depth range grows with their number and with each failed attempt.
 void scatter(std::size_t count, std::uint32_t seed, std::vector<Placement>& school) {
     std::vector<glm::dvec3> centres;
     centres.reserve(count);
@@ -131,7 +131,7 @@ void addCamera(Scene& scene) {
     addNode(std::move(node), scene);
 }
 
-// A directional light that shines along `direction` as the camera sees it (a light's node shines along −z).
+// Adds a directional light that shines along `direction` in camera axes. A light's node shines along −z.
 void addSun(const std::string& name, const glm::vec3& color, float lux, const glm::dvec3& direction, Scene& scene) {
     Light light;
     light.name = name;
@@ -190,12 +190,12 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     checkOptions(options);
     const auto count = static_cast<std::size_t>(options.fishCount);
 
-    // Where each fish swims.
+    // Place the fish.
     std::vector<Placement> school(
         composition.begin(), composition.begin() + static_cast<std::ptrdiff_t>(std::min(count, composition.size())));
     if (count > school.size()) scatter(count, options.seed, school);
 
-    // Each fish is a mesh of its own.
+    // Create one mesh per fish.
     Scene scene;
     scene.name = "Fish school";
     addMaterials(scene);
@@ -210,7 +210,7 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
         report(progress, "fish", ++done, count);
     });
 
-    // Nodes: fish, camera, lights.
+    // Add the nodes of fish, camera and lights.
     for (std::size_t i = 0; i < count; ++i) {
         constexpr double radians = 3.14159265358979323846 / 180.0;
         Node node;

@@ -1,6 +1,6 @@
 #pragma once
-// The built-in scene: a school of fish after the one in Jeong, Kim and Lee 2011. Every fish is a different mesh (shape,
-// fins, scales in relief, pattern), made deterministically by this generator; no file is needed.
+// Built-in scene: a school of fish modelled on the scene of Jeong, Kim and Lee 2011. Each fish has a unique mesh with
+// its own shape, fins, scales and pattern. The generator is deterministic and needs no file.
 
 #include <cstdint>
 
@@ -10,13 +10,13 @@
 namespace defocus::engine {
 
 struct FishSchoolOptions {
-    int fishCount = 20;             // 1 … 10,000
-    int trianglesPerFish = 90'000;  // about; 200 … 10,000,000
+    int fishCount = 20;             // 1 to 10,000
+    int trianglesPerFish = 90'000;  // approximate; 200 to 10,000,000
     std::uint32_t seed = 1;
 };
 
-// The school with its camera (fStop and focusDistance set), lights and environment. Throws Error for options out of
-// range.
+// Returns the school with its camera (fStop and focusDistance set), lights and environment. Throws Error for options
+// out of range.
 Scene fishSchool(const FishSchoolOptions& options = {}, const Progress& progress = {});
 
 }  // namespace defocus::engine

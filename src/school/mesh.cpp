@@ -13,22 +13,21 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // the eyes' triangle edges against the body's: pupils want crisp borders
+constexpr float eyeEdge = 0.75f;  // triangle edges of the eyes relative to the body; smaller for crisp pupils
 
-// ---- body
-// ----------------------------------------------------------------------------------------------------------------
+// ---- body ------------------------------------------------------------------------------------------
 
 struct Rings {
-    std::vector<float> at;  // a, or the angle from the pole
+    std::vector<float> at;  // body: position `a`; eye: angle from the pole
     std::vector<std::uint32_t> counts;
 };
 
-float ellipsePerimeter(float p, float q) {  // Ramanujan 1914
+float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914
     return pi * (3.0f * (p + q) - std::sqrt((3.0f * p + q) * (p + 3.0f * q)));
 }
 
 Rings bodyRings(const FishShape& shape, float edge) {
-    // Distance from the snout over the skin, averaged over back, belly and flank; fine steps where the snout is round.
+    // Distance from the snout over the skin, averaged over back, belly and flank. Steps are fine at the round snout.
     constexpr int pieces = 400;
     std::vector<float> distance{0.0f};
     std::vector<float> at{0.0f};
@@ -49,7 +48,7 @@ Rings bodyRings(const FishShape& shape, float edge) {
     const auto steps = std::max(6, static_cast<int>(std::lround(distance.back() / (0.87f * edge))));
     Rings rings;
     std::size_t piece = 1;
-    for (int i = 1; i < steps; ++i) {  // the ends are single vertices
+    for (int i = 1; i < steps; ++i) {  // the poles are single vertices
         const float wanted = distance.back() * static_cast<float>(i) / static_cast<float>(steps);
         while (piece < pieces && distance[piece] < wanted) ++piece;
         const float a =
@@ -63,7 +62,7 @@ Rings bodyRings(const FishShape& shape, float edge) {
     return rings;
 }
 
-// Angles (from the back over the left flank) that are evenly spaced on the skin of a section.
+// Angles that are evenly spaced along the skin of a section, from the back over the left flank.
 class Girth {
 public:
     explicit Girth(const FishSection& section) {
@@ -74,7 +73,7 @@ public:
             length_[i] = length_[i - 1] + 0.5f * pi / static_cast<float>(quarter) * std::sqrt(dy * dy + dz * dz);
         }
     }
-    // Angle at `fraction` (0 … 1) of the way around.
+    // Returns the angle at `fraction` (0 to 1) of the girth.
     [[nodiscard]] float angle(float fraction) const {
         const float turns = 4.0f * fraction;
         const float quadrant = std::floor(turns);
@@ -102,7 +101,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // The outline's slope, for the normals.
+        // Slope of the outline, for the normals.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);
@@ -134,8 +133,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
     capRing(rows.back(), end, true, surface.indices);
 }
 
-// ---- eyes
-// ----------------------------------------------------------------------------------------------------------------
+// ---- eyes ------------------------------------------------------------------------------------------
 
 Rings eyeRings(const FishShape& shape, float edge) {
     const float radius = shape.eyeRadius;
@@ -150,7 +148,7 @@ Rings eyeRings(const FishShape& shape, float edge) {
     return rings;
 }
 
-// A flattened ball, its pole looking outwards and a little ahead.
+// Adds an eye: a flattened sphere whose pole points outwards and slightly forwards.
 void addEye(const Fish& fish, const Rings& rings, float side, FishSurface& surface) {
     const FishShape& shape = fish.shape;
     const FishSection section = fishSection(shape, shape.eyeA);
@@ -185,8 +183,7 @@ void addEye(const Fish& fish, const Rings& rings, float side, FishSurface& surfa
     capRing(rows.back(), end, true, surface.indices);
 }
 
-// ---- the whole
-// -----------------------------------------------------------------------------------------------------------
+// ---- complete fish ---------------------------------------------------------------------------------
 
 struct Layout {
     float edge = 0;
@@ -206,7 +203,8 @@ Layout layout(const FishShape& shape, const std::vector<Fin>& fins, float edge) 
     return result;
 }
 
-// The layout whose triangle count is nearest to the one wanted: the count falls with the square of the edge.
+// Returns the layout whose triangle count is closest to `triangles`. The count is inversely proportional to the squared
+// edge length.
 Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int triangles) {
     const auto wanted = static_cast<double>(triangles);
     Layout best = layout(shape, fins, static_cast<float>(1.6 / std::sqrt(wanted)));
@@ -226,7 +224,7 @@ Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int trian
 
 void FishSurface::add(const glm::vec3& position, const glm::vec3& color) {
     positions.push_back(position);
-    // In steps of 8 bits, as most files have them.
+    // Quantise to 8 bits, as in most files.
     const glm::vec3 steps = glm::floor(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
     colors.emplace_back(steps / 255.0f, 1);
 }
@@ -235,7 +233,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::vector<Fin> fins = fishFins(fish.shape);
     const Layout plan = layoutFor(fish.shape, fins, triangles);
 
-    // The straight fish, in body lengths: body and fins, then the eyes.
+    // Build the straight fish in body lengths: body and fins, then the eyes.
     FishSurface surface;
     surface.positions.reserve(plan.triangles / 2 + 64);
     surface.colors.reserve(plan.triangles / 2 + 64);
@@ -245,7 +243,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::size_t skinIndices = surface.indices.size();
     for (const float side : {1.0f, -1.0f}) addEye(fish, plan.eye, side, surface);
 
-    // Bend it as if swimming, and normals from the surface as displaced.
+    // Bend the fish as if swimming, then compute normals from the displaced surface.
     const FishSpine spine(fish.shape);
     for (glm::vec3& position : surface.positions) position = fish.shape.length * spine.bend(position);
     Mesh mesh;

@@ -1,6 +1,6 @@
 #pragma once
-// The mesh of one fish: a closed surface each for the body, every fin and both eyes, with vertex colours, all of evenly
-// sized triangles.
+// Mesh of one fish with vertex colours: closed surfaces for the body, each fin and both eyes, with triangles of similar
+// size.
 
 #include <cstdint>
 #include <string>
@@ -18,11 +18,11 @@ struct Fish {
     FishPattern pattern;
 };
 
-// Two primitives: body with fins (`skinMaterial`) and eyes (`eyeMaterial`), of about `triangles` triangles together.
-// Metres; the origin lies in the fish, its head points along +x, its back along +y.
+// Returns a mesh of about `triangles` triangles with two primitives: body and fins (`skinMaterial`), and eyes
+// (`eyeMaterial`). Units are metres. The origin lies inside the fish, the head points to +x, the back to +y.
 Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial);
 
-// The parts being assembled (body lengths, unbent), for fish_mesh.cpp and fish_fins.cpp.
+// Surface during assembly, in body lengths and unbent; shared by mesh.cpp and fins.cpp.
 struct FishSurface {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec4> colors;

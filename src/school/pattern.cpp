@@ -10,9 +10,9 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float softness = 0.012f;  // of painted borders, in body lengths: a few edges of the mesh
+constexpr float softness = 0.012f;  // half width of soft painted borders, in body lengths; a few mesh edges
 
-// 1 where |distance| < halfWidth, with a soft border.
+// Returns 1 for |distance| < halfWidth and 0 outside, with a soft border.
 float painted(float distance, float halfWidth, float soft = softness) {
     return 1.0f - glm::smoothstep(halfWidth - soft, halfWidth + soft, std::abs(distance));
 }
@@ -82,7 +82,7 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float height = point.height;
     const float wobble = 2.0f * valueNoise({7.0f * a, 7.0f * y}, pattern.seed + 5u) - 1.0f;
 
-    // Countershading from the dark back to the pale belly, then the tail half's colour and the face.
+    // Apply countershading from the dark back to the pale belly, then the colours of the rear half and the face.
     glm::vec3 color = glm::mix(pattern.flank, pattern.back, glm::smoothstep(0.05f, 0.95f, height + 0.1f * wobble));
     const float bellyAmount =
         1.0f - glm::smoothstep(pattern.bellyEdge - 0.45f, pattern.bellyEdge + 0.3f, height + 0.1f * wobble);
@@ -100,10 +100,10 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float nearMouth = 1.0f - glm::smoothstep(0.4f, 1.3f, a / std::max(shape.mouthLength, 0.02f));
     color = glm::mix(color, pattern.lips, pattern.lipsAmount * nearMouth);
 
-    // The stem takes on the tail fin's colour before the fin comes out of it.
+    // The tail's stem blends into the tail fin's colour.
     color = glm::mix(color, pattern.caudalRoot, glm::smoothstep(0.905f, 0.95f, a + 0.008f * wobble));
 
-    // Relief: every scale its own tone, pale rims, dark grooves.
+    // Apply the relief: a tone per scale, pale rims, dark grooves.
     color *= 1.0f + pattern.scaleVariation * relief.scaleTone + 0.05f * wobble;
     const float brightness = std::max({color.r, color.g, color.b});
     const float rims = pattern.scaleEdgeAmount * glm::smoothstep(0.02f, 0.4f, brightness);
@@ -126,7 +126,7 @@ glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, f
     } else {
         color = glm::mix(pattern.pairedRoot, pattern.pairedEdge, glm::smoothstep(0.1f, 0.9f, r));
     }
-    // Rays are denser than the web between them, which lets the light behind shine through a little.
+    // The web between the rays is thinner and lets some light through.
     const float web = 1.0f - ray;
     return color * (0.82f + 0.18f * ray) + 0.06f * web * glm::smoothstep(0.2f, 1.0f, r) * glm::vec3(0.5f, 0.8f, 1.0f);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of a fish, painted on its skin and fins. Linear Rec.709.
+// Colours of a fish's skin and fins, in linear Rec.709.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -9,32 +9,32 @@
 
 namespace defocus::engine {
 
-struct FishBand {  // around the body
+struct FishBand {  // band around the body
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // bends the band: a shift at back and belly
-    float slant = 0.0f;  // a shift from belly to back
+    float bow = 0.0f;    // curvature: shift towards the tail at back and belly
+    float slant = 0.0f;  // shift from belly to back
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;
 };
 
-struct FishStripes {      // along the body
-    float count = 0.0f;   // over the height of the body; 0: none
-    float share = 0.45f;  // of the stripes' period that is painted
-    float slant = 0.0f;   // rises towards the tail, in half heights a body length
-    float wave = 0.0f;    // wobble, in periods
+struct FishStripes {      // stripes along the body
+    float count = 0.0f;   // number over the body's height; 0: none
+    float share = 0.45f;  // painted fraction of the period
+    float slant = 0.0f;   // rise towards the tail, in half heights per body length
+    float wave = 0.0f;    // waviness, in periods
     float from = 0.3f;
     float to = 1.0f;
     glm::vec3 color{0.0f};
 };
 
 struct FishSpots {
-    float size = 0.0f;    // distance of the spots; 0: none
-    float radius = 0.3f;  // in sizes
+    float size = 0.0f;    // spacing of the spots; 0: none
+    float radius = 0.3f;  // relative to `size`
     float from = 0.3f;
     float to = 1.0f;
-    float lowest = -1.0f;  // in half heights of the section
+    float lowest = -1.0f;  // height range, in half heights of the section
     float highest = 1.0f;
     glm::vec3 color{0.0f};
     glm::vec3 halo{0.0f};
@@ -45,9 +45,9 @@ struct FishPattern {
     glm::vec3 back{0.1f};
     glm::vec3 flank{0.5f};
     glm::vec3 belly{0.8f};
-    float bellyEdge = -0.35f;  // where the belly's colour takes over, in half heights
-    glm::vec3 rear{0.5f};      // the tail half's colour
-    float rearStart = 2.0f;    // beyond 1: none
+    float bellyEdge = -0.35f;  // height of the belly colour's edge, in half heights
+    glm::vec3 rear{0.5f};      // colour of the rear half
+    float rearStart = 2.0f;    // position `a`; above 1: none
     float rearSoftness = 0.15f;
     float rearSlant = 0.0f;
     glm::vec3 face{0.5f};
@@ -57,16 +57,16 @@ struct FishPattern {
     std::vector<FishBand> bands;
     FishStripes stripes;
     FishSpots spots;
-    glm::vec3 scaleEdge{1.0f};  // the pale rim of the scales
+    glm::vec3 scaleEdge{1.0f};  // pale rim of the scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
-    glm::vec3 medianRoot{0.5f};  // dorsal and anal fin, at the root and at the edge
+    glm::vec3 medianRoot{0.5f};  // dorsal and anal fin, from root to edge
     glm::vec3 medianEdge{0.5f};
-    glm::vec3 medianRim{0.5f};  // a thin line along the edge
+    glm::vec3 medianRim{0.5f};  // thin line along the fin's edge
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};
-    glm::vec3 caudalRim{0.5f};  // along the upper and lower rays
+    glm::vec3 caudalRim{0.5f};  // along the outermost rays
     float caudalRimWidth = 0.0f;
     glm::vec3 pairedRoot{0.5f};
     glm::vec3 pairedEdge{0.5f};
@@ -77,13 +77,14 @@ struct FishPattern {
 glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const FishSkinPoint& point,
                     const FishRelief& relief);
 
-// A fin at ray `t` (0 … 1 from the first to the last), `r` of the way to its edge; `ray` is 1 on a ray, 0 between two.
+// Returns a fin's colour at ray position `t` (0 to 1 from the first to the last) and fraction `r` of the distance to
+// its edge. `ray` is 1 on a ray and 0 between two rays.
 glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, float ray);
 
-// The eye at `angle` radians from the middle of the pupil.
+// Returns the eye's colour at `angle` radians from the pupil's centre.
 glm::vec3 eyeColor(const FishPattern& pattern, float angle);
 
-// 0xRRGGBB in sRGB → linear.
+// Converts 0xRRGGBB in sRGB to linear.
 glm::vec3 linearColor(std::uint32_t srgb);
 
 }  // namespace defocus::engine

@@ -1,7 +1,6 @@
 #pragma once
-// The fish kinds before any variation: outline, fins and palette of each. `variant` picks a palette, modulo their
-// number. fish_prototypes_disks.cpp: tall disks; fish_prototypes_ovals.cpp: ovals; fish_prototypes_swimmers.cpp: long
-// swimmers.
+// Fish species before random variation: outline, fins and palettes. `variant` selects a palette, modulo their number.
+// prototypes_disks.cpp has tall disks, prototypes_ovals.cpp ovals, prototypes_swimmers.cpp long swimmers.
 
 #include "school/mesh.h"
 
@@ -19,7 +18,7 @@ Fish goldfish(int variant);
 Fish fusilier(int variant);
 Fish parrotfish(int variant);
 
-// Shorthands for the tables, colours as 0xRRGGBB in sRGB.
+// Short names for the species tables. Colours are 0xRRGGBB in sRGB.
 inline glm::vec3 rgb(std::uint32_t srgb) {
     return linearColor(srgb);
 }

@@ -2,8 +2,7 @@
 
 namespace defocus::engine::prototypes {
 
-// ---- tall disks
-// ----------------------------------------------------------------------------------------------------------
+// ---- tall disks ------------------------------------------------------------------------------------
 
 Fish angelfish(int variant) {
     Fish fish{.species = "Angelfish", .shape = {}, .pattern = {}};
@@ -81,7 +80,7 @@ Fish butterflyfish(int variant) {
         p.bands.push_back({.93f, .018f, -.02f, 0, rgb(0x15161d), {}, 0});
         setMedianFins(p, 0xffc40e, 0xffdd3c);
         setCaudalFin(p, 0xffcb18, 0xfff0a0);
-    } else if (variant % 3 == 1) {  // pearl, with a golden tail half
+    } else if (variant % 3 == 1) {  // pearl with golden rear half
         setBody(p, 0xe9e4d6, 0xf4f1e6, 0xfffbf0);
         p.stripes = {12.0f, .2f, 1.5f, .1f, .32f, .74f, rgb(0x3b4a63)};
         p.rear = rgb(0xffb70a);

@@ -1,6 +1,7 @@
 #pragma once
-// The random numbers of the fish school: PCG32 (O'Neill 2014), and a value noise over an integer hash. Written out here
-// since the distributions of the standard library differ between its implementations, and the school must not.
+// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. They are
+// implemented here because the standard library's distributions differ between implementations, but the school must
+// not.
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace defocus::engine {
 
 class FishRandom {
 public:
-    // Two seeds that differ in any bit give unrelated sequences.
+    // Seeds or streams that differ in any bit give unrelated sequences.
     FishRandom(std::uint32_t seed, std::uint32_t stream) : increment_((std::uint64_t{stream} << 1u) | 1u) {
         next();
         state_ += 0x9e3779b97f4a7c15ull * (std::uint64_t{seed} + 1u);
@@ -27,10 +28,10 @@ public:
         return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
     }
 
-    // In [0, 1), 24 bits.
+    // Returns a value in [0, 1) with 24 bits.
     float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
-    // `value` times a factor within ± `relative`.
+    // Returns `value` times a random factor in 1 ± `relative`.
     float vary(float value, float relative) { return value * uniform(1.0f - relative, 1.0f + relative); }
 
 private:
@@ -38,14 +39,14 @@ private:
     std::uint64_t increment_;
 };
 
-// A value in [0, 1) for a lattice point.
+// Returns a hash value in [0, 1) of a lattice point.
 inline float latticeValue(int x, int y, std::uint32_t seed) {
     const std::uint32_t hash =
         lowbias32(seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y));
     return static_cast<float>(hash >> 8u) * 0x1p-24f;
 }
 
-// Smooth value noise in [0, 1], one lattice cell a unit.
+// Returns smooth value noise in [0, 1]; lattice cells have size 1.
 inline float valueNoise(const glm::vec2& p, std::uint32_t seed) {
     const glm::vec2 cell = glm::floor(p);
     const glm::vec2 f = p - cell;

@@ -1,5 +1,5 @@
-// Outline interpolation: Fritsch and Carlson, Monotone Piecewise Cubic Interpolation (1980), which never overshoots the
-// knots.
+// Outline interpolation: Fritsch and Carlson, Monotone Piecewise Cubic Interpolation (1980), which does not overshoot
+// the knots.
 
 #include "school/shape.h"
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float originA = 0.45f;  // the bend leaves this point of the spine where it is
+constexpr float originA = 0.45f;  // point of the spine that bending leaves in place
 
 float monotoneCubic(const std::array<float, 9>& x, const std::array<float, 9>& y, float at) {
     const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
@@ -53,14 +53,15 @@ float distanceToSegment(const glm::vec2& p, const glm::vec2& a, const glm::vec2&
     return glm::length(p - a - t * ab);
 }
 
-// Scales overlap like roof tiles, each over the one behind it: of the disks that hold the point, the foremost is seen.
+// Adds scales, which overlap like roof tiles: each covers the one behind it. Of the disks that contain the point, the
+// foremost is visible.
 void addScales(const FishShape& shape, float a, float alongGirth, float detail, FishRelief& relief) {
     const float behindGill = glm::smoothstep(shape.gillA * 0.97f, shape.gillA * 1.12f, a);
     const float beforeTail = 1.0f - glm::smoothstep(0.93f, 1.0f, a);
     const float held = 1.0f - glm::smoothstep(0.22f, 0.5f, detail / shape.scaleSize);
     const float strength = behindGill * beforeTail * held;
     if (strength <= 0.0f) return;
-    constexpr float radius = 0.66f;  // in scale sizes
+    constexpr float radius = 0.66f;  // relative to the scale size
     constexpr float rowHeight = 0.56f;
     const glm::vec2 p(a / shape.scaleSize, alongGirth / shape.scaleSize);
     const int row = static_cast<int>(std::floor(p.y / rowHeight + 0.5f));
@@ -99,7 +100,7 @@ void addHead(const FishShape& shape, const glm::vec2& p, float detail, FishRelie
     const float toEye = glm::length(p - eye);
     relief.displacement += 0.006f * bell(toEye - 1.15f * shape.eyeRadius, std::max(0.3f * shape.eyeRadius, fine));
     const float grooveEye = 0.6f * bell(toEye - 0.95f * shape.eyeRadius, std::max(0.16f * shape.eyeRadius, fine));
-    // Gill cover: a plate that ends in a step, and the fold of the cheek before it.
+    // Gill cover: a plate with a step at its rear edge and a fold of the cheek in front.
     const FishSection gill = fishSection(shape, shape.gillA * 0.8f);
     const glm::vec2 hinge(shape.gillA * 0.52f, gill.centre + 0.05f * gill.halfHeight);
     const glm::vec2 reach(shape.gillA * 0.48f, 0.68f * gill.halfHeight);
@@ -121,7 +122,7 @@ FishSection fishSection(const FishShape& shape, float a) {
     float top = monotoneCubic(knotRoots(), shape.outline.top, root);
     float bottom = monotoneCubic(knotRoots(), shape.outline.bottom, root);
     float width = monotoneCubic(knotRoots(), shape.outline.width, root);
-    // The tail's stem flattens into the tail fin, and its end, hidden there, is rounded off.
+    // The tail's stem flattens towards the tail fin. Its end, hidden inside the fin, is rounded.
     width *= 1.0f - 0.62f * glm::smoothstep(0.86f, 0.98f, a);
     constexpr float roundFrom = 0.975f;
     if (a > roundFrom) {
@@ -138,7 +139,7 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
     FishRelief relief;
     addScales(shape, point.a, point.alongGirth, detail, relief);
     if (point.a < 1.4f * shape.gillA) addHead(shape, {point.a, point.y}, detail, relief);
-    // Lateral line: a fine groove along the flank that rises with the back towards the head.
+    // Lateral line: a fine groove along the flank that rises towards the head.
     const float rise = 0.34f - 0.34f * glm::smoothstep(0.35f, 0.9f, point.a);
     const float held =
         glm::smoothstep(shape.gillA, shape.gillA + 0.08f, point.a) * (1.0f - glm::smoothstep(0.9f, 0.98f, point.a));
@@ -149,7 +150,7 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
 }
 
 FishSpine::FishSpine(const FishShape& shape) {
-    // Heading along the spine: the swimming wave grows from the head to the tail; both bends start at the origin.
+    // Heading along the spine: the swimming wave grows from head to tail, and the turn is zero at the origin.
     const auto heading = [&](float a) {
         const float envelope = glm::smoothstep(0.1f, 1.25f, a) + 0.08f;
         return shape.turn * (a - originA) +
@@ -172,7 +173,7 @@ glm::vec3 FishSpine::bend(const glm::vec3& straight) const {
     const float index = glm::clamp(std::floor(at), 0.0f, static_cast<float>(steps - 1));
     const Station& before = table_[static_cast<std::size_t>(index)];
     const Station& after = table_[static_cast<std::size_t>(index) + 1];
-    const float t = at - index;  // beyond the table's ends the spine goes on straight
+    const float t = at - index;  // the spine continues straight beyond the table's ends
     const glm::vec2 position = glm::mix(before.position, after.position, t);
     const float heading = glm::mix(before.heading, after.heading, glm::clamp(t, 0.0f, 1.0f));
     return {position.x + straight.z * std::sin(heading), straight.y, position.y + straight.z * std::cos(heading)};

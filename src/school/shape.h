@@ -1,7 +1,7 @@
 #pragma once
-// One fish as numbers: its outline, fins, relief and swimming bend. All lengths are in body lengths (snout to root of
-// the tail fin) but `length`; `a` runs from 0 at the snout to 1 at the root of the tail fin. The fish looks along +x,
-// its back is +y.
+// Shape parameters of one fish: outline, fins, relief and swimming bend. Lengths are in body lengths (snout to root of
+// the tail fin), except FishShape::length in m. Position `a` runs from 0 at the snout to 1 at the root of the tail fin.
+// The fish faces +x; its back is +y.
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -10,18 +10,18 @@
 
 namespace defocus::engine {
 
-// Where the outline's knots lie; the outline is round at the snout (it grows with the root of `a`).
+// Positions `a` of the outline's knots. The outline grows with √a at the snout, which makes it round.
 inline constexpr std::array<float, 9> fishKnots{0.0f, 0.04f, 0.12f, 0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
 
 struct FishOutline {
-    std::array<float, 9> top{};     // height of the back above the axis, at the knots
-    std::array<float, 9> bottom{};  // depth of the belly below the axis
-    std::array<float, 9> width{};   // half thickness
+    std::array<float, 9> top{};     // height of the back above the axis, per knot
+    std::array<float, 9> bottom{};  // depth of the belly below the axis, per knot
+    std::array<float, 9> width{};   // half thickness, per knot
 };
 
-// The elliptical cross-section at `a`.
+// Elliptical cross-section at position `a`.
 struct FishSection {
-    float centre = 0;  // height of its middle above the axis
+    float centre = 0;  // height of its centre above the axis
     float halfHeight = 0;
     float halfWidth = 0;
 };
@@ -30,31 +30,31 @@ enum class FinKind { dorsal, anal, caudal, pectoral, pelvic };
 
 struct MedianFin {
     FinKind kind = FinKind::dorsal;
-    float start = 0.3f;  // a of its first and last ray
+    float start = 0.3f;  // position `a` of the first ray
     float end = 0.9f;
-    std::array<float, 6> heights{};  // lengths of evenly spaced rays, from the first to the last
-    float leanFront = 0.5f;          // radians from upright, backwards
+    std::array<float, 6> heights{};  // lengths of evenly spaced rays, from first to last
+    float leanFront = 0.5f;          // radians backwards from upright
     float leanRear = 0.8f;
-    float curl = 0.1f;      // how far the tips trail backwards, in ray lengths
-    float scallop = 0.03f;  // notches between the rays, in ray lengths
+    float curl = 0.1f;      // backward bend of the tips, in ray lengths
+    float scallop = 0.03f;  // depth of notches between rays, in ray lengths
     int rays = 20;
 };
 
 struct CaudalFin {
     float length = 0.28f;
-    float spread = 0.6f;    // radians, of the outer rays from the axis
-    float fork = 0.4f;      // how much shorter the middle rays are, 0 … 1
-    float rounding = 0.1f;  // how much shorter the outermost rays are, 0 … 1
+    float spread = 0.6f;    // radians between the axis and the outer rays
+    float fork = 0.4f;      // shortening of the middle rays, 0 to 1
+    float rounding = 0.1f;  // shortening of the outermost rays, 0 to 1
     int rays = 22;
 };
 
 struct PairedFin {
     FinKind kind = FinKind::pectoral;
-    float a = 0.3f;        // root
-    float height = -0.2f;  // of the root, in half heights of the section
+    float a = 0.3f;        // position `a` of the root
+    float height = -0.2f;  // height of the root, in half heights of the section
     float length = 0.2f;
-    float spread = 0.9f;     // radians between the first and the last ray
-    float outwards = 0.5f;   // radians off the body
+    float spread = 0.9f;     // radians between the first and last ray
+    float outwards = 0.5f;   // radians away from the body
     float downwards = 0.4f;  // radians below the axis
     float rootWidth = 0.05f;
     int rays = 12;
@@ -64,17 +64,17 @@ struct FishShape {
     float length = 0.3f;  // m
     FishOutline outline;
     float eyeA = 0.13f;
-    float eyeHeight = 0.25f;  // in half heights of the section
+    float eyeHeight = 0.25f;  // height above the section's centre, in its half heights
     float eyeRadius = 0.034f;
     float mouthLength = 0.05f;
     float mouthDrop = 0.02f;
     float gillA = 0.27f;  // rear edge of the gill cover
     float scaleSize = 0.043f;
-    float finRipple = 0.02f;  // sideways waves at the fins' edges
+    float finRipple = 0.02f;  // amplitude of sideways waves at the fins' edges
     float finPhase = 0.0f;
-    float swimAmplitude = 0.3f;  // radians of heading at the tail
+    float swimAmplitude = 0.3f;  // radians, heading amplitude at the tail
     float swimPhase = 0.0f;
-    float turn = 0.0f;  // radians of even bend from head to tail
+    float turn = 0.0f;  // radians, uniform bend from head to tail
     std::vector<MedianFin> medianFins;
     CaudalFin caudal;
     PairedFin pectoral;
@@ -83,26 +83,27 @@ struct FishShape {
 
 FishSection fishSection(const FishShape& shape, float a);
 
-// A point of the straight fish's skin.
+// Point on the skin of the straight fish.
 struct FishSkinPoint {
     float a = 0;
     float y = 0;           // height above the axis
-    float halfHeight = 0;  // of the section
-    float height = 0;      // −1 … 1 from belly to back: y in half heights of the section
-    float alongGirth = 0;  // on the skin from the section's middle, upwards
+    float halfHeight = 0;  // half height of the section
+    float height = 0;      // −1 to 1 from belly to back: y in half heights of the section
+    float alongGirth = 0;  // distance along the skin from the section's centre, upwards
 };
 
-// Displacement of the skin along its normal, in body lengths, and how dark its grooves are: eye socket, mouth, gill
-// cover, scales and lateral line. `detail` is the edge length of the mesh: relief that it can't hold fades out.
+// Skin relief, displaced along the normal in body lengths: eye socket, mouth, gill cover, scales and lateral line.
+// `detail` is the mesh's edge length; features too fine for the mesh fade out.
 struct FishRelief {
     float displacement = 0;
-    float groove = 0;     // 0 … 1
-    float scaleEdge = 0;  // 0 … 1, on the pale rim of a scale
-    float scaleTone = 0;  // −1 … 1, one value a scale
+    float groove = 0;     // darkness of grooves, 0 to 1
+    float scaleEdge = 0;  // 0 to 1; 1 on a scale's pale rim
+    float scaleTone = 0;  // −1 to 1, constant per scale
 };
 FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float detail);
 
-// The swimming bend: a point of the straight fish, moved sideways with its spine (all in body lengths, x = −a).
+// Swimming bend of the spine. bend() moves a point of the straight fish sideways with the spine, in body lengths with x
+// = −a.
 class FishSpine {
 public:
     explicit FishSpine(const FishShape& shape);
@@ -110,10 +111,10 @@ public:
 
 private:
     static constexpr int steps = 256;
-    static constexpr float first = -0.2f;  // a of the table's ends
+    static constexpr float first = -0.2f;  // position `a` of the table's start
     static constexpr float last = 2.3f;
     struct Station {
-        glm::vec2 position{0.0f};  // x, z
+        glm::vec2 position{0.0f};  // x and z
         float heading = 0;
     };
     std::array<Station, steps + 1> table_;

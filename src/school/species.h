@@ -1,6 +1,6 @@
 #pragma once
-// The kinds of fish in the school: free interpretations of reef and pond fish, each with its own outline, fins and
-// palette. Two fish of a kind differ in proportions, relief, bend and pattern.
+// Fish species of the school: free interpretations of reef and pond fish, each with its own outline, fins and palettes.
+// Fish of the same species differ in proportions, relief, bend and pattern.
 
 #include <cstdint>
 
@@ -11,8 +11,7 @@ namespace defocus::engine {
 enum class FishSpecies { angelfish, butterflyfish, anthias, tang, fusilier, goldfish, clownfish, parrotfish, idol };
 inline constexpr int fishSpeciesCount = 9;
 
-// `variant` picks one of the kind's palettes (any number, taken modulo their count); equal arguments give an equal
-// fish.
+// `variant` selects a palette of the species, modulo their number. Equal arguments give equal fish.
 Fish makeFish(FishSpecies species, int variant, float length, std::uint32_t seed, std::uint32_t number);
 
 }  // namespace defocus::engine

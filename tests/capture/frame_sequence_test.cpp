@@ -15,8 +15,8 @@
 namespace defocus::engine {
 namespace {
 
-// Two nodes without meshes, "Still" at (0, 0, −4) and "Rising", which climbs 1 m a second for 2 s; a camera of its own
-// looks along −z from the origin.
+// Two nodes without meshes: "Still" at (0, 0, −4), and "Rising", which climbs at 1 m/s for 2 s. The camera looks along
+// −z from the origin.
 class FrameSequence : public testing::Test {
 protected:
     FrameSequence() {
@@ -81,7 +81,7 @@ TEST_F(FrameSequence, cameraKeysLookFromPositionToTarget) {
                  Error);
 }
 
-// From +z, 90° counter-clockwise: the camera's right is up.
+// Rolled by 90°, counter-clockwise seen from +z, the camera's right axis points up.
 TEST_F(FrameSequence, cameraKeysRoll) {
     const char* shot = R"({"camera": {"interpolation": "linear", "keys": [
         {"frame": 0, "position": [0, 0, 2], "target": [0, 0, 0]},
@@ -97,12 +97,12 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     const char* shot = R"({"range": [10, 50], "camera": {"turntable": {"centre": "Still"}}})";
     expectNear(placeOf(frame(shot, 10)), {0, 0, 0});
     expectNear(placeOf(frame(shot, 50)), {0, 0, 0});
-    expectNear(placeOf(frame(shot, 20)), {4, 0, -4});  // a quarter, counter-clockwise from above
+    expectNear(placeOf(frame(shot, 20)), {4, 0, -4});  // a quarter turn, counter-clockwise from above
     expectNear(forwardOf(frame(shot, 20)), {-1, 0, 0});
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
 }
 
-// Half a frame of a dolly that goes 0.3 m a frame, and of a node that climbs 0.1 m a frame.
+// Compares the shutter's two ends for a dolly of 0.3 m a frame and a node that climbs 0.1 m a frame.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
@@ -143,7 +143,7 @@ TEST_F(FrameSequence, focusFollowsNodesAndPullsInDioptres) {
                  Error);
 }
 
-// Keys that have no say at a frame may lie behind the camera.
+// A focus key's node may lie behind the camera at frames that the key does not affect.
 TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     const char* shot =
         R"({"range": [0, 100], "camera": {"dolly": {"distance": 3, "frames": [50, 51]}}, "focus": {"keys": [
@@ -152,7 +152,7 @@ TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     EXPECT_NEAR(frame(shot, 60).view.lens.focusDistance, 1, 1e-9);
 }
 
-// A wall that goes from 4 m to 8 m in 2 s, and before its left part a post that stands still at 2 m.
+// A wall moves from 4 m to 8 m in 2 s. A post stands still at 2 m in front of its left part.
 TEST_F(FrameSequence, focusFindsWhatThePictureShowsInEachFrame) {
     Mesh square;
     square.vertices.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -213,7 +213,7 @@ TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
     EXPECT_EQ(frame(shot, 99).view.lens.fStop, 4);
 }
 
-// As KHR_animation_pointer animates them; what is fixed stays.
+// Keys animate a method's settings as KHR_animation_pointer does; settings without keys stay constant.
 TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
     const char* shot = R"({"method": "scheuermann", "methodKeys": {
         "near-blur-depth": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 2}], "interpolation": "linear"},
@@ -223,7 +223,7 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
     EXPECT_EQ(frame(shot, 0).view.methodValues.at("blurriness-cutoff"), 0.5);
     EXPECT_TRUE(frame("{}", 0).view.methodValues.empty());
 
-    // Of the method that is taken in the end.
+    // Keys are checked against the method that is finally chosen.
     Shot other = parseShot(shot, "x.json");
     Request request;
     applyShot(other, request);
@@ -278,7 +278,8 @@ TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
     EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
 }
 
-// Time and sensitivity go by ratios, and each frame is exposed by its own lens; an exposure in EV is for all.
+// Exposure time and ISO interpolate by ratios, and each frame is exposed by its own lens. An exposure in EV applies to
+// all frames.
 TEST_F(FrameSequence, exposureFollowsTheLens) {
     const char* text = R"({"output": "x/####.png", "lens": {"fStop": 2, "iso": 400, "exposureTime":
         {"interpolation": "linear", "keys": [{"frame": 0, "value": 0.01}, {"frame": 2, "value": 0.04}]}}})";

@@ -23,7 +23,7 @@ TEST(Keyframes, linearIsStraight) {
     EXPECT_DOUBLE_EQ(valueAt(steps, Easing::linear, 22), 1);
 }
 
-// Two keys: 3t² − 2t³.
+// Smooth interpolation between two keys is 3t² − 2t³.
 TEST(Keyframes, smoothBetweenTwoKeysIsTheSmoothStep) {
     const std::vector<Key<double>> keys = {{10, 2}, {20, 6}};
     for (double t = 0; t <= 1; t += 0.125)

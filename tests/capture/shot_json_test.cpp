@@ -27,7 +27,7 @@ TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
     EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
 }
 
-// In whatever order: JSON has none.
+// The order is irrelevant: members of a JSON object are unordered.
 TEST(ShotJson, whatIsGivenBesideAPresetWins) {
     for (const char* text :
          {R"({"preset": "jeong2011", "sequence": "r2"})", R"({"sequence": "r2", "preset": "jeong2011"})"}) {
@@ -57,7 +57,8 @@ TEST(ShotJson, exposureIsANumberOrAuto) {
     EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
 }
 
-// A shot that says where the camera is knows its scene's units; another one leaves them to a guess.
+// A shot with positions or distances is in metres unless it names other units. A shot without lengths leaves the
+// scene's units to a guess.
 TEST(ShotJson, lengthsInAShotAreMetres) {
     const auto unitsOf = [](const char* text) {
         Shot shot = parseShot(text, "x.json");

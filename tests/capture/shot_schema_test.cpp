@@ -1,5 +1,5 @@
-// The published schema and the parser agree: whatever is changed in a shot that says everything, both take it or both
-// refuse it. The validator below knows the keywords that the schema uses (JSON Schema 2020-12) and fails for others.
+// The published schema and the parser accept and reject the same variations of a complete shot. The validator below
+// implements the keywords that the schema uses (JSON Schema 2020-12) and fails for others.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ Schema publishedSchema() {
     return Schema(json::parse(file));
 }
 
-// Says everything that can be said together.
+// Returns a shot with all keys that can be combined.
 json fullShot() {
     return json::parse(R"({
         "$schema": "shot.schema.json", "fish": {"count": 3, "triangles": 900}, "environment": "sky.hdr",
@@ -128,7 +128,7 @@ std::string parserFault(const json& shot) {
     return "";
 }
 
-// What no schema can say: the order of numbers, and the names of methods.
+// Returns whether a fault is one that no schema can express: the order of numbers or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
     for (const char* part : {"a frame after the key before it", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
@@ -228,7 +228,7 @@ TEST(ShotSchema, forbidsWhatDoesNotGoTogether) {
     }
 }
 
-// A value that the setting takes.
+// A value that the setting accepts.
 json valueFor(const Setting& setting) {
     if (const std::optional<std::string> standard = setting.text(Request{}))
         return json(settingJson(setting, *standard));
@@ -245,7 +245,7 @@ json valueFor(const Setting& setting) {
     }
 }
 
-// What the documentation says of a shot's keys is made from these places.
+// The documentation of a shot's keys is generated from these parts of the schema.
 TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
     const Schema schema = publishedSchema();
     for (const Setting& setting : settings()) {
@@ -280,7 +280,7 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
 
 // ---- what an editor shows -------------------------------------------------------------------------------------------
 
-// `visit` gets each property anywhere in the schema with its place.
+// Calls `visit` with each property in the schema and its path.
 void eachProperty(const json& schema, const std::string& place,
                   const std::function<void(const std::string&, const json&)>& visit) {
     if (schema.is_array())
@@ -307,7 +307,7 @@ TEST(ShotSchema, eachPropertySaysWhatItIsAndWhatItMayBe) {
     const Schema schema = publishedSchema();
     std::size_t properties = 0;
     eachProperty(schema.root(), "", [&](const std::string& place, const json& property) {
-        // By itself or by what it refers to.
+        // The property describes itself or refers to a definition that does.
         json told = property;
         if (const auto reference = property.find("$ref"); reference != property.end()) {
             told = schema.root().at(json::json_pointer(reference->get<std::string>().substr(1)));

@@ -1,6 +1,6 @@
-// Every setting that a command offers acts: with it, the command says, draws or measures something else. A setting that
-// has no case fails the test, and so does one that changes nothing. every_own_option_gl_slow_test.cpp has the options
-// of the commands' own, tests/view those of the window.
+// Every setting that a command offers has an effect: the command prints, draws or measures something else with it. A
+// setting without a case fails the test, and so does one without an effect. every_own_option_gl_slow_test.cpp covers
+// the options that belong to single commands; tests/view covers the window.
 
 #include <functional>
 
@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using Folder = std::filesystem::path;
 
-// A command, and what of it is seen.
+// A command, and the function that extracts its observable output.
 struct Watched {
     CommandLine line;
     std::function<std::string(const Folder& folder, const Outcome& outcome)> seen;
@@ -22,12 +22,12 @@ std::string said(const Folder&, const Outcome& outcome) {
     return outcome.out;
 }
 
-// Without the time that the levels took.
+// Output of pyramid without the times of the levels.
 std::string saidOfPyramids(const Folder&, const Outcome& outcome) {
     return withoutTimes(json::parse(outcome.out)).dump();
 }
 
-// Whether it is the limit that option_cases.h gives; without one it is what the machine has free just then.
+// Returns "limited " for the memory limit of option_cases.h. Any other limit depends on the machine's free memory.
 std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
@@ -90,7 +90,7 @@ const std::vector<Watched>& watched() {
 
 class EveryOption : public OptionTest {
 protected:
-    // A line is run once, however many options are compared with it.
+    // Each line runs once, however many options are compared with it.
     const std::string& seenOf(const Watched& command, const Words& line) {
         const auto known = seen_.find(line);
         return known != seen_.end() ? known->second : seen_.emplace(line, seenAnew(command, line)).first->second;
@@ -139,7 +139,7 @@ class EverySetting : public EveryOption, public testing::WithParamInterface<Aske
 TEST_P(EverySetting, acts) {
     const auto& [command, group] = GetParam();
     for (const Setting* setting : settingsOffered(command->line.name, group)) {
-        // It ends a film between two frames (capture_gl_test.cpp); here is one frame.
+        // The time limit ends a film between two frames (capture_gl_test.cpp); this shot has one frame.
         if (setting->name == "timeLimit" && command->line.name == "capture") continue;
         expectActs(*command, setting->name, settingCases().at(setting->name));
     }
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([
 
 class EveryCommand : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
-// Else a difference would say nothing.
+// Without repeatable output, a difference would prove nothing.
 TEST_P(EveryCommand, saysTheSameAgain) {
     const Words line = lineOfCase(GetParam()->line, "", {}, false);
     EXPECT_TRUE(seenAnew(*GetParam(), line) == seenAnew(*GetParam(), line)) << GetParam()->line.name;
@@ -179,7 +179,7 @@ TEST_P(EveryCommand, saysTheSameAgain) {
 INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::ValuesIn(watchedThat([](const Watched&) { return true; })),
                          [](const auto& each) { return lettersOf(each.param->line.name); });
 
-// Only cache_test.cpp and the benches of scaling have nothing to compare: these say where they look.
+// The cache commands have no picture to compare, so their output must name the cache folder.
 TEST_F(EveryOption, cacheFolderIsNamed) {
     for (const Words& line : std::vector<Words>{{"cache", "list", "--cache-dir", "kept"},
                                                 {"cache", "clear", "--cache-dir", "kept"},

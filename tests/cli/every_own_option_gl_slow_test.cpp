@@ -1,5 +1,5 @@
-// Every option of a command's own acts, as every_option_gl_slow_test.cpp has it for settings; and all options of all
-// commands have a case in one of the two.
+// Every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the settings. Every
+// option of every command has a case in one of the two files.
 
 #include <set>
 
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 // ---- all have a case ------------------------------------------------------------------------------------------------
 
-// What the tests below go through one by one.
+// Options that the separate tests below cover.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",
@@ -39,7 +39,7 @@ const std::set<std::string> triedAlone = {
     "bench stability --report",
 };
 
-// "", "render", "bench", "bench speedup" …
+// Collects the command names: "", "render", "bench", "bench speedup" …
 void collectCommands(const CLI::App& app, const std::string& names, Words& commands) {
     commands.push_back(names);
     for (const CLI::App* command : app.get_subcommands(nullptr))
@@ -59,7 +59,7 @@ TEST(OptionsOfAllCommands, haveACase) {
                 EXPECT_TRUE(settingCases().contains(setting->name)) << name;
             else if (const MethodSetting* ofMethod = methodSettingOf(*option))
                 EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << name;
-            else if (command != "view")  // tests/view
+            else if (command != "view")  // tests/view covers the window
                 own.insert(name);
         }
     for (const std::string& option : own)
@@ -87,7 +87,7 @@ protected:
             given_.insert(entry.path().filename());
     }
 
-    // Whatever is there that no test put there, and what was said.
+    // Returns the exit code, the output, and the files that the command left beside those of the tests.
     [[nodiscard]] std::string leftBy(const Words& line) const {
         const Outcome outcome = run(line);
         std::string text = std::to_string(outcome.exitCode) + " ";
@@ -102,7 +102,7 @@ protected:
                 text += withoutTimes(result.at("rows")).dump() + std::to_string(result.value("runs", 0));
             }
         }
-        if (line.front() == "bench") return text;  // its table has times
+        if (line.front() == "bench") return text;  // the bench's table contains times
         static const std::regex times("[0-9.]+ m?s\\b|\"buildSeconds\": [0-9.e-]+");
         text += std::regex_replace(outcome.out, times, "");
         return text + (outcome.err.find("there before") != std::string::npos ? "kept" : "");
@@ -182,7 +182,7 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
     }
 }
 
-// The program is built from changed sources or not: so much of it shows in either case.
+// The program may be built from changed sources or not; the test covers the result for the present build.
 TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
@@ -196,10 +196,11 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// Its shortest axis takes seconds: what two runs leave shows all options but --large, whose triangles take minutes.
+// The shortest axis takes seconds. Two runs show the effect of all options except --large, whose triangles take
+// minutes.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
-    // Without --runs there would be three.
+    // The default is three runs.
     ASSERT_EQ(run(joined(line, {"--runs", "1", "-o", "rows"})).exitCode, 0);
     ASSERT_EQ(run(joined(line, {"--runs", "1", "--report", "page"})).exitCode, 0);
     for (const char* made : {"rows", "page"}) {
@@ -214,7 +215,7 @@ TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     EXPECT_GT(scalingPoints(ScalingAxis::triangles, true).size(), scalingPoints(ScalingAxis::triangles, false).size());
 }
 
-// All its cases take minutes: the file is tried before the first.
+// All cases take minutes, so the command checks the output file before the first.
 TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
     for (const Words& output : std::vector<Words>{{"-o", "ball.glb/none.json"}, {"--report", "ball.glb/none"}}) {
         const Outcome outcome = run(joined({"bench", "stability", "--allow-changed"}, output));

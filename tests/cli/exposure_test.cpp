@@ -1,4 +1,4 @@
-// The animation's clip, time and shutter, through the program: defocus plan --json.
+// Clip, time and shutter of an animation on the command line: defocus plan --json.
 
 #include <nlohmann/json.hpp>
 
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// A square that goes away from the camera: from 2 m to 6 m within 4 s. A second clip holds it at 3 m.
+// A square that recedes from 2 m to 6 m in 4 s. A second clip holds it at 3 m.
 std::string movingSquare() {
     GltfBuilder builder;
     const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});

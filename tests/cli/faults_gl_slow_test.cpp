@@ -1,5 +1,5 @@
-// Whatever happens to the program, nothing that was whole is lost, nothing half has a name, and what is said is one
-// line.
+// Faults of the system never destroy a complete file or leave a partial one under its final name. The program reports
+// each fault in one line.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 class Faults : public Capture {
 protected:
-    // Becomes the program, in a process of its own, with faults (tests/faults) as the environment asks for them.
+    // Turns a forked process into the program. `environment` selects the faults (tests/faults).
     void become(Words words, const std::vector<std::pair<std::string, std::string>>& environment = {},
                 int out = -1) const {
         const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);
@@ -41,7 +41,7 @@ protected:
     [[nodiscard]] TracedChild traced(const Words& words, const std::string& writesInto) const {
         return {[this, words] { become(words); }, writesInto};
     }
-    // 128 + the signal's number, or the exit code.
+    // Returns the exit code, or 128 + the signal's number.
     int ran(const Words& words, const std::vector<std::pair<std::string, std::string>>& environment = {},
             int out = -1) const {
         const pid_t child = ::fork();
@@ -57,7 +57,7 @@ protected:
         EXPECT_NE(text.find(about), std::string::npos) << text;
     }
 
-    // Kills `words` before one of its calls that write into `folder`, again and again, and looks after each.
+    // Kills `words` repeatedly, each time before a random call that writes into `folder`, and calls `look` after each.
     template <typename Look>
     void killed(const Words& words, const std::string& writesInto, const Look& look) const {
         TracedChild undisturbed = traced(words, writesInto);
@@ -69,7 +69,7 @@ protected:
         std::mt19937 random(11);
         for (int i = 0; i < kills; ++i) {
             TracedChild child = traced(words, writesInto);
-            // What is in the cache meanwhile, or kept, isn't written anew: then it ends by itself.
+            // Fewer writes occur if the cache already has the pyramids; the child then ends by itself with exit code 0.
             const int code = child.end(std::uniform_int_distribution(1, calls)(random), SIGKILL);
             ASSERT_TRUE(code == 128 + SIGKILL || code == 0) << code << said();
             look();
@@ -102,7 +102,7 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
     }
 }
 
-// A pyramid's file is whole or isn't there.
+// A pyramid's file is complete or absent.
 TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
     std::set<std::string> whole;
     const auto clear = [&] { fs::remove_all(cacheFolder()); };
@@ -136,8 +136,7 @@ TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
            });
 }
 
-// Tiles that are finished stay, whatever ends the run, and the frame is the one of an undisturbed run.
-// Drawn by another process, whose plots take it longest: the page is that of before, or the new one.
+// Killing a bench while its child process draws the plots leaves the previous report page or a complete new one.
 TEST_F(Faults, aReportThatIsKilledIsWhole) {
     if (std::system("python3 -c 'import matplotlib, PIL' 2>/dev/null || "
                     "/usr/bin/python3 -c 'import matplotlib, PIL' 2>/dev/null") != 0)
@@ -165,13 +164,14 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         }
         ::setpgid(child, child);
         std::this_thread::sleep_for(lasts * std::uniform_real_distribution(0.1, 1.0)(random));
-        ::kill(-child, SIGKILL);  // with the process that draws
+        ::kill(-child, SIGKILL);  // the process group includes the plotting process
         int status = 0;
         ::waitpid(child, &status, 0);
         if (WIFSIGNALED(status))
             ++killed;
         else
-            lasts /= 2;  // the first run took longer than this one: fonts were looked for, or the machine stood still
+            // this run was faster than the first, which may have scanned for fonts or waited for a busy machine
+            lasts /= 2;
         EXPECT_TRUE(whole() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {
             const bool json = entry.path().extension() == ".json" && entry.path().filename().string().front() != '.';
@@ -179,13 +179,13 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         }
     }
     EXPECT_GT(killed, 0);
-    // What they left in the making is gone with the next run.
+    // The next run removes the temporary files of the killed runs.
     ASSERT_EQ(ran(line), 0) << said();
     for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report"))
         EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
 }
 
-// It would take minutes; a second is enough for it to say how far it is.
+// The render would take minutes; a second is enough to print its progress.
 TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
     for (const int signal : {SIGTERM, SIGINT}) {
         fs::remove(folder() / "said");
@@ -248,7 +248,7 @@ TEST_F(Faults, aReaderThatGoesAwayIsNoCrash) {
 
 #ifdef DEFOCUS_FAULTS_LOADABLE
 
-// Two at once, and files of before: what is whole is used, what is damaged is made anew.
+// Two programs share a cache of older files without locks. Complete files are used; damaged files are rebuilt.
 TEST_F(Faults, aCacheOnAFileSystemWithoutLocksServesAllTheSame) {
     const Words words = {"render", "--quiet",   "--fish", "2", "--fish-triangles", "400", "--size",
                          "16x12",  "--samples", "1",      "-o"};
@@ -288,7 +288,7 @@ TEST_F(Faults, aClockThatGoesBackChangesNothing) {
         << said();
 }
 
-// The driver runs out of memory at any of its allocations: one line, and the frames before are kept.
+// The driver runs out of memory at any of its allocations: the program prints one line and keeps the finished frames.
 TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     const Words film = {"capture", "shot.json", "--quiet", "--range", "0:7", "--resume"};
     ASSERT_EQ(run({"capture", "shot.json", "--quiet", "--range", "0:7", "-o", "whole/####.exr"}).exitCode, 0);
@@ -312,7 +312,7 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     EXPECT_GT(partly, 0) << "it never failed in the middle";
 }
 
-// What a driver lacks is said, whether another way leads to a picture or none.
+// The program names each missing extension, whether a fallback produces a picture or none exists.
 TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "drivers of GPUs lack others";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
@@ -331,7 +331,7 @@ TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
 
 #endif
 
-// Mounted so that nobody may write there, root included.
+// The folder is mounted read-only, which root cannot bypass.
 TEST_F(Faults, aReadOnlyFolderIsOneLineAndNeverACrash) {
     fs::create_directory(folder() / "locked");
     writeImage(folder() / "locked/0.exr", Image(3, 2, 4));

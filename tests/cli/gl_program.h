@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program where it can draw; elsewhere its tests skip and say why.
+// Runs the program on machines with OpenGL; elsewhere the tests skip and print the reason.
 
 #include "cli/program.h"
 #include "core/error.h"
@@ -16,7 +16,8 @@ protected:
     }
 
 private:
-    // Empty where there is a context. A process of its own asks, and a driver that fails, or crashes, does it there.
+    // Returns why no context can be created; empty on success. A child process tries it, so that a driver's crash stays
+    // there.
     static std::string whyNoContext() {
         int ends[2];
         if (::pipe(ends) != 0) return "no pipe";

@@ -1,4 +1,4 @@
-// A row that is added to the table of settings appears everywhere, without any other edit.
+// A row added to the table of settings appears in every interface without further edits.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace defocus::engine {
 namespace {
 
-// A number that Request has no member for: the row keeps it in Request::clip.
+// A number without a member in Request; the row stores it in Request::clip.
 Setting newSetting() {
     Setting setting;
     setting.name = "newSetting";
@@ -39,7 +39,7 @@ Setting newSetting() {
     return setting;
 }
 
-// Runs in a process of its own, since other tests compare the table with its documents.
+// Runs in a child process, since other tests compare the table with its documentation.
 void checkNewSetting() {
     addSetting(newSetting());
 
@@ -61,7 +61,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
 
-    // Python makes its keywords from these; the window lists the same rows.
+    // Python's keywords and the window's rows are both generated from these.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());

@@ -1,6 +1,6 @@
 #pragma once
-// Every setting of the table and of the methods with a value that must change what a command says, draws or measures,
-// and the small scene on which it does.
+// Cases for every setting of the table and of the methods: a value that must change what a command prints, draws or
+// measures. The file also builds the small scene of the cases.
 
 #include <algorithm>
 #include <filesystem>
@@ -25,18 +25,18 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// What is given, and what must be given with it so that it can act, as far as the command takes that.
+// `words`: the option with its value. `with`: further options that it needs, as far as the command offers them.
 struct OptionCase {
     Words words;
     Words with;
-    bool still = false;  // on a fish of the school; else on the ball that moves
+    bool still = false;  // uses a fish of the school instead of the moving ball
 };
 
 namespace option_cases {
 
-// A ball of 700 triangles that goes away from the camera within 2 s, and turns to its right half-way, before a board. A
-// second clip holds it still. A second camera stands closer and has a focus distance of its own. With a lamp above it,
-// or under the lights of a scene without lights; the board may be a pane.
+// A ball of 700 triangles that recedes within 2 s and turns right half-way, in front of a board. A second clip holds
+// the ball still. A second camera is closer and has its own focus distance. Light comes from a lamp above, or from the
+// default lights. The board may be a glass pane.
 inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
@@ -89,15 +89,15 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// All that one of the two names but the other doesn't is `only` its own.
+// Options that select the only method with the setting of a case, and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }
 
 }  // namespace option_cases
 
-// Writes ball.glb, lamp.glb (the ball with a lamp), pane.glb (before a pane), sky.hdr and half.png, which the cases
-// name.
+// Writes the files that the cases name: ball.glb, lamp.glb (the ball with a lamp), pane.glb (the ball before a pane),
+// sky.hdr and half.png.
 inline void writeOptionScene(const std::filesystem::path& folder) {
     GltfBuilder::save(folder / "ball.glb", option_cases::movingBall(false));
     GltfBuilder::save(folder / "lamp.glb", option_cases::movingBall(true));
@@ -105,14 +105,14 @@ inline void writeOptionScene(const std::filesystem::path& folder) {
     Image sky(8, 4, 3);
     for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
     writeImage(folder / "sky.exr", sky);
-    std::filesystem::rename(folder / "sky.exr", folder / "sky.hdr");  // told apart by content
+    std::filesystem::rename(folder / "sky.exr", folder / "sky.hdr");  // readers detect the format by content
     Image half(8, 8, 1);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 4; ++x) *half.at(x, y) = 1;
     writeImage(folder / "half.png", half);
 }
 
-// By the setting's name in the table.
+// Cases by the setting's name in the table.
 inline const std::map<std::string, OptionCase>& settingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -205,7 +205,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     return table;
 }
 
-// By the setting's name in its method.
+// Cases by the setting's name in its method.
 inline const std::map<std::string, OptionCase>& methodSettingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -248,7 +248,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
 
 // ---- the commands ---------------------------------------------------------------------------------------------------
 
-// "bench speedup" → its App, in a program of its own that lives as long as the tests.
+// Returns the App of a command such as "bench speedup". Its program lives as long as the tests.
 inline const CLI::App& commandNamed(const std::string& names) {
     struct AllCommands {
         CLI::App app;
@@ -265,27 +265,27 @@ inline const CLI::App& commandNamed(const std::string& names) {
     return *found;
 }
 
-// "--fstop", "SCENE", "-o": what --help lists it by.
+// Name of an option in --help: "--fstop", "SCENE", "-o".
 inline std::string nameOf(const CLI::Option& option) {
     if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
     return option.get_single_name();
 }
 
-// All options of a command but its help.
+// All options of a command except its help.
 inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
     std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });
     return options;
 }
 
-// Null where the option isn't a row of the table of settings, whatever it is called.
+// Returns the row of the table of settings for an option; null if the option has none.
 inline const Setting* settingOf(const CLI::Option& option) {
     for (const Setting& setting : settings())
         if (setting.option == nameOf(option) && setting.help == option.get_description()) return &setting;
     return nullptr;
 }
 
-// Null where the option isn't a setting of a method.
+// Returns the method's setting for an option; null if the option is none.
 inline const MethodSetting* methodSettingOf(const CLI::Option& option) {
     for (const Method& method : methods())
         for (const MethodSetting& setting : method.settings)
@@ -294,7 +294,7 @@ inline const MethodSetting* methodSettingOf(const CLI::Option& option) {
     return nullptr;
 }
 
-// The rows of one group of the table that a command offers.
+// Rows of one group of the table that a command offers.
 inline std::vector<const Setting*> settingsOffered(const std::string& command, SettingGroup group) {
     std::vector<const Setting*> offered;
     for (const CLI::Option* option : optionsOffered(command))
@@ -303,7 +303,7 @@ inline std::vector<const Setting*> settingsOffered(const std::string& command, S
     return offered;
 }
 
-// The names of the settings of methods that a command offers.
+// Names of the method settings that a command offers.
 inline Words methodSettingsOffered(const std::string& command) {
     Words names;
     for (const CLI::Option* option : optionsOffered(command))
@@ -311,17 +311,18 @@ inline Words methodSettingsOffered(const std::string& command) {
     return names;
 }
 
-// A command and what it is given anyway.
+// A command and the arguments that every line of it gets.
 struct CommandLine {
     std::string name;
     Words command;
-    Words ball = {"ball.glb"};                                // picks the ball that moves
-    Words fish = {"--fish", "1", "--fish-triangles", "900"};  // picks the fish; options, unless a shot does
+    Words ball = {"ball.glb"};  // selects the moving ball
+    // selects the fish by options, unless a shot selects it
+    Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";
     Words rest;
 };
 
-// The options among `words` that the command takes, each with its value.
+// Returns those of `words` that the command offers as options, each with its value.
 inline Words taken(const std::string& command, const Words& words) {
     Words known;
     for (const CLI::Option* option : optionsOffered(command))
@@ -335,7 +336,7 @@ inline Words taken(const std::string& command, const Words& words) {
     return result;
 }
 
-// With or without the option of a case, on the case's scene.
+// Returns the command line for a case's scene, with or without the case's option.
 inline Words lineOfCase(const CommandLine& given, const std::string& name, const OptionCase& tried, bool with) {
     Words line = given.command;
     const auto add = [&](const Words& words) { line.insert(line.end(), words.begin(), words.end()); };
@@ -357,11 +358,11 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
             ++i;
         else
             line.push_back(given.rest[i]);
-    // Only a lamp has a radius, and only what is seen through is put into buckets.
+    // Only a lamp has a radius, and only transparent objects use the buckets.
     const std::string scene = name == "lightRadius" ? "lamp" : name == "transparency-buckets" ? "pane" : "ball";
     for (std::string& word : line)
         if (word.starts_with("ball.")) word.replace(0, 4, scene);
-    // The school has no camera of that name.
+    // The school has no camera with that name.
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
     return line;

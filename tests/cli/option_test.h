@@ -1,5 +1,5 @@
 #pragma once
-// What a line of the program leaves behind, without what differs from run to run.
+// Runs lines of the program and returns their results without the parts that vary from run to run.
 
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// What is measured, but no time, and nothing that depends on one.
+// Returns the JSON value without times and without values derived from times.
 inline nlohmann::json withoutTimes(const nlohmann::json& value) {
     using nlohmann::json;
     if (value.is_array()) {
@@ -25,7 +25,7 @@ inline nlohmann::json withoutTimes(const nlohmann::json& value) {
     return rest;
 }
 
-// "no picture" of a part of a frame, which only `merge` reads.
+// Pixels of an image; "no picture" for the samples of a part of a frame, which only `merge` reads.
 inline std::string pixelsIn(const std::filesystem::path& path) try {
     const Image image = readImage(path);
     std::string text = std::to_string(image.width) + " ";
@@ -39,8 +39,8 @@ inline nlohmann::json jsonIn(const std::filesystem::path& path) {
     return nlohmann::json::parse(file);
 }
 
-// Runs lines in a folder with ball.glb, lamp.glb, pane.glb, sky.hdr, half.png, four shots of one frame and two of
-// three.
+// Runs command lines in a folder with ball.glb, lamp.glb, pane.glb, sky.hdr, half.png, four shots of one frame and two
+// shots of three frames.
 class OptionTest : public GlProgramTest {
 protected:
     void SetUp() override {
@@ -70,7 +70,7 @@ inline std::string shownLine(const Words& line) {
     return text;
 }
 
-// Of a name that GoogleTest takes.
+// Replaces the characters that GoogleTest does not allow in names.
 inline std::string lettersOf(std::string text) {
     std::erase_if(text, [](unsigned char letter) { return std::isalnum(letter) == 0; });
     return text;

@@ -1,6 +1,6 @@
 #pragma once
-// For each option of a command's own, two command lines that differ by it. The settings of the table and of the methods
-// have theirs in option_cases.h.
+// Two command lines for each option that belongs to a single command, which differ by that option. option_cases.h has
+// the settings of the table and of the methods.
 
 #include "cli/option_cases.h"
 
@@ -8,13 +8,12 @@ namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
-    Words more = {};                 // what both lines need besides
-    Words without = {};              // options of the command's usual line that neither line has
-    std::vector<Words> before = {};  // lines that are run first
+    Words more = {};                 // further options of both lines
+    Words without = {};              // options of the usual line that both lines omit
+    std::vector<Words> before = {};  // lines that run first
 };
 
-// A line of each command that ends soon, without the words of the command. What a case gives takes the place of the
-// same option here.
+// A short-running line for each command, without the command's name. Options of a case replace the same options here.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};
@@ -50,7 +49,7 @@ inline Words usualLine(const std::string& command) {
     return found == usualLines().end() ? line : joined(line, found->second);
 }
 
-// Leaves out an option with what follows it up to the next one.
+// Removes an option and the words after it up to the next option.
 inline Words withoutOption(Words line, const std::string& option) {
     const auto begin = std::ranges::find(line, option);
     if (begin == line.end()) return line;
@@ -58,7 +57,8 @@ inline Words withoutOption(Words line, const std::string& option) {
     return line;
 }
 
-// The line of a case. An option without a dash, "A" or "SHOT", stands for the words in its place: the case gives all.
+// Returns the line of a case. A name without a dash, "A" or "SHOT", is a positional argument: the case then gives all
+// words.
 inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& tried, bool with) {
     Words line = usualLine(command);
     for (const std::string& option : tried.without) line = withoutOption(line, option);
@@ -70,7 +70,7 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// "render -o" → its case. An option of the program itself begins with a space.
+// Cases by command and option, such as "render -o". The key of an option of the program itself begins with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),

@@ -1,11 +1,11 @@
-// No popping: across a focus pull, a dolly and a walk cycle, split samples change the image from frame to frame by a
-// small part of what whole levels do, over the stretch of the movement where levels change most (eval/popping/popping.h
-// says what is measured).
+// Split samples avoid popping in a focus pull, a dolly and a walk cycle. From frame to frame they change the image by a
+// small part of a whole level's change. The tests measure the part of each movement where levels change most;
+// eval/popping/popping.h defines the measurements.
 //
-// One sample's step is √(c/w)/N of a whole level's for a blur of c px and a level's deviation of w px, here at most
-// about 30/0.4: 8.7/N. Samples of an object that change in the same frame add up like noise: k of them make √k of it.
-// Movements of 480 frames change at most three samples of 64 a frame, a walk at 24 frames a second at most twelve of
-// 128: 0.23 of a level's pop.
+// For a blur of c px and a level deviation of w px, one sample's step is √(c/w)/N of a whole level's step. Here c/w is
+// at most about 30/0.4, so that a step is 8.7/N. Steps of k samples of an object in the same frame add up like noise,
+// by √k. Movements of 480 frames change at most three of 64 samples a frame. A walk at 24 frames a second changes at
+// most twelve of 128: 0.23 of a level's pop.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // By size and as coarse as few samples allow, whatever their number: levels change in sight.
+        // Size-based levels, as coarse as few samples allow and independent of the sample count, so that changes are
+        // visible.
         popping.plan.metric = LodMetric::size;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
@@ -67,7 +68,7 @@ protected:
         EXPECT_LT(fractional, maxPop);
     }
 
-    // The busiest part of a movement that takes twenty seconds.
+    // The busiest part of a movement that takes 20 s.
     void expectNoneAlong(Movement movement) const {
         PoppingOptions popping;
         popping.movements = {movement};
@@ -79,10 +80,10 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens.blurScale = 4;  // at this size of the image, for the blur of a large one
+        options_.lens.blurScale = 4;  // the blur of a larger image at this image size
     }
 
-    // 576 triangles, 100 m long: few pixels and much blur bring its levels into play.
+    // A fox of 576 triangles, 100 m long. Few pixels and much blur bring its levels into use.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
         options_.units = 1;
@@ -125,8 +126,8 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
     expectNoneAlong(Movement::dolly);
 }
 
-// The whole cycle at 24 frames a second, focused in front of the fox: each step changes how near its nearest part is,
-// and with that its blur and its level.
+// The whole cycle at 24 frames a second, focused in front of the fox. Each step changes the distance of its nearest
+// part, and so its blur and its level.
 TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);

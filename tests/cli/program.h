@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program as a child process, in a folder of its own, with a cache of its own.
+// Runs the program as a child process, with its own folder and cache.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -21,10 +21,10 @@ namespace defocus::engine {
 struct Outcome {
     int exitCode = -1;  // 128 + number of the signal that ended it
     std::string out;
-    std::string err;  // without progress
+    std::string err;  // without progress lines
 };
 
-// Lines as "pyramids: 65 %, 3 s left" come where work takes longer than a second, so that how many there are is chance.
+// Removes lines such as "pyramids: 65 %, 3 s left". Their number is random, since they appear after a second of work.
 inline std::string withoutProgress(const std::string& text) {
     static const std::regex line("(frame [0-9]+(, [^\n]*)?|[a-z ]+): [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
     return std::regex_replace(text, line, "");
@@ -43,10 +43,10 @@ protected:
         std::filesystem::remove_all(root_, ignored);
     }
 
-    // Where the program runs: relative names in `arguments` lie here.
+    // Working folder of the program: relative names in `arguments` refer to it.
     [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
 
-    // Where the program keeps pyramids; outside `folder`, so that they aren't counted as its output.
+    // Folder of the program's pyramids; outside `folder`, so that pyramids do not count as output.
     [[nodiscard]] std::filesystem::path cacheFolder() const { return root_ / "caches" / "defocus"; }
 
     [[nodiscard]] std::size_t fileCount() const {
@@ -54,7 +54,7 @@ protected:
         return static_cast<std::size_t>(std::distance(Files(folder()), Files()));
     }
 
-    // `mostFileBytes`: writes beyond it fail, as on a full disk; 0: no limit.
+    // `maxFileBytes`: writes beyond this size fail, as on a full disk; 0: no limit.
     Outcome run(const std::vector<std::string>& arguments, std::size_t maxFileBytes = 0) const {
         const std::filesystem::path out = root_ / "stdout";
         const std::filesystem::path err = root_ / "stderr";
@@ -77,7 +77,7 @@ private:
     std::filesystem::path root_;
 };
 
-// One line on stderr that begins with the program's name, nothing else said, and the exit code.
+// Expects the exit code, and one line on stderr that begins with the program's name as the only output.
 inline void expectOneLine(const Outcome& outcome, int exitCode) {
     EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -1,7 +1,7 @@
 #pragma once
-// Runs the program as copies of this process as it was before its first test. A copy need not load hundreds of shared
-// libraries anew, which takes longer than most of the tests. But threads aren't copied, and tests begin some: a GL
-// driver's, those that read images or build pyramids. So a process that stays as it was makes the copies.
+// Runs the program in forks of this process, taken before the first test. A fork skips the loading of hundreds of
+// shared libraries, which takes longer than most tests. Forks do not copy threads, and tests start some: those of GL
+// drivers, image readers and pyramid builds. A separate process without threads therefore makes the forks.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@
 namespace defocus::engine {
 
 struct ProgramRun {
-    std::filesystem::path folder;     // where it runs
-    std::filesystem::path out;        // of its standard output
-    std::filesystem::path err;        // of its standard error
+    std::filesystem::path folder;     // working folder
+    std::filesystem::path out;        // file for standard output
+    std::filesystem::path err;        // file for standard error
     std::filesystem::path cacheHome;  // $XDG_CACHE_HOME
     std::size_t maxFileBytes = 0;     // writes beyond it fail, as on a full disk; 0: no limit
     std::vector<std::string> arguments;
@@ -32,9 +32,9 @@ struct ProgramRun {
 
 class ProgramCopies : public testing::Environment {
 public:
-    // The status that waitpid(2) gives; -1 where there is no process that makes copies.
+    // Returns the status of waitpid(2), or −1 without a forking process.
     static int run(const ProgramRun& program) {
-        std::string words;  // each with a NUL after it
+        std::string words;  // separated by NUL bytes
         const auto add = [&words](const std::string& word) { words += word + '\0'; };
         for (const auto& path : {program.folder, program.out, program.err}) add(path.string());
         add(std::to_string(program.maxFileBytes));
@@ -53,7 +53,7 @@ public:
     void SetUp() override {
         int ends[2];
         ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
-        std::fflush(nullptr);  // or the copies would write it once more
+        std::fflush(nullptr);  // otherwise each fork writes the buffered output again
         const pid_t process = ::fork();
         ASSERT_GE(process, 0);
         if (process == 0) {
@@ -65,7 +65,7 @@ public:
         process_ = process;
     }
     void TearDown() override {
-        ::close(socket_);  // which ends the process
+        ::close(socket_);  // ends the forking process
         ::waitpid(process_, nullptr, 0);
         socket_ = -1;
     }
@@ -116,10 +116,10 @@ private:
         pointers.push_back(nullptr);
         const int code = runProgram(static_cast<int>(words.size()), pointers.data());
         std::fflush(nullptr);
-        ::_exit(code);  // without destructors: those of the test program aren't the program's
+        ::_exit(code);  // skips the destructors of the test program
     }
 
-    // All of it, or false.
+    // Writes all bytes; returns false on failure.
     static bool write(int file, const void* data, std::size_t size) {
         for (std::size_t done = 0; done < size;) {
             const ssize_t count = ::send(file, static_cast<const char*>(data) + done, size - done, MSG_NOSIGNAL);

@@ -1,5 +1,5 @@
 #pragma once
-// Shots of the two squares of two_quads.h: a focus pull from one to the other and a turn, small and quick.
+// Short, small shots of the two squares of two_quads.h: a focus pull from one to the other, and a turn.
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
-// Long work takes no more as it goes on, and programs side by side don't get in each other's way. scripts/soak runs
-// these with more rounds.
+// Long runs do not accumulate memory or handles, and concurrent programs do not disturb each other. scripts/soak runs
+// these tests with more rounds.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -32,9 +32,9 @@ protected:
     }
 };
 
-// What the process held at each write of the frames from 90 to 109, and of the last 20: the median of its memory, and
-// the fewest handles. Other frames' files may be open whenever one looks, so a few handles more say nothing; one lost
-// in every twentieth frame would be ten more.
+// Compares frames 90 to 109 with the last 20: the median memory and the min number of handles at each write. Files of
+// other frames may be open at any time, so a few extra handles are allowed. A leak in every twentieth frame would add
+// ten.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();
@@ -73,7 +73,7 @@ TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     EXPECT_LT(fewestAfter, fewestBefore + 5);
 }
 
-// Each builds or reads the same pyramids; all draw the same picture, and nothing half is left.
+// All programs build or read the same pyramids, draw the same picture, and leave no temporary file.
 TEST_F(Soak, eightProgramsShareACacheFolder) {
     for (int round = 0; round < roundsOr("DEFOCUS_SOAK_ROUNDS", 2); ++round) {
         fs::remove_all(cacheFolder());

@@ -1,5 +1,5 @@
-// Frames in tiles by the program: the bits of one piece, whether machines share the rows or memory is short; what
-// doesn't belong together is refused; memory stays within what was asked for.
+// Frames that the program draws in tiles have the bits of a frame in one piece, whether machines share the rows or
+// memory is short. Tiles that do not belong together are refused. Memory stays within the given limit.
 
 #include <algorithm>
 
@@ -58,7 +58,7 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
     }
 }
 
-// Without a number of samples each tile takes those that the whole frame's blur asks for.
+// Without --samples each tile takes the number that the whole frame's blur requires.
 TEST_F(TileCommand, tilesAgreeOnTheNumberOfSamples) {
     std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr"};
     for (const std::string index : {"0", "1"}) {
@@ -106,11 +106,11 @@ TEST_F(TileCommand, whatDoesNotGoWithTilesIsRefused) {
     expectRefused(run(line({"--resume"})), 2, "one piece");
 }
 
-// More pixels than the memory holds at once.
+// Frames with more pixels than memory can hold at once.
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
-    // In one piece this takes 880 MB for its pixels alone, and 50 MB for one layer.
+    // In one piece, the pixels take 880 MB, and a single layer takes 50 MB.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");
@@ -136,7 +136,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// Meshes and what a driver keeps of their triangles count before they are there: 400,000 a layer, in one piece.
+// Meshes and the driver's copies of their triangles count before they are allocated: 400,000 triangles a layer, in one
+// piece.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
@@ -147,7 +148,7 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
-// Tiles of a run that was short of memory wait for one that isn't.
+// A run with enough memory resumes from the tiles of a run that was short of memory.
 TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
     fs::create_directory(folder() / "a.tiles");
     ASSERT_EQ(run(line({"--resume", "-o", "a.exr"})).exitCode, 0);
@@ -169,7 +170,7 @@ TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
     EXPECT_EQ(outcome.exitCode, 0) << enough << ": " << outcome.err;
 }
 
-// Frames of a film are drawn in tiles too, and their files are the bytes of those in one piece.
+// Frames of a film are also drawn in tiles; their files have the same bytes as those in one piece.
 TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     const auto film = [&](const std::string& name, std::vector<std::string> more) {
         more.insert(more.begin(), {"--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o", name + "/#.exr",
@@ -181,7 +182,7 @@ TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     ASSERT_EQ(tiles.exitCode, 0) << tiles.err;
     for (const char* name : {"0.exr", "0.png", "0.jpg", "1.exr", "1.png", "1.jpg"})
         EXPECT_TRUE(bytesOf(std::string("tiles/") + name) == bytesOf(std::string("whole/") + name)) << name;
-    // They are finished, whatever the memory.
+    // Frames count as finished whether or not memory forced tiles.
     EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o",
                    "tiles/#.exr", "--memory", "350MiB", "--resume"})
                   .err.find("2 of them there before"),

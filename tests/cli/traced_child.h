@@ -1,6 +1,6 @@
 #pragma once
-// Stops a child process at a chosen call that changes a file, by ptrace(2): what a test does then happens at a point of
-// the child's work and never at a time.
+// Stops a child process at a chosen call that changes a file, by ptrace(2). Tests act at a point of the child's work,
+// independent of time.
 
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
@@ -20,13 +20,13 @@ namespace defocus::engine {
 
 class TracedChild {
 public:
-    // `run` is what the child does, exec among it; writes to files of the folder called `folder` count, and all that
-    // give a file another name, unless it is the driver that keeps a shader.
+    // `run` is the child's work, including exec. Counted calls are writes to files of the folder named `folder`, and
+    // every call that renames a file. Calls by a driver that stores a shader are excluded.
     TracedChild(const std::function<void()>& run, std::string folder) : folder_("/" + std::move(folder) + "/") {
         child_ = ::fork();
         if (child_ == 0) {
             ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
-            ::raise(SIGSTOP);  // until the parent has said what it wants to see
+            ::raise(SIGSTOP);  // waits until the parent has set its tracing options
             run();
             ::_exit(97);
         }
@@ -44,12 +44,12 @@ public:
         ::waitpid(child_, nullptr, __WALL);
     }
 
-    [[nodiscard]] bool traced() const { return traced_; }  // false where the system doesn't allow it
-    [[nodiscard]] int calls() const { return calls_; }     // that count, so far
+    [[nodiscard]] bool traced() const { return traced_; }  // false if the system does not allow tracing
+    [[nodiscard]] int calls() const { return calls_; }     // counted calls so far
 
-    // Goes on to the child's end. Before its `call`th call that counts, from 1, is carried out, it gets `signal`.
-    // Before each, while the thread that makes it stands still, `look` sees the child. Returns its exit code, or 128 +
-    // number of the signal that ended it.
+    // Continues to the child's end. The child gets `signal` before its counted call number `call`, from 1, is executed.
+    // Before each counted call, while the calling thread is stopped, `look` gets the child. Returns the exit code, or
+    // 128 + the number of the signal that ended the child.
     int end(int call = 0, int signal = 0, const std::function<void(pid_t)>& look = {}) {
         while (exitCode_ < 0) {
             int status = 0;
@@ -65,7 +65,8 @@ public:
                 if (++calls_ == call) ::kill(child_, signal);
                 if (look) look(child_);
             }
-            const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;  // of tracing; others are for the child
+            // signals of the tracing itself; all others go to the child
+            const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;
             ::ptrace(PTRACE_SYSCALL, thread, nullptr, own ? 0 : static_cast<long>(reason));
         }
         return exitCode_;
@@ -90,7 +91,7 @@ private:
         return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
     }
 
-    // Whether the name at this address of the thread's memory lies in Mesa's cache of shaders.
+    // Returns whether the path at this address of the thread's memory lies in Mesa's shader cache.
     static bool ofTheDriver(pid_t thread, std::uint64_t address) {
         std::ifstream memory("/proc/" + std::to_string(thread) + "/mem", std::ios::binary);
         memory.seekg(static_cast<std::streamoff>(address));

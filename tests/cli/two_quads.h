@@ -30,7 +30,7 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-// The two triangles of a square of side 1 in the plane z = 0.
+// The two triangles of a unit square in the plane z = 0.
 inline std::string unitSquare() {
     const std::array<float, 18> positions = {-.5f, -.5f, 0, .5f, -.5f, 0, .5f,  .5f, 0,
                                              -.5f, -.5f, 0, .5f, .5f,  0, -.5f, .5f, 0};

@@ -1,4 +1,4 @@
-// The layout: a folder includes only those above it, and each foreign library stays in its place.
+// Source layout: a folder includes only lower layers, and each third-party library is confined to its folders.
 
 #include <gtest/gtest.h>
 
@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 
 struct Line {
     std::string file;    // relative to src
-    std::string folder;  // the room it stands in, e.g. "lod/simplify"
+    std::string folder;  // layer that contains the file, e.g. "lod/simplify"
     int number = 0;
     std::string text;
 };
 
-// Returns the room of a file: "lod/simplify" for "lod/simplify/weld.h", "render" for "render/circular/circular.h". Only
-// the rooms of lod and view are two folders deep.
+// Returns the layer of a file: "lod/simplify" for "lod/simplify/weld.h", "render" for "render/circular/circular.h".
+// Only layers of lod and view are two folders deep.
 std::string roomOf(const std::string& path) {
     const std::string first = path.substr(0, path.find('/'));
     return first == "lod" || first == "view" ? path.substr(0, path.rfind('/')) : first;
@@ -48,7 +48,7 @@ std::string where(const Line& line) {
     return line.file + ":" + std::to_string(line.number) + ": " + line.text;
 }
 
-// The rooms, from the bottom up, and the rooms that each may include besides itself.
+// Layers from the bottom up, with the other layers that each may include.
 const std::map<std::string, std::vector<std::string>>& allowed() {
     static const std::map<std::string, std::vector<std::string>> table = [] {
         std::map<std::string, std::vector<std::string>> rooms = {
@@ -81,7 +81,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
         addOver("cli", "view/window", {"eval"});
-        rooms["frame"].emplace_back("school");  // nobody else makes the built-in scene
+        rooms["frame"].emplace_back("school");  // only frame makes the built-in scene
         return rooms;
     }();
     return table;
@@ -105,7 +105,7 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
     EXPECT_GT(checked, 100u);  // the sources were found
 }
 
-// Who embeds the library sees nothing of it but its public headers.
+// Programs that embed the library see only its public headers.
 TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
     const std::regex include(R"re(^\s*#\s*include\s*(["<][^">]*[">]))re");
     const std::regex standard(R"(^<[a-z_]+>$)");
@@ -127,7 +127,7 @@ TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
 
 struct Place {
     const char* pattern;
-    const char* files;  // only files that match this may hold it
+    const char* files;  // pattern of the files that may contain the text
 };
 
 TEST(Layering, foreignLibrariesStayInTheirPlace) {
@@ -142,7 +142,7 @@ TEST(Layering, foreignLibrariesStayInTheirPlace) {
         {R"(#\s*include\s*<epoxy/|\bgl[A-Z][A-Za-z]+\(|\bGL_[A-Z])", "^(gl|render)/"},
         {R"(#\s*include\s*<EGL/|\begl[A-Z][A-Za-z]+\()", "^gl/"},
         {R"(#\s*include\s*<CLI/|\bCLI::)", "^cli/"},
-        // A build without the viewer leaves these files out.
+        // A build without the viewer omits these files.
         {R"(#\s*include\s*[<"](imgui|backends/imgui))", "^view/"},
         {R"(#\s*include\s*<GLFW/|\bglfw[A-Z])", "^(gl/window|view/window/interface)\\."},
         {R"(#\s*include\s*"gl/window\.h")", "^(gl/window\\.|view/)"},

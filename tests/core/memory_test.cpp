@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Small blocks and pages hand their values over to each other as a vector grows and shrinks.
+// A growing or shrinking vector moves its values between small blocks and whole pages.
 TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
     struct alignas(64) Line {
         std::uint32_t number = 0;
@@ -34,7 +34,7 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
     }
 }
 
-// Gives back three quarters of a vector. Returns how many of its pages are there by the system's own count, as a share.
+// Frees three quarters of a vector. Returns the share of its pages that the system still counts as resident.
 double shareLeftOfAQuarter() {
     constexpr std::size_t page = 4096;
     constexpr std::size_t max = 4 * PageAllocator<std::uint32_t>::fewestBytes / sizeof(std::uint32_t);
@@ -55,7 +55,7 @@ double shareLeftOfAQuarter() {
 }
 
 TEST(Memory, roomIsGivenBackAndValuesStay) {
-    // Where the system joins pages to a huge one just then, those that were given back are there again.
+    // The system may merge pages into a huge page meanwhile, which makes freed pages resident again.
     double min = 1;
     for (int attempt = 0; attempt < 20 && min > 0.26; ++attempt) min = std::min(min, shareLeftOfAQuarter());
     EXPECT_LE(min, 0.26);

@@ -1,4 +1,4 @@
-// Each in a child process, since they take away a standard output.
+// Each test runs in a child process, since it closes standard output.
 
 #include "core/message.h"
 

@@ -42,8 +42,8 @@ TEST(Tasks, anExceptionReachesTheOneWhoWaits) {
     }
 }
 
-// The only worker is kept busy until the others have been dropped: then the last copy of what they hold is gone. It
-// gives up after a minute, so that a fault is a failure and not a hang.
+// The only worker is busy until the waiting tasks are dropped, which destroys the last copy of their data. The worker
+// gives up after a minute, so that a bug fails the test instead of hanging it.
 TEST(Tasks, whatNobodyWaitsForIsDropped) {
     if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core: the thread that adds work does it";
     std::atomic<int> done = 0;

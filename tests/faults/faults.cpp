@@ -1,10 +1,10 @@
-// Faults of the system for a program that loads this first (LD_PRELOAD), each asked for by a variable of the
-// environment:
-//   FAULT_LOCKS=1      flock(2) says that the file system has no locks
-//   FAULT_CLOCK=1      the wall clock goes back by an hour each time that it is read
-//   FAULT_EGL=A,B      EGL doesn't list these of its extensions
-//   FAULT_GL_MEMORY=N  from the Nth question for OpenGL's error on, every second one is answered by out of memory: who
-//                      takes what there was of errors, allocates, and asks again, then finds it
+// Injects faults of the system into a program that preloads this library (LD_PRELOAD). Environment variables select the
+// faults:
+//   FAULT_LOCKS=1      flock(2) fails as on a file system without locks
+//   FAULT_CLOCK=1      the wall clock goes back by an hour with each reading
+//   FAULT_EGL=A,B      EGL does not list these extensions
+//   FAULT_GL_MEMORY=N  from call N of glGetError on, every second call returns "out of memory": code that clears
+//                      errors, allocates, and checks again then sees the fault
 
 #include <dlfcn.h>
 #include <sys/file.h>
@@ -32,7 +32,8 @@ long jump() {
 constexpr unsigned outOfMemory = 0x0505;  // GL_OUT_OF_MEMORY
 constexpr int eglExtensions = 0x3055;     // EGL_EXTENSIONS
 
-// Epoxy's entry points are variables. Called for the first time, one looks for the driver's function and becomes it.
+// Epoxy's entry points are variables. On its first call, an entry point looks up the driver's function and replaces
+// itself.
 using GetError = unsigned (*)();
 GetError* entry = nullptr;
 GetError real = nullptr;
@@ -55,7 +56,7 @@ const char* withoutExtensions(void* display, int name) {
     const char* const text = realQuery(display, name);
     realQuery = std::exchange(*queryEntry, &withoutExtensions);
     if (text == nullptr || name != eglExtensions) return text;
-    static std::set<std::string> kept;  // what was returned once stays
+    static std::set<std::string> kept;  // returned strings must stay valid
     const std::string hidden = "," + std::string(std::getenv("FAULT_EGL")) + ",";
     std::istringstream words(text);
     std::string left;

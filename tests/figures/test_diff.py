@@ -69,7 +69,7 @@ def test_few_runs_have_no_verdict(runs, verdict):
     assert rows["accumulation lod=off 8"][0].verdict == verdict
 
 
-# 1 % of an RMSE is 0.0864 dB of PSNR; of 1 - SSIM at 0.99 it is 0.0001.
+# 1 % of an RMSE is 0.0864 dB of PSNR; 1 % of 1 - SSIM at an SSIM of 0.99 is 0.0001.
 @pytest.mark.parametrize("column, change, verdict", [
     ("rmse", {"mse": 1e-4 * 1.009**2}, "equal"), ("rmse", {"mse": 1e-4 * 1.011**2}, "farther"), ("rmse", {"mse": 1e-4 / 1.011**2}, "closer"),
     ("psnr", {"mse": 1e-4 * 1.009**2}, "equal"), ("psnr", {"mse": 1e-4 * 1.011**2}, "farther"), ("psnr", {"mse": 1e-4 / 1.011**2}, "closer"),

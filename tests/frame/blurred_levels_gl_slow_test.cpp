@@ -1,4 +1,4 @@
-// What a wide blur would show of the levels' error: light and colour of whole patches.
+// Errors of levels that a wide blur would show: light and colour of whole patches.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -52,10 +52,10 @@ protected:
 
     std::unique_ptr<GlContext> context_;
     PreparedFrame frame_;
-    std::uint64_t triangles_ = 0;  // of the last image
+    std::uint64_t triangles_ = 0;  // triangles of the last image
 };
 
-// The focus is the automatic one, and then four times as far away, which blurs all of the model.
+// The focus is first automatic and then four times as far, which blurs the whole model.
 TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     const double focus = frame_.view.lens.focusDistance;
     for (const double distance : {focus, 4 * focus}) {

@@ -1,5 +1,6 @@
-// The estimated error of frames against their true one, from a converged reference at full detail: on the project's own
-// scenes, the school of fish and two public models. Levels of detail are on: their error is part of the true one.
+// Compares the estimated error of frames with the true error against a converged reference at full detail. The scenes
+// are the project's own, the school of fish and two public models. Levels of detail are on, and their error is part of
+// the true error.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -76,7 +77,8 @@ TEST_P(EstimatedError, isWithinAFactorOfOneAndAHalfOfTheTrueOne) {
         const StoppedFrame frame =
             stoppedFrame(frame_, *renderer_, {.targetError = target, .timeLimit = {}, .sampleLimit = 768});
         const double difference = compareImages(reference.image, frame.image, {}).rmse;
-        if (reference.remaining.rmse > 0.5 * difference) continue;  // no judge of an image that is so close to it
+        // the reference is not accurate enough to judge this image
+        if (reference.remaining.rmse > 0.5 * difference) continue;
         const double truth = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
         const double ratio = frame.stats.estimatedError.value() / truth;
         fmt::print("{:>9.5f} {:>6} {:>9.5f} {:>9.5f} {:>6.2f}\n", target, frame.stats.samples,

@@ -1,4 +1,4 @@
-// A file with the sun of a clear day, written as people would without a word about exposure.
+// A file with the sun of a clear day, rendered without exposure settings.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 class MeteredRender : public OwnContextTest {
 protected:
-    // A matt grey wall before the camera, lit straight on.
+    // A matt grey wall in front of the camera, with light at normal incidence.
     void SetUp() override {
         OwnContextTest::SetUp();
         GltfBuilder builder;
@@ -36,7 +36,7 @@ protected:
         request_.toneMap = ToneMap::none;
     }
 
-    // The linear value of the middle pixel of what is written.
+    // Linear value of the middle pixel of the written image.
     [[nodiscard]] float written() {
         SceneRenderer renderer(request_);
         renderer.write(folder_ / "a.png", renderer.render());
@@ -47,14 +47,14 @@ protected:
     Request request_;
 };
 
-// One even surface: the meter brings it to 40 %, however bright the sun is.
+// The meter brings a uniform surface to 40 %, however bright the sun is.
 TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
     request_.exposure = ExposureValue{0};
     EXPECT_EQ(written(), 1);
 }
 
-// The first image that is written sets the exposure of all: a film doesn't pump.
+// The first written image sets the exposure of all images, so that the brightness of a film does not fluctuate.
 TEST_F(MeteredRender, metersOnce) {
     SceneRenderer renderer(request_);
     renderer.write(folder_ / "a.png", renderer.render());

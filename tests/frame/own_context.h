@@ -1,5 +1,5 @@
 #pragma once
-// Tests of renderers that make a GL context of their own; they skip where none can be made.
+// Base for tests of renderers that create their own GL context; they skip where none can be created.
 
 #include <gtest/gtest.h>
 

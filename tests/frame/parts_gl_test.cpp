@@ -1,4 +1,4 @@
-// Blocks of samples rendered apart and added up: the bits of a single run, whatever the levels and the split.
+// Blocks of samples that are rendered separately add up to the bits of a single run, for every level mode and split.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ protected:
         return settings;
     }
 
-    // Draws the samples of `range`, or all of them, `wave` at once.
+    // Draws all samples, or those of `range`, in waves of `wave` samples.
     static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
                              std::uint32_t wave = 0) {
         FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
@@ -54,7 +54,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // Each part by a driver of its own, with waves of its own, through a file.
+        // A separate driver with its own waves renders each part, which then passes through a file.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -67,7 +67,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// Finished blocks are all that a part keeps: their number and samples, and that they are the sum.
+// A part stores its finished blocks only: their numbers, their sample counts and their sums.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

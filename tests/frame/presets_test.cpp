@@ -1,5 +1,5 @@
-// Presets: what they set, and that the plan of jeong2011 is what the paper's formulas give. The formulas are written
-// out here once more, from scene and camera alone.
+// Tests what presets set, and that the plan of jeong2011 follows the paper's formulas. The tests repeat the formulas,
+// computed from scene and camera alone.
 
 #include "frame/settings/presets.h"
 
@@ -33,7 +33,7 @@ TEST(Presets, setWhatTheyList) {
             ASSERT_NE(setting, nullptr) << value.setting;
             EXPECT_EQ(setting->text(request), value.text) << value.setting;
         }
-        // And nothing else.
+        // The preset changes no other setting.
         clearPreset(preset, request);
         for (const Setting& setting : settings()) EXPECT_FALSE(changedText(setting, request)) << setting.name;
     }
@@ -44,7 +44,7 @@ TEST(Presets, areLeftByAnotherValue) {
     for (const PresetValue& value : jeong().values) {
         Request request;
         applyPreset(jeong(), request);
-        if (value.setting == "lod")  // as it is by default
+        if (value.setting == "lod")  // equals the default
             request.lod = LodMode::nearest;
         else
             settingNamed(value.setting)->clear(request);
@@ -58,7 +58,7 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// Each object's score is written once more, from the boxes of the plan and the formula of the circle of confusion.
+// Recomputes each object's score from the plan's bounding boxes and the circle-of-confusion formula.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -75,7 +75,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        const double growth = 0.25 * object.coc.smallest / edge;  // of the edges
+        const double growth = 0.25 * object.coc.smallest / edge;  // of the edge length
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {
             const double middle = std::sqrt(pyramid.levels[l - 1].meanEdge * pyramid.levels[l].meanEdge);
@@ -88,7 +88,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     EXPECT_GE(levels.size(), 2u);
 }
 
-// Six fish, in focus and far out of it.
+// Six fish, from in focus to strongly blurred.
 class JeongPlan : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -115,7 +115,7 @@ protected:
     static inline PreparedFrame* frame_ = nullptr;
 };
 
-// Digits of `index` in the base, behind the point and the other way round (Halton 1960).
+// Radical inverse of `index`: its digits in the base, mirrored at the radix point (Halton 1960).
 double mirrored(std::uint32_t index, std::uint32_t base) {
     double result = 0;
     for (double weight = 1.0 / base; index > 0; index /= base, weight /= base) result += (index % base) * weight;
@@ -136,7 +136,7 @@ glm::dvec2 onDisk(double x, double y) {
 TEST_F(JeongPlan, samplesAreHaltonsPointsFrom1On) {
     const FramePlan plan = planOf(64);
     ASSERT_EQ(plan.samples.size(), 64u);
-    // All moved alike, so that the first lies in the middle of the lens.
+    // All points shift together, so that the first lies at the centre of the lens.
     const auto moved = [](std::uint32_t i, std::uint32_t base) {
         const double x = mirrored(i + 1, base) - 1.0 / base + 0.5;
         return x - std::floor(x);
@@ -161,10 +161,10 @@ TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
             SCOPED_TRACE(object.name);
             const double centre = -object.viewBox.centre().z;
             const double nearest = -object.viewBox.maximum.z;
-            const double pixels = plan.view.width / (2 * tanHalfWidth);  // of 1 m at 1 m
+            const double pixels = plan.view.width / (2 * tanHalfWidth);  // pixels of 1 m at a distance of 1 m
             const double blur = aperture * std::abs(1 / lens.focusDistance - 1 / centre) * pixels;
             const Pyramid& pyramid = frame_->world.pyramids[static_cast<std::size_t>(object.mesh)];
-            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the same along each axis
+            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the scale is uniform
             const double edge = pyramid.levels[0].meanEdge * scale * pixels / nearest;
             const double target = std::max(0.25 * blur, 3.3);
             const auto coarsest = static_cast<double>(pyramid.levels.size() - 1);

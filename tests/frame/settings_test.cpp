@@ -1,5 +1,5 @@
-// The table of settings: what a row writes it reads, what it takes is what it says, and no value of a request is
-// without its row.
+// The table of settings: each row reads what it writes, accepts what its description says, and every value of a request
+// has a row.
 
 #include "frame/settings/settings.h"
 
@@ -19,7 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-// A value that the setting takes and that no default-made request has.
+// A value that the setting accepts and that differs from the default.
 std::string otherValue(const Setting& setting) {
     static const std::map<std::string, std::string> own = {
         {"background", "0.25,0.5,1"},
@@ -79,7 +79,7 @@ TEST(Settings, whatARowWritesItReads) {
         else
             setting.set(again, *text);
         EXPECT_EQ(setting.text(again), text);
-        if (setting.name == "preset") continue;  // it sets others: presets_test.cpp
+        if (setting.name == "preset") continue;  // a preset sets other settings: presets_test.cpp
         for (const Setting& other : settings()) {
             if (other.name == setting.name) continue;
             EXPECT_FALSE(changedText(other, request)) << other.name;
@@ -139,7 +139,7 @@ std::string textOf(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// LensSettings and lens_fields.cpp have the same values.
+// LensSettings and lens_fields.cpp contain the same values.
 TEST(Settings, everyLensValueHasItsRow) {
     const std::string header = textOf("include/defocus/lens.h");
     const std::regex member(R"(std::optional<\w+>\s+(\w+);)");
@@ -149,7 +149,7 @@ TEST(Settings, everyLensValueHasItsRow) {
         members.insert((*match)[1]);
     std::set<std::string> rows;
     for (const LensField& field : lensFields())
-        if (field.name != std::string_view("focusDistance")) rows.insert(field.name);  // Request::focus has it
+        if (field.name != std::string_view("focusDistance")) rows.insert(field.name);  // belongs to Request::focus
     EXPECT_EQ(members, rows);
 }
 

@@ -1,4 +1,4 @@
-// What ends a frame whose number of samples is left open, and what cannot.
+// Conditions that end a frame with an open number of samples, and conditions that cannot.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LT(renderer.statistics().samples, 64u);
 }
 
-// Full detail: the blocks of an open number of samples are those of a fixed one, bit for bit.
+// At full detail, the blocks of an open number of samples equal those of a fixed number, bit for bit.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
     request.lod = LodMode::off;

@@ -1,4 +1,4 @@
-// Bytes that did harm once, and those that the fuzzer begins from.
+// Runs the fuzz targets on inputs that once caused faults, and on the fuzzer's seeds.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST_P(FuzzCorpus, doesNoHarm) {
     for (const auto& seed : seeds) EXPECT_NO_THROW(target.run(seed));
 }
 
-// Every seed, cut off at eight places.
+// Every seed, truncated at eight places.
 TEST_P(FuzzCorpus, cutFilesDoNoHarm) {
     const FuzzTarget& target = GetParam();
     for (const auto& seed : target.seeds()) {

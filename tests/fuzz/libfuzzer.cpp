@@ -1,5 +1,5 @@
-// The target that DEFOCUS_FUZZ_TARGET names, under clang's libFuzzer. With DEFOCUS_FUZZ_SEEDS its seeds go to that
-// folder.
+// Runs the target that DEFOCUS_FUZZ_TARGET names under clang's libFuzzer. If DEFOCUS_FUZZ_SEEDS names a folder, the
+// target's seeds are written to it.
 
 #include <cstdint>
 #include <cstdio>
@@ -18,8 +18,8 @@ namespace {
 
 const defocus::FuzzTarget* target = nullptr;
 
-// Seconds of processor time that one input may take. libFuzzer's own limit (-timeout) is of the clock on the wall,
-// which a busy machine stretches.
+// Max CPU seconds for one input. libFuzzer's own limit (-timeout) measures wall-clock time, which grows on a busy
+// machine.
 constexpr double longestRun = 60;
 
 }  // namespace
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
         std::fprintf(stderr, "DEFOCUS_FUZZ_TARGET: %s\n", error.what());
         std::exit(2);
     }
-    // libFuzzer would make up nothing longer than the longest seed.
+    // By default libFuzzer generates no input longer than the longest seed.
     static std::string length = "-max_len=" + std::to_string(target->maxBytes);
     static std::vector<char*> words(*arguments, *arguments + *count);
     words.insert(words.begin() + 1, length.data());

@@ -47,7 +47,7 @@ std::string_view textOf(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// A file for readers that take a path, in a folder that lives as long as the process.
+// Writes the bytes for readers that take a path, to a folder that lives as long as the process.
 std::filesystem::path written(const std::string& name, std::span<const std::byte> bytes) {
     static const ScratchFolder folder;
     const std::filesystem::path path = folder / name;
@@ -82,7 +82,7 @@ void runGltf(std::span<const std::byte> bytes) {
         request.size.width = 64;
         request.size.height = 48;
         request.samples = 8;
-        // In the air, and then on a ground with shadows.
+        // Plans the scene without a ground, then with a ground and shadows.
         std::vector<Pyramid> pyramids;
         for (const bool ground : {false, true}) {
             request.ground = ground;
@@ -97,8 +97,8 @@ void runGltf(std::span<const std::byte> bytes) {
     }
 }
 
-// Lights, each extension of materials, a texture that is moved, and an animation of them: what the models of others
-// have too little of, or in files too large to be fuzzed.
+// A scene with lights, every material extension, a texture transform, and animations of them. Other models have too few
+// of these, or are too large to fuzz.
 std::string furnishedScene() {
     GltfBuilder file;
     // A grey PNG of one pixel.
@@ -162,7 +162,7 @@ std::string furnishedScene() {
 
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
-    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // lamps, and a lens in words of the project
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // lamps, and a lens in the project's own extras
         std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
         seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
     }
@@ -190,7 +190,7 @@ const Mesh& cachedMesh() {
     return mesh;
 }
 
-// The bytes as a file whose key and checksum are right, since no mutation would ever find those.
+// Reads the bytes as a file with a correct key and checksum, which no mutation would ever find.
 void runCache(std::span<const std::byte> bytes) {
     const PyramidKey key = pyramidKey(cachedMesh(), {});
     Bytes file(bytes.begin(), bytes.end());
@@ -210,7 +210,7 @@ void runCache(std::span<const std::byte> bytes) {
 
     const std::optional<Pyramid> pyramid = decodePyramid(file, cachedMesh(), key);
     if (!pyramid) return;
-    // Whatever was taken can be drawn: no index leads out of its level.
+    // Every accepted pyramid can be drawn: all indices are in the range of their level.
     for (const PyramidLevel& level : pyramid->levels)
         for (const IndexRange& range : level.primitives)
             for (std::uint32_t i = 0; i < range.count; ++i)
@@ -227,7 +227,7 @@ std::vector<Bytes> cacheSeeds() {
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
 constexpr std::size_t maxImagePixels = 1 << 14;
 
-// As a tile of a frame: its rows, and the frame that it makes up.
+// Reads the file as a tile of a frame: first its rows, then the frame that it completes.
 void runRows(const std::filesystem::path& path) {
     static_cast<void>(isRowFile(path));
     try {
@@ -276,7 +276,7 @@ std::vector<Bytes> imageSeeds() {
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i % 11) / 8;
     std::vector<Bytes> seeds;
     for (std::size_t format = 0; format < imageNames.size(); ++format) {
-        if (std::string_view(imageNames[format]).ends_with("hdr")) continue;  // is read, never written
+        if (std::string_view(imageNames[format]).ends_with("hdr")) continue;  // the format is read but never written
         const std::filesystem::path path = written(std::string("seed-") + imageNames[format], {});
         writeImage(path, image);
         std::ifstream file(path, std::ios::binary);
@@ -284,7 +284,7 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
-    // Two tiles, one of them the whole frame, and a part of a frame's samples.
+    // Two tiles, one of them the whole frame, and the samples of a part of a frame.
     const auto add = [&](const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);
         seeds.push_back(bytesOf(std::string(1, 0) + std::string(std::istreambuf_iterator<char>(file), {})));
@@ -309,7 +309,7 @@ std::vector<Bytes> imageSeeds() {
 
 // ---- settings
 
-// Values of options that are no settings.
+// Parsers of options outside the table of settings.
 void runParsers(std::string_view text) {
     const auto parse = [&](auto parser) {
         try {
@@ -321,7 +321,7 @@ void runParsers(std::string_view text) {
     parse(parseSampleRange);
     parse(parseFrameRange);
     parse(parseShotOverride);
-    // What is told of an amount of memory is an amount of memory, within the three digits told.
+    // The printed form of an amount of memory parses to the same amount, within its three digits.
     parse([](std::string_view amount) {
         const auto bytes = static_cast<double>(parseBytes(amount));
         if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();
@@ -343,8 +343,9 @@ void runSettings(std::span<const std::byte> bytes) {
         } catch (const Error&) {
             continue;
         }
-        if (settingNamed(line.substr(0, equals)) == nullptr) continue;  // of a method, which may not be the request's
-        // What was taken is written as it is read.
+        // a setting of a method other than the request's
+        if (settingNamed(line.substr(0, equals)) == nullptr) continue;
+        // Every accepted value is written in a form that reads back.
         for (const Setting& setting : settings()) {
             if (setting.repeated || setting.name == "method") continue;
             const std::optional<std::string> text = setting.text(request);

@@ -1,7 +1,7 @@
 #pragma once
-// What bytes of strangers reach, as functions of those bytes: the fuzzer calls them with bytes that it makes up (see
-// scripts/fuzz), and a test with those that once did harm (tests/fuzz/corpus). Bytes that are refused with an Error are
-// fine. Whatever else happens (another exception, a fault that a sanitizer finds, minutes of work) is a find.
+// Functions that process untrusted bytes. The fuzzer calls them with generated inputs (scripts/fuzz), and a test calls
+// them with inputs that once caused faults (tests/fuzz/corpus). An Error is a correct rejection. Any other outcome is a
+// defect: another exception, a sanitizer's report, or minutes of work.
 
 #include <cstddef>
 #include <span>
@@ -13,19 +13,20 @@ namespace defocus::engine {
 struct FuzzTarget {
     const char* name = "";
     void (*run)(std::span<const std::byte> bytes) = nullptr;
-    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // to begin from
-    std::size_t maxBytes = 0;                                  // more than that finds nothing new
+    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // initial inputs
+    std::size_t maxBytes = 0;                                  // longer inputs find no further faults
 };
 
-//   gltf      a scene's file, placed and planned for a small frame, without and with a ground and shadows
+// Fuzz targets by name:
+//   gltf      a scene file, placed and planned for a small frame, without and with a ground and shadows
 //   shot      a shot file
-//   cache     a pyramid's file, with a checksum that fits
-//   image     an image file as environment, aperture, tile, and what is compared and merged; the first byte picks the
-//             format
-//   settings  lines of "name=value" for the table of settings, the values also as those of options beside it
+//   cache     a pyramid file with a correct checksum
+//   image     an image file as environment, aperture, tile, and input of compare and merge; the first byte selects
+//             the format
+//   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 
-// Throws Error where there is none of this name.
+// Throws Error if no target has this name.
 const FuzzTarget& fuzzTargetNamed(const std::string& name);
 
 }  // namespace defocus::engine

@@ -27,13 +27,13 @@ TEST(BoxDifference, seesNothingOfWhatABlurHides) {
     EXPECT_EQ(boxDifference(reference, checkered, 16), 0);
 }
 
-// One of 2 × 2 boxes is off by 0.4 in one of three channels.
+// One of 2 × 2 boxes differs by 0.4 in one of three channels.
 TEST(BoxDifference, isTheRootOfTheMeanSquare) {
     const Image reference = evenImage(37, 32, 0);
     Image test = reference;
     for (int y = 0; y < 16; ++y)
         for (int x = 16; x < 32; ++x) test.at(x, y)[1] = 0.4f;
-    for (int y = 0; y < 32; ++y) test.at(36, y)[0] = 100;  // beyond the last whole box
+    for (int y = 0; y < 32; ++y) test.at(36, y)[0] = 100;  // outside the last complete box
     EXPECT_NEAR(boxDifference(reference, test, 16), 0.4 / std::sqrt(12.0), 1e-7);
 }
 

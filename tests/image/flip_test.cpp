@@ -48,7 +48,7 @@ struct KnownValue {
 
 class KnownFlip : public testing::TestWithParam<KnownValue> {};
 
-// The authors' own implementation, to a tenth of the tolerance that a correct implementation keeps.
+// Compares with the authors' own implementation, to a tenth of the tolerance that they allow.
 TEST_P(KnownFlip, agrees) {
     const KnownValue& known = GetParam();
     const std::filesystem::path folder = std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/flip";
@@ -81,18 +81,18 @@ TEST(Flip, isSymmetricAndBounded) {
     for (const float value : ab.pixels) EXPECT_TRUE(value > 0 && value <= 1);
 }
 
-// The colour difference is scaled by the one between green and blue, which is thereby 1.
+// The colour difference is normalised by the one between green and blue, whose FLIP is therefore 1.
 TEST(Flip, betweenGreenAndBlueIsOne) {
     for (const float value : flipErrorMap(constant(0, 1, 0), constant(0, 0, 1)).pixels) EXPECT_NEAR(value, 1, 1e-4);
 }
 
-// Greys have no chroma: HyAB is the difference in lightness, 100 between black and white and, in the linear part of L*,
-// 903.3·Y.
+// Greys have no chroma, so HyAB is the difference in lightness: 100 between black and white and, in the linear part of
+// L*, 903.3·Y.
 TEST(Flip, betweenDarkGreysFollowsLightness) {
     const double blackWhite = meanOf(flipErrorMap(constant(0, 0, 0), constant(1, 1, 1)));
     const double lightness = 0.008 * 24389.0 / 27.0;
     const double dark = meanOf(flipErrorMap(constant(0, 0, 0), constant(0.008f, 0.008f, 0.008f)));
-    // Above the knee: 0.95 + (e − 0.4 m)/(0.6 m)·0.05 with e = 100^0.7; below: e·0.95/(0.4 m).
+    // Above the knee: 0.95 + (e − 0.4 m)/(0.6 m)·0.05 with e = 100^0.7. Below: e·0.95/(0.4 m).
     const double largest = std::pow(100.0, 0.7) * 0.05 / 0.6 / (blackWhite - 0.95 + 0.4 * 0.05 / 0.6);
     EXPECT_NEAR(dark, std::pow(lightness, 0.7) * 0.95 / (0.4 * largest), 1e-4);
 }
@@ -113,8 +113,8 @@ TEST(Flip, isSmallerFromFartherAway) {
     EXPECT_LT(previous, 0.01);
 }
 
-// An exposure of HDR-FLIP is LDR-FLIP of the tone-mapped images: ACES as fitted by Narkowicz (2015), of 0.6 of the
-// exposed light, and no more than 1.
+// HDR-FLIP at one exposure equals LDR-FLIP of the tone-mapped images. The tone map is ACES as fitted by Narkowicz
+// (2015), applied to 0.6 of the exposed light and clamped to 1.
 TEST(HdrFlip, isLdrFlipOfToneMappedImages) {
     const Image a = noise(30, 20, 1, 9.0f), b = noise(30, 20, 2, 9.0f);
     for (const double exposure : {-3.0, 0.0, 1.5}) {

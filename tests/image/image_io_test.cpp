@@ -43,7 +43,7 @@ std::string readFault(const fs::path& path) {
     return messageOf<Error>([&] { readImage(path); });
 }
 
-// One line that starts with the file's name.
+// Expects one line that begins with the file's name.
 void expectClearFault(const std::string& message, const std::string& name) {
     EXPECT_TRUE(message.starts_with(name)) << message;
     EXPECT_GT(message.size(), name.size() + 2) << message;
@@ -89,14 +89,14 @@ TEST(ImageFile, exrKeepsMetadataUnderStandardNames) {
         ASSERT_TRUE(read.contains(name)) << name;
         EXPECT_TRUE(read[name] == value) << name;
     }
-    // On disk: the attribute's name and type as OpenEXR's standard says.
+    // The file contains the attribute's name and type as the OpenEXR standard defines them.
     const std::string text = readText(folder / "a.exr");
     using namespace std::string_literals;
     for (const std::string& attribute :
          {"aperture\0float\0"s, "focus\0float\0"s, "expTime\0float\0"s, "nominalFocalLength\0float\0"s,
           "worldToCamera\0m44f\0"s, "comments\0string\0"s, "defocus:samples\0int\0"s})
         EXPECT_NE(text.find(attribute), std::string::npos) << attribute;
-    // EXR multiplies row vectors: the translation is the last row of the file's matrix.
+    // OpenEXR multiplies row vectors, so the translation is the last row of the file's matrix.
     const std::size_t start = text.find("worldToCamera\0m44f\0"s) + 19 + 4;
     float stored[16];
     ASSERT_LE(start + sizeof stored, text.size());
@@ -131,7 +131,8 @@ TEST(ImageFile, pngKeepsAll256Levels) {
 TEST(ImageFile, pngHoldsStraightAlpha) {
     const ScratchFolder folder;
     Image image(2, 1, 4);
-    // Covered by 0.2, colour 0.5 where it is covered; and emission without coverage, which a PNG can't hold.
+    // A pixel with coverage 0.2 and the colour 0.5 where covered; then emission without coverage, which PNG cannot
+    // represent.
     for (int c = 0; c < 4; ++c) image.at(0, 0)[c] = c == 3 ? 0.2f : 0.2f * 0.5f;
     image.at(1, 0)[0] = 0.7f;
     writeImage(folder / "a.png", image);
@@ -206,7 +207,7 @@ TEST(ImageFile, aMissingFolderIsNamed) {
     expectClearFault(messageOf<Error>([&] { writeImage(path, gradient(2, 2, 3)); }), path.string());
 }
 
-// A disk that takes 1000 bytes of a file: the write must fail, the old file stay and nothing else be left.
+// On a disk with room for 1000 bytes the write must fail, keep the old file and leave no other.
 TEST(ImageFileDeathTest, aFullDiskLeavesTheOldFile) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto writeWithLittleSpace = [](const char* name) {
@@ -273,7 +274,7 @@ TEST(BadImageFile, aFlippedBitInAPngIsFound) {
     }
 }
 
-// Damage that no checksum guards may change the picture, but nothing else.
+// Damage outside the checksums may change the picture but causes no other effect.
 TEST(BadImageFile, damagedExrAndJpegNeverCrash) {
     const ScratchFolder folder;
     for (const char* name : {"a.exr", "a.jpg"}) {
@@ -342,7 +343,7 @@ TEST(Texture, realTexturesDecode) {
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet_Materials_LensesMat_BaseColor.png");
     const std::vector<std::byte> file = readFile(path);
     const TextureImage texture = decodeTexture(file, path.string());
-    const auto headerValue = [&](std::size_t offset) {  // of the IHDR chunk
+    const auto headerValue = [&](std::size_t offset) {  // offset into the IHDR chunk
         return int(file.at(offset)) << 24 | int(file.at(offset + 1)) << 16 | int(file.at(offset + 2)) << 8 |
                int(file.at(offset + 3));
     };
@@ -351,7 +352,7 @@ TEST(Texture, realTexturesDecode) {
     EXPECT_EQ(texture.rgba.size(), std::size_t(texture.width) * std::size_t(texture.height) * 4);
 }
 
-// The two bytes that a JPEG begins with, and nothing that would follow.
+// A file with only the two bytes that begin a JPEG.
 TEST(Texture, aJpegOfNothingIsRefused) {
     const ScratchFolder folder;
     const std::filesystem::path path = folder / "nothing.jpg";
@@ -366,7 +367,7 @@ TEST(Texture, anInvalidJpegIsRefused) {
     expectClearFault(readFault(path), path.string());
 }
 
-// A header of 16,000 × 16,000 px over the data of 8 × 8: libjpeg would make up the rest for half a minute.
+// A header of 16,000 × 16,000 px with the data of 8 × 8: libjpeg would fill in the rest for half a minute.
 TEST(ImageFiles, aJpegTooShortForItsPixelsIsRefused) {
     const ScratchFolder folder;
     const fs::path path = folder / "a.jpg";

@@ -1,4 +1,4 @@
-// Files written by rows are those that are written whole; files of some rows lie in their place.
+// Files written row by row equal files written whole; files with some of the rows hold them at the right place.
 
 #include "image/image_rows.h"
 
@@ -100,7 +100,7 @@ TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     }
 }
 
-// Writes beyond a limit of a file's size fail, as on a full disk.
+// Writes beyond a limit of the file size fail, as on a full disk.
 TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -120,12 +120,12 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
-// OpenEXR reads what a damaged size leads it to, and makes room for it.
+// OpenEXR trusts a damaged size and allocates memory for it.
 TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> whole = readFile(path);
-    // The size of an attribute, or what stands `offset` bytes after it.
+    // Replaces the size of an attribute, or the number `offset` bytes after the size.
     const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
                                 std::size_t offset = 0) {
         std::string bytes(reinterpret_cast<const char*>(whole.data()), whole.size());
@@ -145,13 +145,13 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
             }
         }
     };
-    withNumber("owner", "string", 6);  // what it is
+    withNumber("owner", "string", 6);  // the actual size
     EXPECT_NO_THROW(static_cast<void>(readImage(path)));
     withNumber("owner", "string", 2'000'000'000);
     expectRefused("'owner'");
     withNumber("dataWindow", "box2i", 12);
     expectRefused("'dataWindow'");
-    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // its last column
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // the last column
     expectRefused("its rows have 10000000 pixels");
     withNumber("channels", "chlist", 54);
     expectRefused("'channels'");

@@ -1,4 +1,4 @@
-// Pixels that lie elsewhere than in an Image are written and compared as an Image's.
+// Pixels in memory outside an Image are written and compared like those of an Image.
 
 #include <gtest/gtest.h>
 

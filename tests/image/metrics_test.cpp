@@ -33,7 +33,7 @@ Image pattern(int width, int height, int channels, unsigned seed) {
     return image;
 }
 
-// SSIM written straight from the paper: one 2D window per pixel, everything inside the image.
+// SSIM computed directly from the paper: one 2D window per pixel, for windows inside the image.
 double directSsim(const Image& a, const Image& b) {
     const auto luma = [](const Image& image, int x, int y) {
         const float* p = image.at(x, y);
@@ -81,14 +81,14 @@ TEST(Difference, ofEqualImagesIsNone) {
 }
 
 TEST(Difference, ofConstantImagesIsClosedForm) {
-    const double a = 0.6, b = 0.5;  // as displayed
+    const double a = 0.6, b = 0.5;  // display values
     const Difference difference =
         compareImages(constant(32, 24, 3, srgbDecode(0.6f)), constant(32, 24, 3, srgbDecode(0.5f)));
     EXPECT_NEAR(difference.mae, 0.1, 1e-6);
     EXPECT_NEAR(difference.rmse, 0.1, 1e-6);
     EXPECT_NEAR(difference.psnr, 20, 1e-4);
     EXPECT_NEAR(difference.maxError, 0.1, 1e-6);
-    // No structure: only SSIM's luminance term is left.
+    // Without structure only SSIM's luminance term remains.
     EXPECT_NEAR(difference.ssim, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 1e-6);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Builds PNG files of any colour type by hand (stored, uncompressed deflate blocks), so that reading is tested against
-// bytes that no library wrote.
+// Builds PNG files of any colour type by hand, with stored deflate blocks. Tests read bytes that no library has
+// written.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +30,8 @@ inline void appendChunk(Bytes& png, const std::string& type, const Bytes& data) 
     appendBigEndian(png, ~crc);
 }
 
-// `samples`: the rows' bytes without filter bytes, 16-bit samples in big-endian order; less than 65,535 bytes with
-// filters.
+// `samples`: the bytes of the rows without filter bytes, 16-bit samples in big-endian order. The total with filter
+// bytes must be below 65,535 bytes.
 inline Bytes buildPng(int width, int height, int bits, PngColour colour, const Bytes& samples,
                       const Bytes& palette = {}) {
     Bytes rows;
@@ -43,7 +43,7 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
     }
     const auto length = static_cast<std::uint16_t>(rows.size());
     const auto complement = static_cast<std::uint16_t>(~length);
-    Bytes zlib = {0x78, 0x01, 0x01};  // header; one last, stored block
+    Bytes zlib = {0x78, 0x01, 0x01};  // header, then one final stored block
     for (const std::uint16_t value : {length, complement}) {
         zlib.push_back(static_cast<std::uint8_t>(value & 0xff));
         zlib.push_back(static_cast<std::uint8_t>(value >> 8));

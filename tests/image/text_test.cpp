@@ -56,7 +56,7 @@ protected:
 TEST_F(TextInImages, StandsOnItsLineAndGrowsWithItsSize) {
     const Ink small = written(40, 150, "H", 40);
     EXPECT_NEAR(small.bottom, 149, 1);                            // the row above the line
-    EXPECT_NEAR(small.bottom - small.top, 0.72 * 40, 0.08 * 40);  // capitals of sans serifs: 0.7 to 0.73 em
+    EXPECT_NEAR(small.bottom - small.top, 0.72 * 40, 0.08 * 40);  // capital letters of sans-serif fonts: 0.7 to 0.73 em
     EXPECT_GE(small.left, 40);
     const Ink large = written(40, 150, "H", 80);
     EXPECT_NEAR(large.bottom - large.top, 2 * (small.bottom - small.top), 3);
@@ -64,14 +64,15 @@ TEST_F(TextInImages, StandsOnItsLineAndGrowsWithItsSize) {
 }
 
 TEST_F(TextInImages, ReadsUtf8) {
-    // A ring above the line, higher than any letter of the ring's size could hang; one sign, not one a byte.
+    // The degree sign is one glyph, not one for each UTF-8 byte: a ring above the line, higher than a letter of that
+    // size.
     const Ink degree = written(40, 150, "°", 40);
     EXPECT_LT(degree.bottom, 150 - 0.35 * 40);
     EXPECT_GT(degree.sum, 20);
     EXPECT_LT(degree.right - degree.left, 20);
-    // Letters that look alike in two alphabets.
+    // Identical letters of two alphabets.
     EXPECT_NEAR(written(40, 150, "Α", 40).sum, written(40, 150, "A", 40).sum, 1);
-    // What is no UTF-8 is a question mark.
+    // An invalid UTF-8 byte is drawn as a question mark.
     EXPECT_NEAR(written(40, 150, "\xff", 40).sum, written(40, 150, "?", 40).sum, 1e-6);
 }
 

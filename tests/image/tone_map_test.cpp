@@ -17,7 +17,7 @@ std::vector<float> shown(std::vector<float> rgb, ToneMap toneMap, double exposur
     return displayEncoded(image, toneMap, exposure).pixels;
 }
 
-// Hill's rational curve; on greys the matrices around it are the identity, as their rows sum to 1.
+// Hill's rational curve. The matrices around it are the identity on greys, as their rows sum to 1.
 double hillCurve(double v) {
     return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
 }
@@ -65,7 +65,7 @@ TEST(ToneMapped, acesOnGreysIsHillsCurve) {
 }
 
 TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
-    // AgX's sigmoid has its pivot at 10 of the 16.5 stops, where 0.18 lies, and at half of the display's range.
+    // AgX's sigmoid has its pivot at 10 of the 16.5 stops, where 0.18 lies, and at half the display range.
     for (const float channel : shown({0.18f, 0.18f, 0.18f}, ToneMap::agx)) EXPECT_NEAR(channel, 0.5f, 0.005);
     for (const float value : {0.001f, 0.02f, 0.5f, 3.0f, 12.0f}) {
         const auto rgb = shown({value, value, value}, ToneMap::agx);
@@ -74,8 +74,8 @@ TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
     }
 }
 
-// The specification's own claims: a colour of at least 8 % in each channel and no more than 80 % loses the mirrored 4 %
-// and nothing else; beyond, 1 is never reached and no step is seen.
+// Properties that the specification states. A colour from 8 % to 80 % in each channel only loses the mirrored 4 %.
+// Beyond that, the curve stays below 1 and has no step.
 TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     const auto kept = shown({0.5f, 0.3f, 0.1f}, ToneMap::neutral);
     EXPECT_NEAR(kept[0], srgbEncode(0.46f), 1e-5);
@@ -83,7 +83,7 @@ TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     EXPECT_NEAR(kept[2], srgbEncode(0.06f), 1e-5);
     EXPECT_NEAR(shown({0.04f, 0.04f, 0.04f}, ToneMap::neutral)[0], srgbEncode(0.01f), 1e-5);
     EXPECT_NEAR(shown({0.8f, 0.8f, 0.8f}, ToneMap::neutral)[0], srgbEncode(0.76f), 1e-5);
-    // Above: 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that meets the line with its slope of 1.
+    // Above that range: 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that joins the line with a slope of 1.
     EXPECT_NEAR(shown({2, 2, 2}, ToneMap::neutral)[0], srgbEncode(1 - 0.24f * 0.24f / 1.44f), 1e-5);
     EXPECT_LT(shown({100, 100, 100}, ToneMap::neutral)[0], 1);
     for (const float channel : shown({1e4f, 0, 0}, ToneMap::neutral)) EXPECT_GT(channel, 0.95f);

@@ -1,5 +1,5 @@
-// check WIDTH HEIGHT CHANNELS IMAGE...: each image has that size and shows something, and all have the same pixels. It
-// is linked with the installed library, as an example is.
+// check WIDTH HEIGHT CHANNELS IMAGE...: checks that each image has that size and is not empty, and that all have the
+// same pixels. The program links the installed library, as the examples do.
 
 #include <defocus/defocus.h>
 

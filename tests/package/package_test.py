@@ -62,7 +62,7 @@ def check_shared_library(prefix, version):
     check(f"[libdefocus.so.{'.'.join(version.split('.')[:2])}]" in dynamic, dynamic)
     for needed in re.findall(r"\(NEEDED\).*\[(.*)\]", dynamic):
         check(not re.search("glfw|imgui|X11", needed), f"the library needs {needed}")
-    # Weak symbols are the standard library's templates; all others are the API's.
+    # Weak symbols belong to templates of the standard library; all others are the API's.
     for line in run("nm", "-D", "-C", "--defined-only", libraries[0]).splitlines():
         kind, name = line.split(None, 2)[1:]
         api = re.match(r"((typeinfo|vtable|typeinfo name) for )?defocus::", name)
@@ -114,7 +114,7 @@ def main():
     build, source, cmake, compiler = (Path(word) for word in sys.argv[1:5])
     with tempfile.TemporaryDirectory(prefix="defocus-package-") as name:
         root = Path(name)
-        scene = root / "scene.glb"  # it moves
+        scene = root / "scene.glb"  # the scene is animated
         shutil.copy(source / "meshes" / "reed.glb", scene)
         environment = dict(os.environ, XDG_CACHE_HOME=str(root / "cache"))
         outputs = []

@@ -41,8 +41,8 @@ def test_what_progress_raises_ends_the_work_and_reaches_the_caller(small):
         assert numpy.array_equal(renderer.render(), defocus.render(**small))
 
 
-# With an endless switch interval a thread runs only where another one lets go of Python's lock by itself. The progress
-# function doesn't; so the counter stands still from one call to the next, unless C++ works without the lock.
+# With an endless switch interval, a thread runs only if another thread releases Python's lock. The progress function
+# does not release it, so the counter advances between two calls only if C++ works without the lock.
 def test_python_goes_on_while_c_plus_plus_renders(small):
     count = 0
     finished = threading.Event()
@@ -53,7 +53,7 @@ def test_python_goes_on_while_c_plus_plus_renders(small):
         started.set()
         while not finished.is_set():
             count += 1
-            time.sleep(1e-4)  # lets go of the lock
+            time.sleep(1e-4)  # releases the lock
 
     interval = sys.getswitchinterval()
     other = threading.Thread(target=counting)
@@ -62,7 +62,7 @@ def test_python_goes_on_while_c_plus_plus_renders(small):
     sys.setswitchinterval(1e4)
     try:
         with defocus.Renderer(**small, wave=1) as renderer:
-            for _ in range(1000):  # until it happened: when the system gives the other thread its turn is its own matter
+            for _ in range(1000):  # repeats, since the system decides when the other thread runs
                 counts = []
                 renderer.render(progress=lambda *_: counts.append(count))
                 if counts[-1] > counts[0]:
@@ -131,8 +131,8 @@ def test_a_renderer_is_not_used_from_its_own_progress_function(small):
         assert renderer.render().shape == (48, 64, 4)
 
 
-# A frame of minutes, and a signal soon after its start; nobody listens to its progress. What counts is not when the
-# signal came but that the frame was left unfinished.
+# A frame that takes minutes, with a signal soon after its start and no progress function. The test checks that the
+# frame stays unfinished, not when the signal arrives.
 def test_ctrl_c_ends_a_render(small):
     script = textwrap.dedent(f"""
         import signal

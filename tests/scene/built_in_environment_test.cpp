@@ -1,4 +1,4 @@
-// Computed surroundings against integrals and symmetries.
+// Compares computed environment maps with integrals and symmetries.
 
 #include "scene/built_in_environment.h"
 
@@ -15,7 +15,8 @@ protected:
     const Image map = builtInEnvironment(std::string(GetParam()));
 };
 
-// ∫ L cos θ dω over the upper half; cos θ sin θ dθ between the edges of a row is half the difference of their sin².
+// ∫ L cos θ dω over the upper hemisphere. The integral of cos θ sin θ over a row is half the difference of sin² θ at
+// the row's edges.
 TEST_P(BuiltInEnvironment, lightsALevelWhiteSurfaceToWhite) {
     double illuminance = 0;
     for (int y = 0; y < map.height / 2; ++y) {
@@ -31,7 +32,7 @@ TEST_P(BuiltInEnvironment, lightsALevelWhiteSurfaceToWhite) {
     for (const float value : map.pixels) ASSERT_TRUE(std::isfinite(value) && value > 0);
 }
 
-// The map closes behind the camera: its first and last columns are as near to each other as neighbours are.
+// The map is continuous behind the camera: its first and last columns differ no more than other neighbours.
 TEST_P(BuiltInEnvironment, hasNoSeam) {
     const auto step = [&](int a, int b) {
         double sum = 0;
@@ -45,13 +46,13 @@ TEST_P(BuiltInEnvironment, hasNoSeam) {
 
 TEST_P(BuiltInEnvironment, turnsByWholeColumnsAndBack) {
     const Image quarter = turnedEnvironment(map, std::numbers::pi / 2);
-    // What lay ahead, at −z in the centre column, now lies to the left, at −x: a quarter of the map earlier.
+    // The centre column, ahead at −z, moves to the left, at −x: a quarter of the map towards the first column.
     for (int y = 0; y < map.height; y += 17)
         EXPECT_EQ(quarter.at(map.width / 4, y)[0], map.at(map.width / 2, y)[0]) << y;
     EXPECT_EQ(turnedEnvironment(quarter, -std::numbers::pi / 2).pixels, map.pixels);
     EXPECT_EQ(turnedEnvironment(map, 0).pixels, map.pixels);
 
-    // Between columns no light is lost.
+    // Rotation by a fraction of a column preserves the light.
     const Image between = turnedEnvironment(map, 0.3 * 2 * std::numbers::pi / map.width);
     double before = 0;
     double after = 0;

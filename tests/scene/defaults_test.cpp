@@ -1,4 +1,4 @@
-// The framing camera by projection, the default light by integrating a grey ball.
+// Checks the framing camera by projection and the default light by integration over a grey ball.
 
 #include "scene/defaults.h"
 
@@ -130,7 +130,7 @@ TEST(DefaultLights, giveWayToTheScenesOwn) {
     EXPECT_EQ(count(), 1u);
 }
 
-// Irradiance / π of the default sky on a surface that faces `normal`, by brute force.
+// Irradiance / π of the default sky on a surface with the normal `normal`, by brute-force integration.
 glm::dvec3 skyLight(const Environment& sky, const glm::dvec3& normal) {
     glm::dvec3 sum(0);
     double weight = 0;

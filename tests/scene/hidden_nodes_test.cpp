@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// A table at 10 m with a cup on it, and two lamps without names of their own.
+// A table at 10 m with a cup on it, and two lamps without unique names.
 Scene furnishedScene() {
     Scene scene;
     Mesh mesh;
@@ -41,7 +41,7 @@ TEST(HiddenNodes, takeWithThemWhatIsBelow) {
     EXPECT_EQ(shownNodes(scene, {"table"}), (std::vector{2, 3}));
     EXPECT_EQ(shownNodes(scene, {"cup"}), (std::vector{0, 2, 3}));
     EXPECT_EQ(shownNodes(scene, {"3", "cup"}), (std::vector{0, 2}));
-    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));  // the first of that name
+    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));  // the first node with that name
 }
 
 TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
@@ -50,12 +50,12 @@ TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
     EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 41);
     hideNodes(scene, std::vector<std::string>{"3"}, pose);
     EXPECT_DOUBLE_EQ(pose.bounds.minimum.x, 10);
-    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup's are 10 m beyond the table's, the lamp's at 30 m
+    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup is 10 m beyond the table, the lamp at 30 m
 }
 
 TEST(HiddenNodes, callingsAreReadBackAsTheirNodes) {
     Scene scene = furnishedScene();
-    scene.nodes[1].name = "2";  // a name that looks like another's number
+    scene.nodes[1].name = "2";  // a name that equals another node's index
     for (int node = 0; node < 4; ++node) EXPECT_EQ(nodeCalled(scene, callingOf(scene, node)), node) << node;
     EXPECT_EQ(callingOf(scene, 0), "table");
     EXPECT_EQ(callingOf(scene, 2), "#2");

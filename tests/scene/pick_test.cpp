@@ -1,4 +1,4 @@
-// Rays against a few triangles with known answers.
+// Casts rays at a few triangles with known answers.
 
 #include "scene/pick.h"
 
@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// The unit cube from −1 to 1, twelve triangles.
+// The cube from −1 to 1, with twelve triangles.
 Mesh cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i)
@@ -41,7 +41,7 @@ std::optional<Hit> cast(const Scene& scene, const glm::dvec3& origin, const glm:
 TEST(Pick, nearestOfSeveralObjects) {
     const Scene scene = cubes({glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -20)),
                                glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -10)), glm::dmat4(1)});
-    const auto hit = cast(scene, {0.25, 0.5, 30}, {0, 0, -7});  // any length
+    const auto hit = cast(scene, {0.25, 0.5, 30}, {0, 0, -7});  // the direction need not be normalised
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->object, 2);
     EXPECT_NEAR(hit->distance, 29, 1e-12);
@@ -73,8 +73,8 @@ TEST(Pick, flattenedObjectsAreSeen) {
     EXPECT_NEAR(hit->distance, 4, 1e-12);
 }
 
-// A cube is its own box: the slab formula gives the exact answer for random rays, and a matrix that takes both along
-// keeps it.
+// A cube equals its own bounding box, so the slab formula gives the exact answer for random rays. A matrix applied to
+// the cube and the rays preserves the answer.
 TEST(Pick, agreesWithTheBoxItself) {
     const glm::dmat4 crooked(glm::dmat3(0.5, 2, 0, -0.3, 0.1, 1, 7, 0.2, 0.4));
     for (const glm::dmat4& place : {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(40, -3, 9)) * crooked}) {

@@ -1,4 +1,4 @@
-// Hierarchies and key frames against hand-made mathematics.
+// Compares node hierarchies and key frames with hand-computed values.
 
 #include "scene/pose.h"
 
@@ -22,7 +22,7 @@ Mesh triangleMesh() {
     return mesh;
 }
 
-// A parent at (10, 0, 0), turned a quarter about z and doubled, with a child at (1, 0, 0) that draws a triangle.
+// A parent at (10, 0, 0), rotated by a quarter turn about z and scaled by 2. Its child at (1, 0, 0) draws a triangle.
 Scene parentAndChild() {
     Scene scene;
     scene.meshes = {triangleMesh()};
@@ -43,19 +43,19 @@ Scene parentAndChild() {
 TEST(Pose, childrenFollowTheirParents) {
     const Scene scene = parentAndChild();
     const Pose pose = poseAt(scene, 0);
-    // (1, 0, 0) doubled is (2, 0, 0), turned (0, 2, 0), moved (10, 2, 0).
+    // (1, 0, 0) is scaled to (2, 0, 0), rotated to (0, 2, 0) and moved to (10, 2, 0).
     expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});
     ASSERT_EQ(pose.objects.size(), 1u);
     EXPECT_EQ(pose.objects[0].name, "child");
-    // The triangle's corners are at (10, 2), (10, 4) and (8, 2); the unused vertex counts nowhere.
+    // The triangle's corners are at (10, 2), (10, 4) and (8, 2); the bounds ignore the unused vertex.
     expectNear(pose.bounds.minimum, {8, 2, 0});
     expectNear(pose.bounds.maximum, {10, 4, 0});
     expectNear(nodeCentre(scene, pose, 1), {9, 3, 0});
     expectNear(nodeCentre(scene, pose, 0), {10, 0, 0});
 }
 
-// Centimetres: all lengths are a hundredth, of the camera and of the lights too, and what a light does to a surface
-// stays.
+// In a scene in centimetres, all lengths shrink to a hundredth, including those of the camera and of the lights. The
+// illuminance on surfaces stays the same.
 TEST(Pose, isInMetres) {
     Scene scene = parentAndChild();
     scene.metresPerUnit = 0.01;
@@ -75,7 +75,7 @@ TEST(Pose, isInMetres) {
     EXPECT_EQ(pose.cameras[0].lens.at("fStop"), 2);
     expectNear(pose.lights[0].position, {0.10, 0.02, 0});
     EXPECT_NEAR(pose.lights[0].light.range, 3, 1e-6);
-    // The illuminance at a distance of 7 units, before and after.
+    // Illuminance at a distance of 7 units, in both scales.
     EXPECT_NEAR(pose.lights[0].light.intensity / (0.07 * 0.07), 5.0 / (7 * 7), 1e-6);
 }
 
@@ -85,7 +85,7 @@ TEST(Pose, nodesOutsideTheSceneDrawNothing) {
     const Pose pose = poseAt(scene, 0);
     EXPECT_TRUE(pose.objects.empty());
     EXPECT_TRUE(pose.bounds.empty());
-    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});  // joints may need it all the same
+    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});  // joints may need the matrix
 }
 
 TEST(Pose, matricesReplaceTheThreeParts) {
@@ -158,7 +158,7 @@ TEST(Animation, linearMeetsItsKeysAndHalves) {
 }
 
 TEST(Animation, cubicSplineReproducesACubic) {
-    // x(t) = t³ − 2t² + 3 with derivative 3t² − 4t at t = 0, 1 and 3: a Hermite spline is exact for cubics.
+    // x(t) = t³ − 2t² + 3 with the derivative 3t² − 4t at t = 0, 1 and 3: a Hermite spline is exact for cubics.
     const auto x = [](double t) { return t * t * t - 2 * t * t + 3; };
     const auto slope = [](double t) { return static_cast<float>(3 * t * t - 4 * t); };
     std::vector<float> values;
@@ -175,8 +175,8 @@ TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
         return std::array<float, 4>{sign * static_cast<float>(q.x), sign * static_cast<float>(q.y),
                                     sign * static_cast<float>(q.z), sign * static_cast<float>(q.w)};
     };
-    // The second key is the negative of the quaternion for 80°: the same rotation, the longer way round if taken as it
-    // is.
+    // The second key is the negated quaternion for 80°. It is the same rotation, but interpolation without a sign
+    // change would go the long way round.
     std::vector<float> values;
     for (const auto& key : {turn(0, 1), turn(80, -1)}) values.insert(values.end(), key.begin(), key.end());
     const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::rotation, {0, 1}, values);
@@ -192,7 +192,7 @@ TEST(Animation, cubicRotationsAreNormalised) {
         channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
                   {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
-    // Half way both keys weigh the same: a quarter turn about x.
+    // Half-way, both keys have the same weight: a quarter turn about x.
     expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// Morph targets and skins on the CPU against matrices multiplied by hand.
+// Compares morph targets and skins on the CPU with hand-multiplied matrices.
 
 #include "scene/posed_mesh.h"
 
@@ -21,7 +21,7 @@ void expectNearInFloat(const glm::dvec3& a, const glm::dvec3& b) {
 
 constexpr double quarter = std::numbers::pi / 2;
 
-// One triangle; each vertex follows joint 0 but where a test says otherwise.
+// One triangle; each vertex follows joint 0 unless a test changes it.
 Mesh skinnedTriangle() {
     Mesh mesh;
     mesh.vertices.positions = {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
@@ -45,7 +45,7 @@ TEST(PosedMesh, jointsMoveByTheirWeights) {
     mesh.vertices.weights = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0.25f, 0.75f, 0, 0}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
     expectNearInFloat(positions[0], {11, 0, 0});
-    expectNearInFloat(positions[1], {0, 2, 0});  // (2, 0, 0) a quarter turn on
+    expectNearInFloat(positions[1], {0, 2, 0});  // (2, 0, 0), rotated by a quarter turn
     expectNearInFloat(positions[2], 0.25 * glm::dvec3(10, 1, 0) + 0.75 * glm::dvec3(-1, 0, 0));
 }
 
@@ -69,9 +69,9 @@ TEST(PosedMesh, weightsThatAreNoneAndJointsThatAreMissing) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     mesh.vertices.weights = {{nan, 0.5f, -1, 0}, {0, 0, 0, 0}, {0, 0, 0, 3}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
-    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 counts, and counts wholly
-    expectNearInFloat(positions[1], {12, 0, 0});  // no weight: the first joint
-    expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 doesn't exist: the first
+    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 counts, with the full weight
+    expectNearInFloat(positions[1], {12, 0, 0});  // without weights: the first joint
+    expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 does not exist: the first joint
 }
 
 TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
@@ -81,11 +81,11 @@ TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
     Object object = twoJoints();
     object.morphWeights = {0.5, -1, 7};
     expectNearInFloat(posedPositions(mesh, object)[0], {0, 1.5, -2});
-    object.morphWeights = {std::numeric_limits<double>::quiet_NaN(), 0};  // no number, and fewer than targets
+    object.morphWeights = {std::numeric_limits<double>::quiet_NaN(), 0};  // NaN, and fewer weights than targets
     expectNearInFloat(posedPositions(mesh, object)[0], {0, 1, 0});
 }
 
-// A plane's normal stays perpendicular to it however its space is stretched, and keeps its length.
+// A plane's normal stays perpendicular to the plane under non-uniform scaling, and keeps its length.
 TEST(PosedMesh, normalsStayPerpendicularUnderStretch) {
     Mesh mesh = skinnedTriangle();
     mesh.vertices.positions = {{0, 0, 0}, {1, -1, 0}, {0, 0, 1}};
@@ -112,7 +112,7 @@ TEST(PosedMesh, plainObjectsAreOnlyPlaced) {
     expectNearInFloat(posedBounds(mesh, object).maximum, {2, 6, 0});
 }
 
-// A triangle whose joint carries it in front of the ray.
+// A triangle whose joint moves it in front of the ray.
 TEST(PosedMesh, raysMeetThePosedTriangle) {
     Scene scene;
     scene.meshes = {skinnedTriangle()};

@@ -1,5 +1,5 @@
-// The built-in scene is a benchmark as well as a picture: what makes it a fair one is checked here, with the lens
-// formulas written out again, and the fish are checked to be clean input for a simplifier.
+// The built-in scene serves as a benchmark and as a picture. The tests check that it is a fair benchmark, with their
+// own copy of the lens formulas, and that its fish are clean input for a simplifier.
 
 #include "school/fish_school.h"
 
@@ -42,7 +42,7 @@ View viewOf(const Scene& scene, const Pose& pose) {
     return view;
 }
 
-// The mesh's vertices seen from the camera: x right, y up, z the depth.
+// Vertices of the mesh in view space: x right, y up, z the depth.
 std::vector<glm::dvec3> inView(const Scene& scene, const Object& object, const View& view) {
     const glm::dmat4 matrix = view.cameraFromWorld * object.worldFromObject;
     std::vector<glm::dvec3> points;
@@ -83,7 +83,8 @@ double blur(const Camera& camera, const View& view, double depth) {
            (2.0 * view.tanHalfWidth);
 }
 
-// Every directed edge once, and its opposite once: a closed surface of one orientation without branching edges.
+// Expects every directed edge once, and its reverse once: a closed, consistently oriented surface without non-manifold
+// edges.
 void expectClosed(const Mesh& mesh) {
     std::vector<std::uint64_t> edges;
     std::vector<std::uint64_t> opposites;
@@ -115,7 +116,7 @@ double signedVolume(const Mesh& mesh, const Primitive& primitive) {
 }
 
 struct Shape {
-    std::size_t slivers = 0;  // least angle under 12 degrees
+    std::size_t slivers = 0;  // triangles whose smallest angle is below 12°
     std::size_t degenerate = 0;
     std::size_t againstNormals = 0;
     std::vector<double> edges;
@@ -134,7 +135,7 @@ Shape triangleShapes(const Mesh& mesh) {
             std::array<double, 3> lengths;
             for (std::size_t k = 0; k < 3; ++k) lengths[k] = glm::distance(p[k], p[(k + 1) % 3]);
             std::sort(lengths.begin(), lengths.end());
-            const double sine = area2 / (lengths[1] * lengths[2]);  // of the least angle
+            const double sine = area2 / (lengths[1] * lengths[2]);  // sine of the smallest angle
             if (!(area2 > 0)) ++shape.degenerate;
             if (!(sine > std::sin(0.2094))) ++shape.slivers;
             glm::dvec3 mean(0);

@@ -56,7 +56,7 @@ class Cluster:
 
     def start(self):
         self.start_munge()
-        self.ports = reserved_ports(3)  # for as long as the cluster runs
+        self.ports = reserved_ports(3)  # reserved for the lifetime of the cluster
         controller, *nodes = [each.getsockname()[1] for each in self.ports]
         host = socket.gethostname().split(".")[0]
         cores = os.cpu_count() or 1
@@ -167,7 +167,7 @@ def share_film(cluster, program, batch, folder, samples):
     wait_until("task 1 has no frame", lambda: (frames / "0001.exr").exists())
     try:
         os.kill(task_process(cluster, job, 1), signal.SIGKILL)
-    except (TypeError, ProcessLookupError):  # it is gone
+    except (TypeError, ProcessLookupError):  # the process has ended
         cluster.wait_for_all()
         return False
     done = len(frame_bytes(frames))
@@ -181,14 +181,15 @@ def share_film(cluster, program, batch, folder, samples):
 
     def ran_again():
         now = facts()
-        if "Reason=BeginTime" in now:  # Slurm has it wait two minutes; it may not listen while the task is ending
+        # Slurm delays a requeued task by two minutes; the release may fail while the task is ending
+        if "Reason=BeginTime" in now:
             cluster.ask("scontrol", "update", f"JobId={job}_1", "StartTime=now")
         return "Restarts=1" in now and "JobState=COMPLETED" in now
 
     wait_until("task 1 didn't run again", ran_again)
     cluster.wait_for_all()
 
-    # The film of the single run, and nothing else.
+    # The array's files are exactly those of the single run.
     single, array = frame_bytes(whole), frame_bytes(frames)
     assert len(single) == FRAMES
     assert array.keys() == single.keys(), f"missing: {sorted(single.keys() - array.keys())}"
@@ -237,7 +238,7 @@ def main():
         cluster.environment["XDG_CACHE_HOME"] = str(folder / "cache")
         cluster.environment["DEFOCUS"] = str(program)
         cluster.start()
-        # A machine that has rendered all of a task before it is killed gets more samples.
+        # A machine may finish its task before it is killed; the test then retries with more samples.
         assert any(share_film(cluster, program, batch, folder, samples) for samples in (64, 256, 1024)), "no task was killed in time"
         share_frame(cluster, program, folder)
     except BaseException:

@@ -1,6 +1,6 @@
 #pragma once
-// Drops files on a window of an X server as a file manager does: the source's side of XDND version 5
-// (freedesktop.org, Drag-and-Drop Protocol for the X Window System).
+// Drops files on a window of an X server as a file manager does: the source side of XDND version 5 (freedesktop.org,
+// Drag-and-Drop Protocol for the X Window System).
 
 #include <xcb/xcb.h>
 
@@ -26,8 +26,8 @@ public:
         xcb_flush(connection_.get());
     }
 
-    // `uris`: file:// URIs, a line each, ending with CR LF. (x, y) is a place of the screen over the one window that
-    // takes drops. False where there is none, or where it doesn't take this one within `seconds`.
+    // `uris`: file:// URIs, one a line, each ending with CR LF. (x, y) is a screen position over the one window that
+    // accepts drops. Returns false without such a window, or if the window does not accept the drop within `seconds`.
     bool drop(const std::string& uris, int x, int y, double seconds = 120) {
         uris_ = uris;
         target_ = windowThatTakesDrops();
@@ -78,8 +78,8 @@ private:
         xcb_flush(connection_.get());
     }
 
-    // Waits for the target's message, whose second value says in its lowest bit whether it takes the drop. Meanwhile
-    // the target may ask for the files.
+    // Waits for the target's message, whose second value has the acceptance in its lowest bit. The target may request
+    // the files in the meantime.
     bool answered(const char* message, double seconds) {
         const xcb_atom_t expected = atom(message);
         for (double waited = 0; waited < seconds; waited += 0.01) {

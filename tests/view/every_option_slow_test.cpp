@@ -1,4 +1,4 @@
-// Every option that `defocus view` takes is in what the window starts with: its own, the settings of the table and
+// Every option of `defocus view` affects the window's initial state: its own options, the settings of the table, and
 // those of the methods.
 
 #include <map>
@@ -19,7 +19,8 @@ protected:
     void SetUp() override {
         ViewProgram::SetUp();
         if (IsSkipped()) return;
-        // By a process of its own: what writes images begins threads, and with threads start() can't copy this one.
+        // Writes the images in a child process: image writers start threads, and start() cannot fork a process with
+        // threads.
         const pid_t writer = ::fork();
         if (writer == 0) {
             writeOptionScene(folder());
@@ -30,15 +31,15 @@ protected:
         ASSERT_EQ(status, 0);
     }
 
-    // The state after one frame with the scene.
+    // The state after the scene's first frame.
     json stateAfter(const Words& line) {
         start(line);
         EXPECT_EQ(ended(), 0) << textOf("stderr");
         return state();
     }
 
-    // The command that renders the picture, which has all that differs from what is standard; what is drawn at once;
-    // and whether there is a cache.
+    // Returns the command that renders the picture, with all non-default settings, then the wave size and whether there
+    // is a cache.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;
@@ -52,7 +53,7 @@ protected:
     }
 
     void expectActs(const std::string& name, OptionCase tried) {
-        if (name == "size") tried.words = {"--size", "300x200"};  // windows have a least size
+        if (name == "size") tried.words = {"--size", "300x200"};  // windows have a min size
         for (Words* words : {&tried.words, &tried.with})
             std::ranges::replace(*words, "10,16,24,18,26,8,30,20", "100,90,120,90,120,60,130,100");
         const CommandLine view = {.name = "view", .command = {}, .size = "240x180", .rest = {"--frames", "1"}};
@@ -65,7 +66,7 @@ private:
 };
 
 TEST_F(OptionsOfView, haveACase) {
-    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // see the last test
+    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // the last test covers these
     for (const CLI::Option* option : optionsOffered("view"))
         if (const Setting* setting = settingOf(*option))
             EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
@@ -75,7 +76,7 @@ TEST_F(OptionsOfView, haveACase) {
             EXPECT_TRUE(own.contains(nameOf(*option))) << nameOf(*option);
 }
 
-// All that are offered, few enough for a test of seconds: from the place of the parameter on.
+// Tests cover a slice of the options, which starts at the parameter and is small enough to run in seconds.
 constexpr std::size_t settingsATest = 6;
 
 std::vector<std::string> allOffered() {
@@ -112,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(From, MethodSettingsOfView,
                              return name;
                          });
 
-// The helper gives --stats itself.
+// The helper passes --stats itself.
 TEST_F(OptionsOfView, framesScreenshotAndState) {
     const Words scene = {"ball.glb", "--size", "240x180"};
     const json three = stateAfter(joined(scene, {"--frames", "3"}));

@@ -1,4 +1,4 @@
-// The command of a view, read back by the command line, is the same view.
+// The command text of a view, parsed by the command line, gives the same view.
 
 #include "frame/report/render_command_text.h"
 
@@ -31,7 +31,7 @@ Request smallSchool() {
     return options;
 }
 
-// As a shell reads it: its words.
+// Splits a command into words as a shell does.
 std::vector<std::string> shellWords(const std::string& command) {
     const std::string line = "for word in " + command + "; do printf '%s\\n' \"$word\"; done";
     std::FILE* shell = ::popen(line.c_str(), "r");
@@ -47,13 +47,13 @@ std::vector<std::string> shellWords(const std::string& command) {
     return words;
 }
 
-// What `defocus render` is asked for.
+// Parses the arguments of a `defocus render` command.
 RenderArguments argumentsOf(const std::string& command) {
     CLI::App program;
     RenderArguments arguments;
     addRenderOptions(*program.add_subcommand("render"), arguments);
     std::vector<std::string> words = shellWords(command);
-    std::reverse(words.begin() + 1, words.end());  // as CLI11 takes them, without the program's name
+    std::reverse(words.begin() + 1, words.end());  // CLI11 expects reversed arguments without the program's name
     words.erase(words.begin());
     program.parse(words);
     return arguments;
@@ -103,7 +103,8 @@ TEST(RenderCommandText, everyLensFieldArrives) {
     for (const LensField& field : lensFields()) {
         ShotRequest shot;
         shot.view.lens.focusDistance = 3;
-        if (field.name == std::string_view("iso")) shot.view.lens.exposureTime = 0.01;  // else it says nothing
+        // ISO has no effect without an exposure time
+        if (field.name == std::string_view("iso")) shot.view.lens.exposureTime = 0.01;
         const double before = lensFieldValue(shot.view.lens, field);
         const bool flag = std::holds_alternative<bool Lens::*>(field.member);
         const bool count = std::holds_alternative<int Lens::*>(field.member);
@@ -128,7 +129,7 @@ TEST(RenderCommandText, aCameraThatLooksStraightDownStaysSo) {
     expectSameView(placedBy(shot.command()).view, shot.view);
 }
 
-// Extras of a camera may switch on or off what is off or on by default.
+// A camera's extras may switch off defaults that are on, or switch on those that are off.
 TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     ShotRequest shot;
     shot.frame.cameraLens.dofEnabled = false;
@@ -141,7 +142,7 @@ TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     EXPECT_FALSE(lens.focusBreathing);
 }
 
-// A camera that moves while the shutter is open is left to the file.
+// A camera that moves while the shutter is open comes from the file.
 TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     ShotRequest shot;
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
@@ -165,15 +166,15 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
     EXPECT_EQ(command.find("--blades"), std::string::npos);
 }
 
-// ---- any view
+// ---- random views
 
-// The command gives camera, lens and exposure of the view instead of the request's.
+// Compares the options except the camera, lens and exposure, which the command takes from the view.
 void expectSameOptions(const Request& a, const Request& b) {
     for (const Setting& setting : settings()) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
             setting.group == SettingGroup::display)
             continue;
-        if (setting.kind == SettingKind::path)  // ./-x is -x
+        if (setting.kind == SettingKind::path)  // ./-x equals -x
             EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
                       setting.text(b).value_or(""));
         else
@@ -209,7 +210,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         Lens lens = frame.cameraLens;
         EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request)).empty());
         EXPECT_DOUBLE_EQ(unmeteredExposure(read.request, lens), write.exposure);
-        if (!(view.lens.exposureTime > 0)) {  // what the exposure replaces
+        if (!(view.lens.exposureTime > 0)) {  // otherwise the exposure time replaces the value
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }
@@ -224,7 +225,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
     }
 }
 
-// A preset says what belongs to it; one that something was changed of is said setting by setting.
+// A preset covers its own settings; once one of them changes, the command lists all settings separately.
 TEST(RenderCommandText, namesAPresetOrItsSettings) {
     Request options;
     applyPreset(presetNamed("jeong2011"), options);
@@ -247,7 +248,7 @@ TEST(CaptureCommand, saysWhatNoShotFileSays) {
     Request options;
     options.lens.apertureImage = "my star.png";
     options.nodeBlur = {{"Fish 3", 0}};
-    options.samples = 9;  // the shot says it
+    options.samples = 9;  // the shot contains the number
     EXPECT_EQ(captureCommand("-a shot.json", options),
               "defocus capture './-a shot.json' --aperture-image 'my star.png' --node-blur 'Fish 3=0'");
     EXPECT_EQ(captureCommand("shot.json", {}), "defocus capture shot.json");

@@ -1,4 +1,4 @@
-// defocus view, with a hand on mouse and keys.
+// defocus view under mouse and keyboard input.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ using nlohmann::json;
 
 class View : public ViewProgram {
 protected:
-    // A picture of 400 x 300 with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) {
         writeTwoQuads(folder() / "quads.gltf");
         more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
@@ -35,22 +35,22 @@ protected:
         });
     }
     double number(const char* name) const { return state().at(name).get<double>(); }
-    // Presses a key that is seen in the state: what the hand did before it has been done by then. The view has come to
-    // rest too, if nothing moves it.
+    // Presses a key that changes the state, which proves that earlier input has been processed. Without animation, the
+    // view has come to rest too.
     bool comesToRest() const {
         const bool dark = state().at("dark").get<bool>();
         key("t");
         return reaches(
             [&](const json& s) { return s.at("dark") != dark && s.at("moving") == false && s.at("samples") > 130; });
     }
-    // Asks for a still and takes the name that is proposed.
+    // Opens the export dialog and accepts the proposed name.
     void exportByHand() const {
         const auto asks = [](const json& s) { return s.at("dialog") == "export"; };
         ASSERT_TRUE(insists([&] { key("ctrl+e"); }, asks)) << state();
         const auto goesOn = [](const json& s) { return s.at("dialog") == ""; };
         ASSERT_TRUE(insists([&] { key("Return"); }, goesOn)) << state();
     }
-    // Types a path into the panel's first row and enters it.
+    // Types a path into the panel's first row and confirms it.
     void openByHand(const std::string& path) const {
         ASSERT_TRUE(insists([&] { click(500, 45); }, [](const json& s) { return s.at("typing") == true; })) << state();
         const auto typed = [&](const json& s) { return s.at("openPath") == path; };
@@ -71,13 +71,13 @@ TEST_F(View, clickFocusesOnWhatIsUnderTheCursor) {
     click(200, 67);
     EXPECT_TRUE(focusesAt(2)) << state();
     EXPECT_EQ(state().at("selected"), "Near");
-    click(30, 280);  // nothing there
+    click(30, 280);  // empty background
     ASSERT_TRUE(comesToRest()) << state();
     EXPECT_NEAR(reached().at("focusDistance").get<double>(), 2, 1e-6);
     EXPECT_EQ(reached().at("selected"), "Near");
 }
 
-// The plane w + tan(swing)·X + tan(tilt)·Y = focus distance, in view space, where the three clicks hit the squares.
+// The three clicks hit the squares on the plane w + tan(swing)·X + tan(tilt)·Y = focus distance, in view space.
 TEST_F(View, threePointsTiltTheFocusPlane) {
     openTwoQuads({"--focus-distance", "4"});
     const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};  // x, y, depth
@@ -91,7 +91,7 @@ TEST_F(View, threePointsTiltTheFocusPlane) {
         EXPECT_NEAR(depth + std::tan(number("focusSwing")) * across + std::tan(number("focusTilt")) * up,
                     number("focusDistance"), 1e-5);
     }
-    EXPECT_EQ(state().at("selected"), "");  // no click to focus
+    EXPECT_EQ(state().at("selected"), "");  // the clicks set focus points and select nothing
 }
 
 TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
@@ -100,7 +100,7 @@ TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
     EXPECT_EQ(state().at("moving"), false);
     const double changes = number("changes");
     const double begun = number("begun");
-    key("bracketright");  // the next stop
+    key("bracketright");  // next f-stop
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("begun") > begun && s.at("samples") > 130; })) << state();
     EXPECT_GT(number("changes"), changes);
     EXPECT_DOUBLE_EQ(number("fStop"), 1.6);
@@ -112,7 +112,7 @@ TEST_F(View, dragOrbitsAndTheWheelZooms) {
     inTurn({"mousemove 100 200", "mousedown 1", "mousemove 140 210", "mousemove 180 220", "mouseup 1"});
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != before; })) << state();
     const json after = state().at("cameraPosition");
-    EXPECT_EQ(state().at("selected"), "");  // a drag is no click
+    EXPECT_EQ(state().at("selected"), "");  // a drag is not a click
     inTurn({"mousemove 100 200", "click 4 click 4"});
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != after; })) << state();
 }
@@ -133,7 +133,7 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
     key("x");  // nearest level
-    key("x");  // the reference, whose samples are others
+    key("x");  // the reference, which has other samples
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();
@@ -141,7 +141,7 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
 
 TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
     openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
-    EXPECT_EQ(state().at("workSamples"), 0);  // not before it is asked for
+    EXPECT_EQ(state().at("workSamples"), 0);  // measured only on request
     key("n");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("overlay") == 4 && s.at("workSamples") == 64; })) << state();
     const double changes = number("changes");
@@ -178,7 +178,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
     const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
     ASSERT_TRUE(hand.drop(uri + "\r\n", 120, 100));
     EXPECT_TRUE(showsScene("two words.gltf")) << state();
-    // What is no scene is reported, and the old one stays.
+    // A file that is not a scene is reported, and the old scene stays.
     std::ofstream(folder() / "notes.txt") << "no glTF";
     ASSERT_TRUE(hand.drop("file://" + (folder() / "notes.txt").string() + "\r\n", 120, 100));
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
@@ -187,7 +187,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
 }
 #endif
 
-// The interface is as large as the screen's resolution asks for: panel, fonts and window grow with it.
+// The interface scales with the screen's resolution: panel, fonts and window.
 TEST_F(View, interfaceFollowsTheScreensResolution) {
     if (std::system("command -v xrdb >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "xrdb is needed (Debian: x11-xserver-utils)";
@@ -207,7 +207,7 @@ TEST_F(View, interfaceFollowsTheScreensResolution) {
         const auto scaled = [&](double units) { return static_cast<int>(std::lround(units * scale)); };
         ASSERT_EQ(image.width, scaled(614));
         ASSERT_EQ(image.height, scaled(150));
-        // The panel's ground begins where the picture ends.
+        // The panel's background begins at the edge of the picture.
         const float* ground = image.at(scaled(250) + 2, scaled(3));
         EXPECT_NEAR(ground[0], 0.016f, 0.004f);
         EXPECT_EQ(ground[0], ground[2]);
@@ -229,7 +229,7 @@ TEST_F(View, exportedStillIsThatOfTheCommand) {
     EXPECT_EQ(readImage(folder() / "still.png").pixels, readImage(folder() / "render.png").pixels);
 }
 
-// One frame on, with the shutter open: what the window exports is what the command renders.
+// With an open shutter, one frame later, the exported image equals the one that the command renders.
 TEST_F(View, shutterStaysOpenAtAnotherTime) {
     const std::string scene = std::string(DEFOCUS_SOURCE_DIR) + "/meshes/swimmers.glb";
     start({scene, "--size", "260x150", "--samples", "4", "--lod", "off", "--time", "0.5", "--shutter", "0.2"});
@@ -271,7 +271,7 @@ TEST_F(View, keysSwitchWhatTheyName) {
     for (const char* overlay : {"c", "l", "j", "z", "p", "o", "m"}) key(overlay);
     key("ctrl+q");
     EXPECT_EQ(ended(), 0);
-    start({"quads.gltf"});  // the look is remembered
+    start({"quads.gltf"});  // the window remembers the light theme
     ASSERT_TRUE(showsScene("quads.gltf"));
     EXPECT_EQ(state().at("dark"), false);
 }
@@ -291,7 +291,7 @@ TEST_F(View, interfaceGrowsAndShrinksWhileItRuns) {
 
 TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     openTwoQuads();
-    // In turn and again, as frames must also meet them between two questions to the display.
+    // Repeats in turn, so that frames also fall between two queries to the display.
     for (int turn = 0; turn < 3; ++turn)
         for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
             act(std::string("search --onlyvisible --name defocus windowsize ") + size);
@@ -305,11 +305,11 @@ TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     std::filesystem::remove(folder() / "state.json");
     start({"--fish", "3", "--fish-triangles", "40000"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("loading") == true || s.at("samples") > 0; })) << state();
-    key("ctrl+q");  // in the middle of opening
+    key("ctrl+q");  // while a scene is being opened
     EXPECT_EQ(ended(), 0);
 }
 
-// A machine that builds the pyramids before the hand gets there takes larger fish.
+// Larger fish keep the pyramids unfinished until the input arrives, even on a fast machine.
 TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
     double before = 0;
     const auto changesTheStopOfCoarseShapes = [&](int triangles) {
@@ -318,7 +318,7 @@ TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
         if (!reaches([](const json& s) { return s.at("samples") > 0; }) || reached().at("draft") == false) return false;
         EXPECT_EQ(reached().at("loading"), true);
         before = reached().at("fStop").get<double>();
-        send("key bracketright");  // the next stop
+        send("key bracketright");  // next f-stop
         return reaches([&](const json& s) { return s.at("fStop") > before; }) && reached().at("draft") == true;
     };
     int triangles = 90'000;

@@ -1,4 +1,4 @@
-// Scene after scene in one window: it takes no more memory for it, and leaves no file open. scripts/soak opens more.
+// A window that opens scene after scene does not accumulate memory or open files. scripts/soak opens more scenes.
 
 #include <fmt/format.h>
 
@@ -33,12 +33,13 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
-    // The allocators take some tens of scenes to settle. A short run finds what keeps an image of the window a scene, a
-    // long one what keeps anything.
+    // The allocators settle after some tens of scenes. A short run finds leaks of a window-sized image for each scene;
+    // a long run finds any leak.
     const double settled = 0.02 * before.megabytes;
     const double imagesKept = (scenes - early) * 320 * 240 * 4e-6;
     EXPECT_LE(after.megabytes - before.megabytes, scenes < 500 ? imagesKept : settled);
-    EXPECT_LT(after.handles, before.handles + 5);  // a scene's file may still be open, one a scene is some tens
+    // one scene's file may still be open; a leak for each scene would be some tens
+    EXPECT_LT(after.handles, before.handles + 5);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What people use around the picture: undo, dialogs, the scene's tree, saved views, the whole screen.
+// Tools around the picture: undo, dialogs, the scene tree, saved views, full screen.
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ using nlohmann::json;
 
 class ViewTools : public ViewProgram {
 protected:
-    // A picture of 400 x 300 with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
-    // The same in a window that is as tall as much of the panel.
+    // The same picture in a window tall enough for most of the panel.
     void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
     void openScene(const std::string& size, std::vector<std::string> more) {
         writeTwoQuads(folder() / "quads.gltf");
@@ -29,14 +29,14 @@ protected:
         };
         ASSERT_TRUE(reaches(shown)) << textOf("stderr");
     }
-    // With programs of the desktop only as far as the test makes them.
+    // Starts the window with a PATH that has only the desktop programs that the test creates.
     void startWithPath(const std::string& path, const std::vector<std::string>& arguments) {
         const std::string before = std::getenv("PATH");
         ::setenv("PATH", path.c_str(), 1);
         start(arguments);
         ::setenv("PATH", before.c_str(), 1);
     }
-    // Clicks on a widget, as soon as the state says where it is, until `condition` holds.
+    // Clicks on a widget, once the state contains its position, until `condition` holds.
     [[nodiscard]] bool clicks(const std::string& place, const std::function<bool(const json&)>& condition) const {
         if (!reaches([&](const json& s) { return s.at("places").contains(place); })) return false;
         const auto hand = [&] {
@@ -49,7 +49,7 @@ protected:
     [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
         return clicks(section, [&](const json& s) { return s.at("places").contains(inside); });
     }
-    // Makes room for the sections below them.
+    // Collapses the focus and lens sections to make room for those below.
     [[nodiscard]] bool foldsFocusAndLens() const {
         return clicks("Focus", [](const json& s) { return s.at("places").contains("aperture ring"); }) &&
                clicks("Lens", [](const json& s) { return s.at("places").contains("Image"); });
@@ -118,7 +118,7 @@ TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
     ASSERT_FALSE(isSized(state()));
     const std::uint64_t before = state().at("changes");
     ASSERT_TRUE(clicks("lightAngle", isSized)) << state();
-    EXPECT_TRUE(reaches([&](const json& s) { return s.at("changes") > before; })) << state();  // it is drawn anew
+    EXPECT_TRUE(reaches([&](const json& s) { return s.at("changes") > before; })) << state();  // the picture is redrawn
     key("ctrl+z");
     EXPECT_TRUE(reaches([&](const json& s) { return !isSized(s); })) << state();
 }
@@ -130,7 +130,7 @@ TEST_F(ViewTools, aClickIsMarkedForAMoment) {
     EXPECT_EQ(reached().at("marker").at("name"), "Far");
     EXPECT_NEAR(reached().at("marker").at("distance").get<double>(), 8, 1e-6);
     EXPECT_TRUE(reaches([](const json& s) { return s.at("marker").at("shown") == false; })) << state();
-    click(30, 280);  // nothing there
+    click(30, 280);  // empty background
     EXPECT_TRUE(reaches([](const json& s) { return s.at("marker").at("number") == 2; })) << state();
     EXPECT_EQ(reached().at("marker").at("name"), "");
 }
@@ -152,7 +152,7 @@ TEST_F(ViewTools, aDragIsUndoneAndRedoneAsOneStep) {
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after && s.at("redoSteps") == 1; }))
         << state();
     ASSERT_TRUE(clicks("Reset all", [&](const json& s) { return s.at("cameraPosition") == before; })) << state();
-    key("ctrl+z");  // a reset is a step, too
+    key("ctrl+z");  // a reset is an undo step
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after; })) << state();
 }
 
@@ -179,7 +179,7 @@ TEST_F(ViewTools, theDesktopsDialogIsAskedWhereThereIsOne) {
     openTwoQuads();
     ASSERT_TRUE(presses("ctrl+o", [](const json& s) { return s.at("dialog") == "desktop"; })) << state();
     const double frames = state().at("frames");
-    EXPECT_TRUE(reaches([&](const json& s) { return s.at("frames") > frames + 3; }));  // the window goes on meanwhile
+    EXPECT_TRUE(reaches([&](const json& s) { return s.at("frames") > frames + 3; }));  // the window keeps drawing
     std::ofstream(folder() / "answer") << "yes";
     EXPECT_TRUE(showsScene("other.gltf")) << state();
 }
@@ -231,7 +231,7 @@ TEST_F(ViewTools, whatTheTreeHidesIsMissingInPictureStillAndCommand) {
     EXPECT_EQ(state().at("hidden"), json{"Near"});
     EXPECT_NE(state().at("command").get<std::string>().find("--hide Near"), std::string::npos);
     const std::uint64_t clicks = state().at("marker").at("number");
-    click(200, 67);  // it can't be clicked on either
+    click(200, 67);  // a hidden object cannot be clicked
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("marker").at("number") > clicks; })) << state();
     EXPECT_EQ(reached().at("marker").at("name"), "");
 
@@ -259,7 +259,7 @@ TEST_F(ViewTools, whatTheTreeHidesIsMissingInPictureStillAndCommand) {
     act("type --delay 30 other");
     key("Return");
     ASSERT_TRUE(showsScene("other.gltf")) << state();
-    EXPECT_EQ(state().at("objects"), 2);  // another scene is shown whole
+    EXPECT_EQ(state().at("objects"), 2);  // another scene starts with all objects visible
 }
 
 TEST_F(ViewTools, selectingInTheTreeShowsTheMaterial) {
@@ -335,10 +335,10 @@ TEST_F(ViewTools, theWheelOverTheApertureRingTurnsIt) {
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fStop") == 3.2; })) << state();
     act("click 4 click 4");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fStop") == 2.5; })) << state();
-    EXPECT_EQ(state().at("places").at("aperture ring"), ring);  // and the panel stays where it is
+    EXPECT_EQ(state().at("places").at("aperture ring"), ring);  // the panel keeps its scroll position
 }
 
-// All of it within one frame of a slow machine.
+// All input arrives within one frame of a slow machine.
 TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     openTwoQuads();
     writeTwoQuads(folder() / "other.gltf");
@@ -349,7 +349,7 @@ TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     ASSERT_TRUE(reaches([](const json& s) { return s.at("openPath") == "quad"; })) << state();
     send("key --delay 0 ctrl+a type --delay 0 --args 1 other.gltf key --delay 0 Return");
     EXPECT_TRUE(showsScene("other.gltf")) << state();
-    EXPECT_EQ(state().at("help"), false);  // no letter was taken for a command
+    EXPECT_EQ(state().at("help"), false);  // typed letters do not trigger commands
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
-// Runs `defocus view` on an X server of its own (Xvfb), with real mouse and key events (xdotool). The program keeps its
-// state in a JSON file, which the tests read: after each movement of the hand they wait until the program has drawn
-// frames with it, however long that takes, and never for a set time.
+// Runs `defocus view` on its own X server (Xvfb), with real mouse and key events (xdotool). The program writes its
+// state to a JSON file. After each input event the tests wait for frames that include it, however long that takes; they
+// never sleep for a fixed time.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ protected:
     static void SetUpTestSuite() { beginServer({"-screen", "0", "1280x800x24"}); }
     static void TearDownTestSuite() { endServer(); }
 
-    // `words`: of Xvfb's command line, how its screen is.
+    // `words`: Xvfb's command-line arguments for the screen.
     static void beginServer(std::vector<std::string> words) {
         if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) return;
         int ends[2];
@@ -41,7 +41,7 @@ protected:
             endWithTheTest();
             ::dup2(ends[1], 3);
             silence();
-            // -r: no key repeats by itself, however long this machine takes between press and release
+            // -r: no key repeats, however long the machine takes between press and release.
             const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-r", "-nolisten", "tcp"};
             words.insert(words.begin(), "Xvfb");
             words.insert(words.end(), others.begin(), others.end());
@@ -52,7 +52,7 @@ protected:
             ::_exit(97);
         }
         ::close(ends[1]);
-        std::string number;  // of the display, and the end of the line, perhaps one after the other
+        std::string number;  // display number and line end, which may arrive separately
         for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
         ::close(ends[0]);
         if (!number.empty()) display_ = ":" + number;
@@ -79,13 +79,13 @@ protected:
         if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
     }
 
-    // Starts the program; `arguments` follow `view`. Files with relative names lie in folder(). A copy of this process
-    // does, which need not load hundreds of shared libraries anew; but threads aren't copied: where the test has made
-    // any, it begins anew.
+    // Starts the program; `arguments` follow `view`. Relative file names refer to folder(). A fork of this process runs
+    // it, which skips the loading of hundreds of shared libraries. Forks do not copy threads: a test that has started
+    // any gets a fresh process instead.
     void start(std::vector<std::string> arguments, bool hasDisplay = true) {
         arguments.insert(arguments.begin(), {DEFOCUS_PROGRAM, "view", "--stats", "state.json"});
         const bool copy = threadCount() == threadsAtStart;
-        std::fflush(nullptr);  // or the child would write it once more
+        std::fflush(nullptr);  // otherwise the child writes the buffered output again
         program_ = ::fork();
         if (program_ != 0) return;
         endWithTheTest();
@@ -111,7 +111,7 @@ protected:
         ::_exit(95);
     }
 
-    // Ends by itself within `seconds`: its exit code, else −1, and it is stopped.
+    // Waits up to `seconds` for the program to end and returns its exit code. After that, stops it and returns −1.
     int ended(double seconds = 180) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int status = 0;
@@ -121,7 +121,7 @@ protected:
             }
             pause(0.05);
         }
-        if (program_ > 0) stop(program_);  // −1, where it could not be started, would stop every process
+        if (program_ > 0) stop(program_);  // −1 means that the program did not start; kill(−1) would stop every process
         program_ = -1;
         return -1;
     }
@@ -133,12 +133,12 @@ protected:
         nlohmann::json value = nlohmann::json::parse(file, nullptr, false);
         return value.is_discarded() ? nlohmann::json::object() : value;
     }
-    // Whether the state comes to satisfy `condition`, which is given up when the program has ended or after minutes:
-    // software drivers on busy machines are slow. reached() is the state that did.
+    // Waits until the state satisfies `condition`; reached() is then that state. Returns false when the program has
+    // ended, or after minutes, since software drivers on busy machines are slow.
     bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr double maxSeconds = 180;
         for (double waited = 0; waited < maxSeconds; waited += 0.05) {
-            const bool ending = !alive();  // whose last state is read all the same
+            const bool ending = !alive();  // its last state is still read
             nlohmann::json now = state();
             if (!now.empty() && condition(now)) {
                 reached_ = std::move(now);
@@ -150,7 +150,7 @@ protected:
         return false;
     }
     [[nodiscard]] const nlohmann::json& reached() const { return reached_; }
-    // Repeats `hand` until `condition` holds: again where a hundred frames have shown nothing of it.
+    // Repeats `hand` until `condition` holds. Each attempt waits for a hundred frames.
     bool insists(const std::function<void()>& hand, const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr std::uint64_t patience = 100;
         for (int i = 0; i < 10 && alive(); ++i) {
@@ -167,14 +167,13 @@ protected:
         return reaches([&](const nlohmann::json& s) { return s.at("scene") == name && s.at("samples") > 0; });
     }
 
-    // One xdotool command line, e.g. "mousemove 10 20 click 1".
+    // Runs one xdotool command line, e.g. "mousemove 10 20 click 1".
     void send(const std::string& commands) const {
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // The same; returns once the program has drawn what came of it. The state may be an old one: the next that is
-    // written is of a frame that ended after the events. One more takes them, and two for what an interface does a
-    // frame later.
+    // Runs a command line and returns once the program has drawn its effect. The first new state may belong to a frame
+    // that began before the events. The next frame handles them, and the interface may respond two frames later.
     void act(const std::string& commands) const {
         send(commands);
         for (const std::uint64_t more : {1u, 3u}) {
@@ -182,11 +181,11 @@ protected:
             reaches([&](const nlohmann::json& s) { return s.at("frames").get<std::uint64_t>() >= drawn + more; });
         }
     }
-    // What the hand does one after the other, each in a frame of its own.
+    // Performs several movements, each in its own frame.
     void inTurn(const std::vector<std::string>& movements) const {
         for (const std::string& commands : movements) act(commands);
     }
-    // The window's area starts at the screen's corner without a window manager.
+    // Without a window manager the window's area begins at the screen's corner.
     void click(int x, int y) const { inTurn({"mousemove " + std::to_string(x) + " " + std::to_string(y), "click 1"}); }
     void key(const std::string& name) const { act("key " + name); }
 
@@ -199,7 +198,7 @@ protected:
     }
 
 private:
-    // Whether a window is drawn by this driver.
+    // Returns whether this driver can draw a window.
     bool draws(const std::string& driver) {
         start({"--fish", "1", "--fish-triangles", "200", "--frames", "1"});
         ended();
@@ -209,13 +208,13 @@ private:
         const nlohmann::json now = state();
         return now.empty() ? 0 : now.at("frames").get<std::uint64_t>();
     }
-    // Without taking its exit code, which ended() returns.
+    // Leaves the exit code for ended().
     [[nodiscard]] bool alive() const {
         siginfo_t info{};
         return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
                info.si_pid == 0;
     }
-    // Of a child: where the test is killed, nothing of it is left, nor keeps its output open.
+    // Called in a child: a killed test leaves no child behind that would keep its output open.
     static void endWithTheTest() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
     static void silence() {
         const int null = ::open("/dev/null", O_WRONLY);
@@ -237,7 +236,8 @@ private:
         return static_cast<std::size_t>(std::distance(Files("/proc/self/task"), Files()));
     }
 
-    static inline const std::size_t threadsAtStart = threadCount();  // libraries begin some as they are loaded
+    // libraries start some threads when they are loaded
+    static inline const std::size_t threadsAtStart = threadCount();
     static inline pid_t server_ = -1;
     static inline std::string display_;
     std::filesystem::path folder_;

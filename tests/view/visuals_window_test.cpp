@@ -1,4 +1,4 @@
-// Screens of other depths than the usual 24 bits, and those that have no OpenGL.
+// Screens with unusual colour depths instead of 24 bits, and screens without OpenGL.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace {
 
 class Visuals : public ViewProgram {
 protected:
-    static void SetUpTestSuite() {}  // each test has a screen of its own
+    static void SetUpTestSuite() {}  // each test has its own screen
     void SetUp() override {
         beginServer(screen());
         ViewProgram::SetUp();
@@ -32,7 +32,7 @@ TEST_P(Depth, picturesAreShown) {
     EXPECT_TRUE(reaches([](const nlohmann::json& s) { return s.at("samples") > 0; })) << textOf("stderr");
 }
 
-INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // 30: ten bits a colour
+INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // 30: ten bits for each channel
 
 class WithoutGlx : public Visuals {
     [[nodiscard]] std::vector<std::string> screen() const override {

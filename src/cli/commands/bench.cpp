@@ -1,4 +1,4 @@
-// defocus bench: how fast and how right, measured on the machine at hand.
+// defocus bench: measures speed and image error on this machine.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/speedup/text.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 #include "frame/settings/presets.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
@@ -27,10 +27,10 @@ namespace {
 
 struct SpeedupArguments {
     Request request = measuredRequest();
-    std::string preset;  // as it was given, whatever else was given beside it; empty: none
+    std::string preset;  // preset that was given; empty: none
     SpeedupOptions speedup;
-    std::filesystem::path folder;  // empty: only the table
-    std::filesystem::path report;  // empty: none
+    std::filesystem::path folder;  // empty: print the table only
+    std::filesystem::path report;  // empty: no report
     bool allowChanged = false;
 };
 
@@ -44,12 +44,12 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     Request scene = arguments.request;
-    scene.noCache = true;  // the time that pyramids take is part of the result
+    scene.noCache = true;  // the result includes the build time of the pyramids
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
     std::vector<SpeedupForm> forms = {formOf(frame, arguments.preset)};
-    PreparedFrame plain;  // what a preset is seen beside
+    PreparedFrame plain;  // frame without the preset, for comparison
     if (!arguments.preset.empty()) {
         clearPreset(presetNamed(arguments.preset), scene);
         plain = placeFrame(frame.scene, scene, &frame.world.environment);
@@ -65,7 +65,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
                subject.runs, subject.device, speedupHeader());
 
-    // Each row is kept as it comes: a run that is cut off loses nothing.
+    // Write all rows after each new row, so that an interrupted run loses nothing.
     std::vector<SpeedupRow> rows;
     measureSpeedup(
         forms, frame.view, options,
@@ -114,8 +114,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    // Not what the bench goes through by itself. The time that pyramids take is part of the result, and images are
-    // compared at EV 0.
+    // Leave out settings that the bench varies itself. The cache is left out because the result includes the build time
+    // of the pyramids. Exposure is left out because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
                                          "noCache", "exposureTime", "iso"}));

@@ -1,5 +1,5 @@
 #pragma once
-// Sub-commands of defocus bench that have files of their own.
+// Sub-commands of `defocus bench` in files of their own.
 
 #include <filesystem>
 #include <initializer_list>
@@ -7,30 +7,29 @@
 
 #include "cli/command.h"
 #include "eval/bench_subject.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 
 namespace defocus::engine {
 
-// Makes `folder` and checks that these files can be written there, before the long work; nothing for an empty path.
-// Throws Error.
+// Creates `folder` and checks that these files can be written there, before the long work. Does nothing for an empty
+// path. Throws Error.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
-// Adds --allow-changed, which sets `allowed`.
+// Adds the option --allow-changed, which sets `allowed`.
 void addAllowChanged(CLI::App& command, bool& allowed);
 
-// Throws Error if results would go to `output` although the program was built from sources that differ from `commit`
-// (see programCommit): no one could check such results out and repeat them. Does nothing if `output` is empty or
-// `allowed` is set.
+// Throws Error if results would be written to `output` by a program built from changed sources (see programCommit),
+// because nobody could repeat such results. Does nothing if `output` is empty or `allowed` is set.
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
-// What a bench measures without options: in metres, as no figure may hang on a guess.
+// Returns the default request of a bench. Its unit is the metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
-// This program, command and machine, the device of `context`, and what is measured: one frame, or what the bench makes
-// by itself.
+// Describes the subject of a bench: program, command, machine and the device of `context`; with `frame`, also its
+// scene, camera and lens.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

@@ -1,4 +1,4 @@
-// defocus bench convergence: error against run time.
+// defocus bench convergence: measures error against run time.
 
 #include <fmt/format.h>
 
@@ -37,7 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Ray tracers don't shade as the rasteriser does: where there are any, the scene has its light painted on.
+// Returns whether the program has ray tracers. They shade differently, so the scene's light is then baked into unlit
+// colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -47,8 +48,8 @@ struct ConvergenceArguments {
     bool unlit = hasRayTracers();
     ConvergenceOptions options;
     std::uint32_t referenceSamples = 4096;
-    fs::path output;  // empty: as `report`, else "convergence"
-    fs::path report;  // empty: none
+    fs::path output;  // empty: `report`; if that is empty too, "convergence"
+    fs::path report;  // empty: no report
     bool resume = false;
     bool overwrite = false;
     bool allowChanged = false;
@@ -72,7 +73,7 @@ std::string textIn(const fs::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// What a journal's frames have in common: another scene, reference, device or program makes another subject.
+// Returns the hash that all frames in a journal share. It changes with scene, reference, device and program.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -83,8 +84,8 @@ std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, co
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
-// The frames that are to be gone on from. Throws Error, before anything is touched, where the folder holds what this
-// run would destroy: frames or a reference that took long to make.
+// Returns the frames of an earlier run to continue from. Throws Error before any change if this run would destroy
+// frames or a reference in the folder.
 std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
                                         std::uint64_t subject) {
     if (arguments.overwrite) return {};
@@ -103,14 +104,14 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
     return runs;
 }
 
-// Results in their folder: as frames come in, everything is written anew, so that a killed run loses none of them.
+// The folder with the results. All files are rewritten after each frame, so that a killed run loses no frame.
 class ResultsFolder {
 public:
     ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash,
                   int seeds)
         : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash), seeds_(seeds) {}
 
-    // Goes on from the frames, and the commands, that an earlier run has left here.
+    // Takes over the frames and the commands of an earlier run in this folder.
     void resume(std::vector<ConvergenceRun> runs) {
         runs_ = std::move(runs);
         const fs::path results = folder_ / "results.json";
@@ -159,7 +160,7 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Is a preset the form of a method that is measured with standard settings?
+// Returns whether a preset is the published form of a method that the bench measures with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
@@ -167,8 +168,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// The presets' forms of the methods. Those that draw levels get pyramids of their own, which `frames` keeps; `frame`
-// has none yet.
+// Returns the published forms of the methods, from the presets. Forms that draw levels get their own pyramids, kept in
+// `frames`. `frame` needs no pyramids yet.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {
@@ -191,11 +192,11 @@ std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFr
 }
 
 void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
-    // Faults first: scene, lens, device, folders.
+    // Check scene, lens, device and folders before the long work.
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
     Request scene = arguments.request;
-    scene.noCache = true;  // the time that pyramids take is part of the result
+    scene.noCache = true;  // the result includes the build time of the pyramids
     const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
     if (!usesLevels) scene.lod = LodMode::off;
     PreparedFrame frame = placeFrame(scene, progress);
@@ -211,7 +212,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer, frame.settings.shadows};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    // Runs of other seeds aren't to be mixed.
+    // Runs with different numbers of seeds must not be mixed.
     const std::array<std::uint64_t, 2> subjectAndSeeds = {
         subjectHash(referenced, benchSubject(*context, global), arguments.request),
         static_cast<std::uint64_t>(options.seeds)};
@@ -223,7 +224,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.published = publishedForms(scene, frame, options, publishedFrames, progress);
     addPyramids(frame, progress);
 
-    // The reference, and where to look.
+    // Render the reference and choose the crops to show.
     const ReferenceImage reference = referenceImage(frame.world, frame.view, referenceOptions, folder, progress);
     writeImage(folder / "images" / "reference.png", reference.image);
     ConvergenceSubject subject;
@@ -231,7 +232,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 
-    // The frames.
+    // Measure the frames.
     ResultsFolder results(folder, reference, subject, hash, options.seeds);
     if (arguments.resume) results.resume(done);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n", subject.bench.scene, subject.bench.width,
@@ -246,7 +247,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     measureConvergence(frame.world, frame.view, reference, options, frame.pyramidMilliseconds, done, visitor, progress);
     progress = {};
 
-    // Results.
+    // Write and print the results.
     results.writeResults(folder);
     const std::vector<ConvergenceRow> rows = results.rows();
     fmt::print("{}", convergenceHeader());
@@ -342,7 +343,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
     CLI::App* command =
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
-    // Not what the bench goes through by itself; and images are compared at EV 0.
+    // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups,
                            {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",

@@ -1,4 +1,4 @@
-// defocus bench popping: what levels of detail add to the change from frame to frame.
+// defocus bench popping: measures the change from frame to frame that levels of detail add.
 
 #include <fmt/format.h>
 
@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 struct PoppingArguments {
     Request request = measuredRequest();
     PoppingOptions options;
-    fs::path folder;  // empty: only the table
-    fs::path report;  // empty: none
+    fs::path folder;  // empty: print the table only
+    fs::path report;  // empty: no report
     bool allowChanged = false;
 };
 
@@ -59,7 +59,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
                subject.height, options.frames, options.pathFrames, subject.device);
 
-    // Whatever is measured is kept as it comes: a run that is cut off loses little.
+    // Write the results after each measurement, so that an interrupted run loses little.
     std::vector<PoppingFrame> frames;
     std::vector<SampleStep> steps;
     const auto write = [&] {
@@ -95,7 +95,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     CLI::App* command = bench.add_subcommand(
         "popping",
         "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
-    // Not what the bench goes through by itself; and images are compared at EV 0.
+    // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(
         *command, arguments->request,
         settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
@@ -116,7 +116,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
     addDeveloperSettings(*command, arguments->request,
-                         {"keepAll", "memory", "wave"});  // nothing that is measured depends on it
+                         {"keepAll", "memory", "wave"});  // these settings don't affect the results
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

@@ -1,4 +1,4 @@
-// defocus bench prediction: the error that a pyramid expects of its levels against the rendered one.
+// defocus bench prediction: compares the error that a pyramid predicts for its levels with the rendered error.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 struct PredictionArguments {
     Request request = measuredRequest();
     PredictionOptions options;
-    std::filesystem::path folder;  // empty: only the table
+    std::filesystem::path folder;  // empty: print the table only
     bool allowChanged = false;
 };
 

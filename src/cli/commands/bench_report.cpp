@@ -15,14 +15,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Another python3 without Debian's packages may come first on the path.
+// The python3 that comes first on the path may lack Debian's packages.
 constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 
-// Exit codes for an interpreter that isn't installed, and for one without matplotlib (report_script.cpp.in).
+// Exit codes of a missing interpreter and of an interpreter without matplotlib (report_script.cpp.in).
 constexpr int notInstalled = 127;
 constexpr int withoutMatplotlib = 3;
 
-// Runs a program from the path and returns its exit code, -1 if it was killed. Its output goes to stderr.
+// Runs a program from the path and returns its exit code; −1 if it was killed. Its output goes to stderr.
 int exitCodeOf(std::vector<std::string> words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -40,7 +40,7 @@ int exitCodeOf(std::vector<std::string> words) {
     return WEXITSTATUS(status);
 }
 
-// Returns whether there is a Python with matplotlib. Throws Error if it cannot draw the report.
+// Returns whether a Python with matplotlib is installed. Throws Error if it fails to draw the report.
 bool runScript(const std::filesystem::path& results, const std::filesystem::path& report) {
     for (const char* python : interpreters) {
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});

@@ -1,4 +1,4 @@
-// defocus bench scaling: how a frame's time and memory grow.
+// defocus bench scaling: measures how time and memory of a frame grow with its parameters.
 
 #include <fmt/format.h>
 
@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 
 struct ScalingArguments {
     ScalingOptions options;
-    Request request;      // its cache folder alone
-    fs::path folder;      // empty: only the table
-    fs::path report;      // empty: none
-    bool scenes = false;  // the two large ones too
+    Request request;      // only its cache folder is used
+    fs::path folder;      // empty: print the table only
+    fs::path report;      // empty: no report
+    bool scenes = false;  // measure the two large scenes too
     bool allowChanged = false;
 };
 
@@ -51,7 +51,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
     std::fflush(stdout);
 
-    // Each row is kept as it comes: a run that is cut off loses nothing.
+    // Write all rows after each new row, so that an interrupted run loses nothing.
     std::vector<ScalingRow> rows;
     std::vector<ScalingLeftOut> leftOut;
     std::vector<LargeSceneRow> scenes;

@@ -1,4 +1,4 @@
-// defocus bench stability: stiff and extreme cases against their truth, and whether blur follows the lens.
+// defocus bench stability: compares stiff and extreme cases with their true results, and the blur with the lens.
 
 #include <fmt/format.h>
 
@@ -19,8 +19,8 @@ namespace defocus::engine {
 namespace {
 
 struct StabilityArguments {
-    std::filesystem::path output;  // JSON; empty: only the table
-    std::filesystem::path report;  // folder; empty: none
+    std::filesystem::path output;  // JSON file; empty: print the table only
+    std::filesystem::path report;  // folder; empty: no report
     bool allowChanged = false;
 };
 
@@ -38,7 +38,7 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
     return rows;
 }
 
-// Row by row for the methods as they are by default, all others in the summary.
+// Prints a row for each method with default settings, and a summary of all methods.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\nThe disk of a point of light against the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm,\n"

@@ -23,20 +23,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Blur {
     double depth = 0;      // m
-    double pixels = 0;     // signed, > 0 behind the focus
+    double pixels = 0;     // signed; > 0 behind the focus
     double onSensor = 0;   // mm, ≥ 0
-    bool inFocus = false;  // no larger than the acceptable circle
+    bool inFocus = false;  // blur no larger than the acceptable circle
 };
 
-// The answers.
+// Results for the report.
 struct CameraFacts {
     Lens lens;
     glm::dvec2 sensor{0};       // mm
     glm::dvec2 fieldOfView{0};  // degrees
     double acceptable = 0;      // mm
-    bool customary = false;     // the sensor's diagonal over 1500
+    bool customary = false;     // acceptable circle is the sensor's diagonal over 1500
     DepthOfField depth;
-    bool plain = true;  // none of the controls of C is in use: the limits are the image's own
+    bool plain = true;  // plain thin lens, without artistic controls: the limits of focus are exact
     std::vector<Blur> blurs;
 };
 
@@ -77,12 +77,12 @@ Json orNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-// What is in focus behind the focus distance, m.
+// Returns the depth of field behind the focus distance, m.
 double behindFocus(const CameraFacts& facts) {
     return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
 }
 
-// "1/125 s", "2.5 s"
+// Returns a text such as "1/125 s" or "2.5 s".
 std::string shutterText(double seconds) {
     return seconds < 0.4 ? fmt::format("1/{:.4g} s", 1 / seconds) : fmt::format("{:.3g} s", seconds);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What photographers ask of a camera, as `defocus info --camera` prints it: field of view, depth of field, exposure,
-// and the blur at chosen depths.
+// Reports camera data for photographers, as printed by `defocus info --camera`: field of view, depth of field,
+// exposure, and the blur at chosen depths.
 
 #include <optional>
 #include <string>
@@ -11,16 +11,16 @@
 namespace defocus::engine {
 
 struct CameraQuestion {
-    std::optional<double> acceptableCoc;  // mm on the sensor; none: the customary one
-    std::vector<double> depths;           // m, > 0, infinity is allowed; empty: some around the focus
+    std::optional<double> acceptableCoc;  // mm on the sensor; none: the customary value
+    std::vector<double> depths;           // m, > 0, may be infinite; empty: depths around the focus
 };
 
-// Depths parted by commas, `inf` among them. Throws Error for what isn't one.
+// Parses depths separated by commas; "inf" is infinity. Throws Error for any other text.
 std::vector<double> parseDepths(const std::string& text);
 
 std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& question);
 
-// An infinite distance is null.
+// Returns a JSON object. Infinite distances are null.
 std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& question);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// defocus capture: a shot to frames and film.
+// defocus capture: renders a shot to frames and a film.
 
 #include "capture/capture.h"
 
@@ -52,16 +52,15 @@ struct CaptureArguments {
     std::optional<FrameRange> range;
     Shard shard;
     std::optional<SampleRange> sampleRange;
-    std::vector<std::string> outputs;  // empty: the shot's
+    std::vector<std::string> outputs;  // empty: the shot's outputs
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
 };
 
-// ---- the work
-// --------------------------------------------------------------------------------------------------------
+// ---- rendering ------------------------------------------------------------------------------------------------------
 
-// Faults of outputs and of options that don't go together, before anything long.
+// Checks the outputs and the combination of options, before the long work. Throws Error.
 void checkArguments(const CaptureArguments& arguments) {
     for (const std::string& pattern : arguments.shot.outputs) {
         checkFramePattern(pattern);
@@ -122,7 +121,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     }
 }
 
-// Metadata as of `render`, less what differs from run to run. `exposure`: of all frames; none: their lens's.
+// Returns the metadata of `render`, without values that differ from run to run. `exposure`: EV of all frames; none:
+// from each frame's lens.
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
                         std::optional<double> exposure) {
     return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
@@ -133,14 +133,14 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         options.seed = frame.settings.seed;
         Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
         metadata.erase("defocus:seconds");
-        metadata["capDate"] = std::string();  // else the library puts the time of writing there
+        metadata["capDate"] = std::string();  // otherwise the library inserts the time of writing
         metadata["defocus:frame"] = frame.frame;
         metadata["defocus:frameRate"] = arguments.shot.frameRate;
         return metadata;
     };
 }
 
-// Plans the first frame for its warnings.
+// Plans the first frame and prints the warnings of its plan.
 void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                        const std::vector<FilmFrame>& film, const MethodUse& use, WarningPrinter& warnings) {
     const FrameMoment frame = frameAt(arguments.shot, base, film.front().frame);
@@ -148,7 +148,7 @@ void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepare
     warnings.print(planWarnings(planFrame(prepared.world, frame.view, frame.settings), use));
 }
 
-// All frames are exposed as the shot's first one is metered, whichever of them this run renders.
+// Meters the shot's first frame, even if this run doesn't render it, and sets the exposure of all frames.
 void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                std::vector<FilmFrame>& film, const GlobalOptions& global) {
     const FrameMoment frame = frameAt(arguments.shot, base, arguments.shot.range.first);
@@ -182,7 +182,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     const std::optional<double> exposure =
         options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
     stopWhenAsked();
-    // With a time limit at least one frame is rendered, so that run after run ends some day.
+    // With a time limit, render at least one frame, so that repeated runs finish at some time.
     const Clock::time_point start = Clock::now();
     bool first = true;
     const auto stop = [&] {
@@ -196,7 +196,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
 
-// Work of hours may lie under these names.
+// Refuses to replace frames made with other settings, which may have taken hours.
 void refuseToReplace(const std::vector<FilmFrame>& film) {
     const auto replaced = [](const FilmFrame& frame) { return !frame.other.empty(); };
     const auto first = std::ranges::find_if(film, replaced);
@@ -213,7 +213,7 @@ PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& pro
 }
 
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
-    // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
+    // Check options, outputs, scene, device and the camera and lens of every frame before the long work.
     Shot& shot = arguments.shot;
     settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
@@ -231,7 +231,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (arguments.resume && !arguments.overwrite && !arguments.dryRun) refuseToReplace(film);
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
-    // The frames.
+    // Render the frames.
     std::unique_ptr<GlContext> context;
     const bool meters = options.metered && (!allThere || !shot.video.empty());
     if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
@@ -250,7 +250,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     };
     if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
-            progress = {};  // the line of the progress makes room
+            progress = {};  // end the progress line before the warnings
             warnings.print(clippingWarnings(image, write));
             progress = terminalProgress(global);
         };
@@ -261,7 +261,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         fail("stopped before frame {}: {} of {} frames are finished; the same command with --resume goes on",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
 
-    // The film.
+    // Make the film.
     std::vector<VideoFrame> pictures;
     for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
     if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
@@ -269,8 +269,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (!global.quiet) printFigures(figures, film.size());
 }
 
-// ---- options
-// ---------------------------------------------------------------------------------------------------------
+// ---- options --------------------------------------------------------------------------------------------------------
 
 void parseShard(const std::string& text, Shard& shard) {
     const std::size_t slash = text.find('/');
@@ -286,8 +285,8 @@ void parseShard(const std::string& text, Shard& shard) {
              shard.count - 1);
 }
 
-// The shot is read when its option is, before those that replace parts of it: CLI11 calls options in the order in which
-// they were added.
+// Adds the shot and the options that replace its parts. CLI11 handles options in the order in which they were added.
+// The shot is added after --set, which it uses, and before the other options, which override it.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
     advanced(command
@@ -298,7 +297,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
                              for (const std::string& text : texts)
                                  arguments.overrides.push_back(parseShotOverride(text));
                          } catch (const Error& error) {
-                             throw CLI::ValidationError(error.what());  // a fault of the command line
+                             throw CLI::ValidationError(error.what());  // reported as an error of the command line
                          }
                      },
                      "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")

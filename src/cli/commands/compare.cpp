@@ -1,4 +1,4 @@
-// defocus compare: how different two images are.
+// defocus compare: measures the difference between two images.
 
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ struct CompareArguments {
     bool json = false;
     bool hdr = false;
     HdrFlipOptions hdrFlip;
-    std::vector<std::string> failAbove;  // METRIC=VALUE, checked while parsing
+    std::vector<std::string> failAbove;  // METRIC=VALUE, valid after parsing
 };
 
 struct Metric {
@@ -53,7 +53,7 @@ struct Limit {
     double value = 0;
 };
 
-// The parsed METRIC=VALUE; metric is null when it isn't one.
+// Parses METRIC=VALUE. In the result for any other text, metric is null.
 Limit limitOf(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return {};
@@ -97,7 +97,7 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
     row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
 }
 
-// Coloured for people, or the plain values where the file holds floats.
+// Writes an error map: plain values to EXR files, colours to other formats.
 void writeErrorMap(const std::filesystem::path& path, const Image& flip) {
     writeImage(path, path.extension() == ".exr" ? flip : colourMapped(flip));
 }
@@ -116,7 +116,7 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
 }
 
 void runCompare(const CompareArguments& arguments) {
-    // Faults of the output first, before any work.
+    // Check the output before the work.
     if (!arguments.errorMap.empty()) {
         checkImageExtension(arguments.errorMap);
         checkWritable(arguments.errorMap);

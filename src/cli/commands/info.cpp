@@ -1,4 +1,4 @@
-// `defocus info`: what a scene file holds, what of it is ignored, and why.
+// defocus info: prints the contents of a scene file, and which parts are ignored and why.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,16 +29,16 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
     bool json = false;
-    std::string camera;  // empty: what the file holds; else what its camera does ("true" or a name)
-    Request seen;        // the scene; the rest is for --camera
+    std::string camera;  // empty: print the file's contents; else print camera data ("true" or a camera's name)
+    Request seen;        // scene; the other values are for --camera
     CameraQuestion question;
 };
 
-constexpr std::size_t meshesListed = 12;  // for people; --json lists all
-const std::string flagOnly = "true";      // CLI11's value of a flag without one
+constexpr std::size_t meshesListed = 12;  // in text output; --json lists all
+const std::string flagOnly = "true";      // CLI11's value for --camera without a name
 constexpr double degrees = 57.295779513082321;
 
-// "1234567" → "1,234,567".
+// Returns the name, or a text such as "(mesh 3)" for an empty name.
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("({} {})", kind, index) : name;
 }
@@ -71,8 +71,8 @@ const char* alphaName(AlphaMode mode) {
 }
 
 struct Totals {
-    std::uint64_t triangles = 0;         // each mesh once
-    std::uint64_t trianglesInScene = 0;  // as often as it is drawn
+    std::uint64_t triangles = 0;         // each mesh counted once
+    std::uint64_t trianglesInScene = 0;  // each mesh counted as often as it is drawn
     std::uint64_t vertices = 0;
 };
 
@@ -86,14 +86,14 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
     return totals;
 }
 
-// Of each mesh.
+// Returns the repairs of each mesh.
 std::vector<Repairs> allRepairs(const Scene& scene) {
     std::vector<Repairs> repairs(scene.meshes.size());
     parallelFor(repairs.size(), [&](std::size_t m) { repairs[m] = repairsOf(scene.meshes[m]); });
     return repairs;
 }
 
-// ---- for programs -------------------------------------------------------------------------------
+// ---- JSON output --------------------------------------------------------------------------------
 
 Json meshJson(const Mesh& mesh, const Repairs& repairs, std::size_t objects) {
     return {{"name", mesh.name},
@@ -166,13 +166,13 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     return json;
 }
 
-// ---- for people ---------------------------------------------------------------------------------
+// ---- text output --------------------------------------------------------------------------------
 
 void line(const char* label, const std::string& text) {
     fmt::print("{:<12}{}\n", label, text);
 }
 
-// One line an entry, the label only before the first; `none` when there are none.
+// Prints one line per entry, with the label on the first line only; prints `none` for no entries.
 void lines(const char* label, const std::vector<std::string>& entries, const char* none) {
     if (entries.empty()) line(label, none);
     for (std::size_t i = 0; i < entries.size(); ++i) line(i == 0 ? label : "", entries[i]);
@@ -341,7 +341,7 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
               "sensor of 36 x 27 mm)")
         ->group(group);
-    // What is said follows from the lens's diameter, not from the shape or the faults of its blur.
+    // Leave out the shape and the aberrations of the aperture: the report depends on its diameter only.
     addSettings(command, options.seen,
                 settingsOf({SettingGroup::camera, SettingGroup::lens},
                            {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",

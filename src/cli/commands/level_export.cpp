@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longestStem = 80;  // bytes; file systems hold 255
+constexpr std::size_t longestStem = 80;  // bytes; file systems allow 255
 
-// Letters, digits and "-_." of ASCII; no leading dot.
+// Returns a file name of ASCII letters, digits and "-_.", without a leading dot.
 std::string safeStem(const std::string& name) {
     std::string stem;
     for (const char c : name) {

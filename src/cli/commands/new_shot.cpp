@@ -1,4 +1,4 @@
-// defocus new-shot: a shot file to begin with.
+// defocus new-shot: writes a first shot file for a scene.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int frameRate = 24;
-constexpr int stillSeconds = 5;  // of a film of a scene that doesn't move
+constexpr int stillSeconds = 5;  // length of the film for a scene without animation
 constexpr const char* schemaName = "shot.schema.json";
 
 struct NewShotArguments {
@@ -35,14 +35,14 @@ struct NewShotArguments {
     bool overwrite = false;
 };
 
-// Three digits are enough to begin with.
+// Rounds to three significant digits.
 double rounded(double value) {
     const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
     return std::isfinite(step) && step > 0 ? std::stod(fmt::format("{:.3g}", value)) : value;
 }
 
-// What can be seen at once and is worth a change: the camera's lens, a focus that is found anew, and a movement where
-// the scene has none.
+// Returns a shot with visible settings that are worth changing: the f-stop, an automatic focus, and a turntable if the
+// scene has no animation.
 Json shotOf(const PreparedFrame& frame, const fs::path& scene, const std::string& stem) {
     const Scene& file = *frame.scene;
     Json shot = {{"$schema", schemaName}};
@@ -76,11 +76,11 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
     const PreparedFrame frame = placeFrame(arguments.request, terminalProgress(global));
     const fs::path folder = output.parent_path();
     const fs::path fromShot = scene.empty() ? scene : fs::proximate(scene, folder.empty() ? "." : folder);
-    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // on one line, as people write it
+    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // puts pairs of numbers on one line
     const std::string text = shotOf(frame, fromShot, stem.string()).dump(2);
     writeFile(output, std::regex_replace(text, pair, "[$1, $2]") + "\n");
 
-    // Beside it, what its first line names.
+    // Write the schema that the shot's first line names beside the shot.
     if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText());
     if (!global.quiet) printMessage("{0}: defocus capture {0} renders it\n", output.string());
 }

@@ -1,4 +1,4 @@
-// `defocus view` of a build without its window.
+// defocus view in a build without the window.
 
 #include "cli/command.h"
 #include "core/error.h"

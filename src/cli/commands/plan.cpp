@@ -1,4 +1,4 @@
-// defocus plan: what a render would draw, without drawing it.
+// defocus plan: prints what a render would draw, without drawing it.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (stopSettings(arguments.request).automatic) {  // as a render begins, which may go on by what it sees
+    if (stopSettings(arguments.request).automatic) {  // a render begins with this number of samples and may add more
         RenderSettings settings = frame.settings;
         settings.sampleCount = samplesForBlur(plan);
         plan = planFrame(frame.world, frame.view, settings);
@@ -44,7 +44,7 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand(
         "plan", "Print what a render would draw: blur, level and samples of each object, and what is left out");
     command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
-    // A plan is of lens samples and levels, whatever draws them, in whatever light and however bright.
+    // Leave out settings that don't affect a plan: method, environment and brightness.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
                                          "layerFormat", "exposureTime", "iso"}));

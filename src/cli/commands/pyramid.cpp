@@ -1,4 +1,4 @@
-// defocus pyramid: the levels of each mesh, how far they really are from it, and their export.
+// defocus pyramid: prints and exports the levels of each mesh, and measures their distance from the mesh.
 
 #include "lod/pyramid/pyramid.h"
 
@@ -44,30 +44,30 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct PyramidArguments {
-    Request request;        // its scene alone
-    std::string mesh;       // empty: all
+    Request request;        // only its scene and levelVertices are used
+    std::string mesh;       // empty: all meshes
     fs::path exportFolder;  // empty: no export
-    fs::path turntable;     // empty: none
-    fs::path cacheFolder;   // empty: none is used
+    fs::path turntable;     // empty: no turntable
+    fs::path cacheFolder;   // empty: no cache
     std::size_t points = 16'384;
     bool noMeasure = false;
     bool json = false;
 };
 
 struct LevelReport {
-    std::optional<SurfaceDistance> measured;  // from level 0 and back; not of level 0 itself
+    std::optional<SurfaceDistance> measured;  // distance to level 0, both ways; none for level 0 itself
     fs::path file;                            // empty: not exported
 };
 
 struct MeshReport {
-    std::size_t mesh = 0;  // into Scene::meshes
+    std::size_t mesh = 0;  // index into Scene::meshes
     Pyramid pyramid;
-    std::optional<double> seconds;  // of the build; none where the cache had it
+    std::optional<double> seconds;  // build time; none if the pyramid came from the cache
     std::vector<LevelReport> levels;
-    fs::path turntable;  // empty: none was drawn
+    fs::path turntable;  // empty: not drawn
 };
 
-// As `defocus info` calls it.
+// Returns the mesh's name as `defocus info` prints it.
 std::string shownName(const Scene& scene, std::size_t mesh) {
     return scene.meshes[mesh].name.empty() ? fmt::format("(mesh {})", mesh) : scene.meshes[mesh].name;
 }
@@ -96,7 +96,8 @@ void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// As cachedPyramids does it, mesh by mesh. Returns why one couldn't be stored; empty where nothing went wrong.
+// Loads a mesh's pyramid from the cache, or builds and stores it. Returns why it couldn't be stored; empty if nothing
+// failed.
 std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
                         MeshReport& report) {
     if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
@@ -116,7 +117,7 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
     return {};
 }
 
-// Returns why a pyramid couldn't be stored; empty where nothing went wrong.
+// Builds or loads all pyramids. Returns why one couldn't be stored; empty if nothing failed.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
     std::uint64_t all = 0;
@@ -170,7 +171,7 @@ void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Prog
 
 // ---- files --------------------------------------------------------------------------------------
 
-// Returns how many files were written; levels without triangles have none.
+// Writes all levels to files and returns the number of files. Levels without triangles get no file.
 std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
                       const std::vector<std::string>& stems) {
     std::size_t files = 0;
@@ -186,14 +187,14 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
 
 // ---- turntables ---------------------------------------------------------------------------------
 
-// sheet.png; of several meshes sheet-STEM.png each.
+// Returns the name of a sheet: sheet.png, or sheet-STEM.png if there are several meshes.
 fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
     if (!several) return file;
     fs::path named = file;
     return named.replace_filename(fmt::format("{}-{}{}", file.stem().string(), stem, file.extension().string()));
 }
 
-// The mesh as the scene has it first; as it is where the scene doesn't show it.
+// Returns the first object of the scene that shows the mesh; an object without transform if none does.
 Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     for (const Object& object : pose.objects)
         if (object.mesh == static_cast<int>(mesh)) return object;
@@ -204,7 +205,7 @@ Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     return object;
 }
 
-// Meshes without triangles have no sheet.
+// Draws a sheet for each mesh that has triangles.
 void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
                     const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
     const Scene& scene = *drawn;
@@ -225,7 +226,7 @@ void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshR
     }
 }
 
-// ---- what is said -------------------------------------------------------------------------------
+// ---- output -------------------------------------------------------------------------------------
 
 struct EndText {
     const char* name;
@@ -288,7 +289,7 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
     return json;
 }
 
-// "0.52 s", "3.1 ms".
+// Returns a text such as "0.52 s" or "3.1 ms".
 std::string timeText(double seconds) {
     return seconds >= 0.1 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.1f} ms", 1000 * seconds);
 }

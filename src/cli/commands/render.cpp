@@ -1,4 +1,4 @@
-// defocus render: a scene to images.
+// defocus render: renders a scene to images.
 
 #include "cli/commands/render.h"
 
@@ -19,8 +19,8 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "frame/driver/frame_output.h"
+#include "frame/program_facts.h"
 #include "frame/report/picture_warnings.h"
-#include "frame/report/program_facts.h"
 #include "image/image_io.h"
 #include "plan/lens_cells/swept_work.h"
 #include "render/aov/work.h"
@@ -80,7 +80,7 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->group(group));
 }
 
-// out.exr and "depth.exr" → out.depth.exr
+// Replaces the extension: out.exr and "depth.exr" → out.depth.exr.
 std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
     std::filesystem::path path = output;
     path.replace_extension(ending);
@@ -172,7 +172,7 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Draws the frame; what goes to files in parts is written meanwhile.
+// Draws the frame. Finished parts that go to files are written meanwhile.
 void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress) {
     const FrameDriver& frame = driver.driver();
     const auto step = [&] {
@@ -213,7 +213,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     FrameOutput output(driver, filesOf(arguments));
     output.start(progress);
 
-    // Warnings come before the work, as far as they are known.
+    // Print all warnings that are already known before the work.
     progress = {};  // ends the progress line
     WarningPrinter warnings(global);
     printCacheUse(driver.frame(), global);

@@ -1,5 +1,5 @@
 #pragma once
-// What `defocus render` is asked for.
+// Arguments and options of `defocus render`.
 
 #include <filesystem>
 #include <optional>
@@ -26,12 +26,12 @@ struct RenderArguments {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    std::optional<SampleRange> sampleRange;  // only these, for `merge`
-    std::optional<TileShare> tile;           // only these rows, for `merge`
-    bool resume = false;                     // keeps what an interrupted run has finished
+    std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`
+    std::optional<TileShare> tile;           // draw only these rows, for `merge`
+    bool resume = false;                     // keep the finished parts of an interrupted run
 };
 
-// All options of the command. `arguments` must outlive the parse.
+// Adds all options of the command. `arguments` must outlive the parse.
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// defocus settings: the table of all settings, and the pages that are made from it.
+// defocus settings: prints the table of all settings, and the pages that are made from the table.
 
 #include "frame/settings/settings.h"
 
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct SettingsArguments {
     bool json = false;
     bool markdown = false;
-    std::filesystem::path schema;  // empty: none
+    std::filesystem::path schema;  // empty: no schema
 };
 
 std::string rangeText(const Setting& setting) {
@@ -74,7 +74,7 @@ void printTable() {
 
 // ---- docs/settings.md -----------------------------------------------------------------------------------------------
 
-// Bars part the cells of a table.
+// Escapes bars, which separate the cells of a table.
 std::string cell(const std::string& text) {
     std::string escaped;
     for (const char letter : text) {
@@ -104,7 +104,7 @@ std::string markdown() {
     std::string page =
         "# Settings\n\n"
         "Every setting of a picture, by its names. `defocus settings --markdown` prints this page from the table that "
-        "the\nprogram itself reads (`src/frame/setting_rows.cpp`).\n\n"
+        "the\nprogram itself reads (`src/frame/settings/rows.cpp`).\n\n"
         "- **Option**: on the command line of `render`, `capture`, `view`, `plan` and the benches that follow it.\n"
         "- **Python**: the keyword of `defocus.render` and its kin. C++ has the same names in `defocus::Request`.\n"
         "- **Shot**: its place in a shot file, and whether it may have keys there. A camera's extras in a glTF file "

@@ -22,25 +22,25 @@ namespace defocus::engine {
 
 namespace {
 
-// The view.
+// View of a cell.
 constexpr double viewElevation = glm::radians(14.0);
-constexpr double viewTangent = 18.0 / 85;  // half the cell's width: an 85 mm lens before a 36 mm sensor
-constexpr double viewFill = 0.9;           // share of the cell that the object may fill
+constexpr double viewTangent = 18.0 / 85;  // tan of half the field of view: an 85 mm lens with a 36 mm sensor
+constexpr double viewFill = 0.9;           // fraction of the cell that the object may fill
 constexpr double minAspect = 0.75;
 constexpr double maxAspect = 1.6;
-constexpr int cellArea = 320 * 240;  // px
+constexpr int cellArea = 320 * 240;  // width times height of a cell, px²
 
-// The sheet, px.
+// Layout of the sheet, px.
 constexpr int sheetMargin = 16;
 constexpr int cellGap = 4;
 constexpr int labelColumn = 210;
-constexpr int titleSize = 22;        // em
-constexpr int textSize = 14;         // em
+constexpr int titleSize = 22;        // font size
+constexpr int textSize = 14;         // font size
 constexpr float paperGrey = 0.018f;  // linear grey
 constexpr float inkGrey = 0.83f;
 constexpr float quietGrey = 0.42f;
 
-// From the angle that is looked from, at a turn of 0.
+// Returns the axes of the camera, which looks at the object from slightly above.
 glm::dmat3 cameraAxes() {
     const glm::dvec3 z(0, std::sin(viewElevation), std::cos(viewElevation));
     const glm::dvec3 x(1, 0, 0);
@@ -54,7 +54,7 @@ Object turnedObject(const Object& object, const glm::dmat4& turn) {
     return result;
 }
 
-// `offset`: from the centre, in the camera's axes.
+// Calls `visit` with the offset of each vertex from `centre`, in the camera's axes, for each view.
 template <typename Visit>
 void forEachTurnedPoint(const Mesh& mesh, const std::vector<glm::dvec3>& points, const glm::dvec3& centre,
                         const Visit& visit) {
@@ -121,7 +121,7 @@ void writeLabels(TurntableSheet& sheet, const Pyramid& pyramid, const std::strin
 }  // namespace
 
 TurntableView turntableView(const Mesh& mesh, const Object& object) {
-    // The object turns about the vertical through the middle of its box.
+    // The object turns about the vertical axis through the centre of its bounding box.
     const std::vector<glm::dvec3> points = posedPositions(mesh, object);
     Bounds box = posedBounds(mesh, object);
     if (box.empty()) box = {glm::dvec3(-1), glm::dvec3(1)};
@@ -136,7 +136,7 @@ TurntableView turntableView(const Mesh& mesh, const Object& object) {
         front = std::max(front, offset.z);
     });
 
-    // A cell in the object's proportions, and the distance from which all of it is in there.
+    // Choose a cell with the object's proportions, and a camera distance at which the whole object is in the cell.
     const double aspect = std::clamp(aside / up, minAspect, maxAspect);
     TurntableView result;
     View& view = result.view;
@@ -186,7 +186,7 @@ TurntableSheet turntableSheet(World& world, const Object& object, const std::str
     const Pyramid& pyramid = world.pyramids[mesh];
     const TurntableView look = turntableView(world.scene->meshes[mesh], object);
 
-    // The studio that scenes without lights have, whatever lights there are.
+    // Use the default lights of scenes without lights, even if the scene has its own.
     world.pose = {};
     world.pose.objects = {object};
     world.pose.bounds = posedBounds(world.scene->meshes[mesh], object);

@@ -1,6 +1,6 @@
 #pragma once
-// A contact sheet of a mesh's levels: a row a level, turned before a camera and lights that stand still. What is seen
-// is what the accumulation draws.
+// Draws a contact sheet of a mesh's levels, with a row for each level. The object turns before a fixed camera and fixed
+// lights. The accumulation method draws the views.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,9 +13,9 @@
 
 namespace defocus::engine {
 
-inline constexpr int turntableViews = 6;  // evenly around, the first from the front (+z)
+inline constexpr int turntableViews = 6;  // equal steps of angle; the first view is from the front (+z)
 
-// Where a view of a level lies on the sheet; px, row 0 at the top.
+// Position of a view on the sheet; px, row 0 at the top.
 struct TurntableCell {
     int x = 0;
     int y = 0;
@@ -28,20 +28,20 @@ struct TurntableSheet {
     std::vector<std::vector<TurntableCell>> cells;  // by level, then by view
 };
 
-// How the sheet looks at its object: the same for all levels and angles, so that they can be compared.
+// View of the object on the sheet. It is the same for all levels and angles, so that these can be compared.
 struct TurntableView {
-    View view;                          // a pinhole, sized as a cell
-    std::vector<glm::dmat4> worldTurn;  // of each of the views, about the object's vertical axis
+    View view;                          // pinhole camera, with the size of a cell
+    std::vector<glm::dmat4> worldTurn;  // rotation for each view, about the object's vertical axis
 };
 
-// Frames `mesh`, posed as `object` has it, from all sides.
+// Returns a view that frames `mesh` from all sides, in the pose of `object`.
 TurntableView turntableView(const Mesh& mesh, const Object& object);
 
-// What plans `level` of the only object of `world`, and no other: a threshold that the level's error just meets.
+// Returns settings with which the only object of `world` is drawn at `level`. Their threshold equals the level's error.
 RenderSettings settingsForLevel(const World& world, const View& view, std::uint32_t level);
 
-// `object` as it is posed, at each level of its mesh's pyramid, before the environment of `world`; its pose and lights
-// are replaced. `title` heads the sheet. Needs a current GL context.
+// Draws `object` in its pose at each level of its mesh's pyramid, in the environment of `world`. Replaces the pose and
+// the lights of `world`. `title` heads the sheet. Needs a current GL context.
 TurntableSheet turntableSheet(World& world, const Object& object, const std::string& title,
                               const std::filesystem::path& shaderFolder = {}, const Progress& progress = {});
 

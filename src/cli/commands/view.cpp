@@ -1,4 +1,4 @@
-// defocus view: a scene in a window.
+// defocus view: shows a scene in a window.
 
 #include <memory>
 
@@ -56,7 +56,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
         if (!options->screenshot.empty() && options->frames == 0) options->frames = 1;
         options->shaderFolder = global.shaderDir;
         options->quiet = global.quiet;
-        // The window adds blocks as long as it is looked at; this is for stills that it exports.
+        // The window adds samples without end; this number is for stills that it exports.
         if (!options->request.samples) options->request.samples = RenderSettings{}.sampleCount;
         runView(*options);
     });

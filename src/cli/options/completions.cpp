@@ -10,7 +10,8 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- words of all three --------------------------------------------------------------------------------------------
+// ---- for all shells
+// --------------------------------------------------------------------------------------------------
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -18,12 +19,12 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return text;
 }
 
-// Between single quotes of bash and zsh, which take no escapes.
+// Returns the text in single quotes of bash and zsh, which have no escapes inside.
 std::string inQuotes(const std::string& text) {
     return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
-// The first sentence, or what stands before a colon or semicolon: there is a line for it.
+// Returns the first sentence, up to a colon or semicolon, cut to fit on one line.
 std::string brief(const std::string& description) {
     constexpr std::size_t longest = 72;
     std::string text = description.substr(0, description.find_first_of(";:"));
@@ -38,7 +39,7 @@ bool takesValue(const OptionOutline& option) {
     return !option.value.empty();
 }
 
-// Those of the program itself, which every command takes too, but not its help.
+// Returns the program's own options that every command takes too, without --help, --help-all and --version.
 std::vector<OptionOutline> globalOptions(const CommandOutline& program) {
     std::vector<OptionOutline> options = program.options;
     std::erase_if(options, [](const OptionOutline& option) {
@@ -70,14 +71,14 @@ std::vector<std::string> positionalWords(const CommandOutline& command) {
 
 // ---- zsh ------------------------------------------------------------------------------------------------------------
 
-// In a specification of _arguments.
+// Escapes a text for a specification of zsh's _arguments.
 std::string zshText(const std::string& text) {
     std::string escaped = replaced(text, "\\", "\\\\");
     for (const char* mark : {"[", "]", ":"}) escaped = replaced(escaped, mark, std::string("\\") + mark);
     return escaped;
 }
 
-// What completes a value: ":FORM:(words)" or ":FORM:_files".
+// Returns the part of a specification that completes a value: ":FORM:(words)" or ":FORM:_files".
 std::string zshAction(const OptionOutline& option) {
     const std::string form = zshText(option.value.empty() ? option.names.front() : option.value);
     if (!option.words.empty() && option.file)
@@ -89,7 +90,7 @@ std::string zshAction(const OptionOutline& option) {
     return fmt::format(":{}:{}", form, option.file ? "_files" : " ");
 }
 
-// Each name a specification of its own; an option may be given again only where its value adds to the last.
+// Adds a specification for each name of an option. The leading * lets an option be given several times.
 void addZshOption(std::string& text, const OptionOutline& option) {
     for (const std::string& name : option.names) {
         std::string specification = "*" + name;
@@ -120,7 +121,7 @@ std::string fishQuotes(const std::string& text) {
     return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
 }
 
-// Where the command stands on the line and none below it.
+// Returns the condition that the line has this command but none of its sub-commands.
 std::string fishCondition(const CommandOutline& command) {
     if (command.names.empty()) return "__fish_use_subcommand";
     std::string condition;
@@ -156,7 +157,7 @@ void addFishOption(std::string& text, const std::string& condition, const Option
 // ---- bash -----------------------------------------------------------------------------------------------------------
 
 std::string bashCompletions(const CommandOutline& program) {
-    std::string commands;  // "bench speedup" among the words of the line
+    std::string commands;  // cases that match a command in the line, such as "bench speedup"
     std::string options;
     std::string values;
     for (const CommandOutline* command : allCommands(program)) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scripts that let a shell complete the program's commands, options and values.
+// Writes scripts with which a shell completes the program's commands, options and values.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// For bash 4 and later, zsh 5 and fish 3; each is a file for the folder from which the shell loads such scripts.
+// Return scripts for bash 4, zsh 5 and fish 3 or later. Each script is a file for the shell's completion folder.
 std::string bashCompletions(const CommandOutline& program);
 std::string zshCompletions(const CommandOutline& program);
 std::string fishCompletions(const CommandOutline& program);

@@ -1,6 +1,6 @@
 #pragma once
-// How --help looks: a column of options, and their descriptions wrapped beside it with the default at the end. --help
-// shows the options that most people use, and --help-all every option of the command, or of all commands.
+// Layout of --help: a column of options with wrapped descriptions beside it, each ending with the default. --help shows
+// the common options. --help-all shows every option of the command, or of all commands.
 
 #include <CLI/CLI.hpp>
 #include <string>

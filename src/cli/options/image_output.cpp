@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ".exr" of "exr:-".
+// Returns the extension of a standard output: ".exr" for "exr:-".
 std::string streamExtension(const fs::path& output) {
     const std::string text = output.string();
     return text == "-" ? ".png" : "." + text.substr(0, text.find(':'));
@@ -30,7 +30,7 @@ void writeToStandardOutput(std::span<const std::byte> bytes) {
         fail("standard output cannot be written: {}", std::strerror(errno));
 }
 
-// A file of one's own that is gone afterwards: image writers go back and forth in theirs.
+// A temporary file, removed by the destructor. Image writers need a file in which they can seek.
 class ScratchFile {
 public:
     explicit ScratchFile(const std::string& extension) {
@@ -65,7 +65,7 @@ std::string shownOutput(const fs::path& output) {
 
 namespace {
 
-// No output replaces another one, nor what is read.
+// Throws Error if two outputs are the same file, or if an output would replace an input.
 void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
     std::set<fs::path> files;
     for (const fs::path& output : outputs) {

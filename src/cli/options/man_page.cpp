@@ -8,13 +8,13 @@
 #include <sstream>
 #include <vector>
 
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 
 namespace defocus::engine {
 
 namespace {
 
-// A text that groff prints as it is: its own letters escaped, and what isn't ASCII by its code point.
+// Escapes a text so that groff prints it unchanged. Characters beyond ASCII are written by their code point.
 std::string plain(const std::string& text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -41,7 +41,7 @@ std::string plain(const std::string& text) {
     return result;
 }
 
-// A line of text: none begins like a request.
+// Returns a line of text, escaped so that it doesn't begin like a groff request.
 std::string line(const std::string& text) {
     const bool request = !text.empty() && (text.front() == '.' || text.front() == '\'');
     return (request ? "\\&" : "") + plain(text) + "\n";
@@ -73,7 +73,7 @@ std::string synopsis(const CommandOutline& command) {
     return text + "\n";
 }
 
-// "Example:" and lines that are indented, or sentences.
+// Returns a command's footer in man macros. Indented lines are code, other lines are sentences.
 std::string footerText(const std::string& footer) {
     std::string text;
     std::istringstream lines(footer);
@@ -107,7 +107,7 @@ std::string commandText(const CommandOutline& command) {
     return text + footerText(command.footer);
 }
 
-// Each once, by its group, as the first command that has it explains it.
+// Returns each shared option once, by group, with the description of the first command that has it.
 std::string settingsText(const CommandOutline& program) {
     std::vector<std::string> groups;
     std::map<std::string, std::vector<OptionOutline>> byGroup;

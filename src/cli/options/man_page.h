@@ -1,5 +1,5 @@
 #pragma once
-// The manual page, defocus(1).
+// Writes the manual page, defocus(1).
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// In the language of groff's man macros. A setting that several commands take is explained once.
+// Returns the page in groff's man macros. A setting that several commands take is explained once.
 std::string manPage(const CommandOutline& program);
 
 }  // namespace defocus::engine

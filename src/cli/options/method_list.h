@@ -1,5 +1,5 @@
 #pragma once
-// Lists of methods on the command line.
+// Parses lists of methods on the command line.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace defocus::engine {
 
-// "a:x=1,y=2,b" is a with two settings, and b: what has a "=" and no name of its own belongs to the method before it.
-// Throws Error for an unknown method or setting and for a value out of range.
+// Parses a list of methods: "a:x=1,y=2,b" is method a with two settings, and method b. A part with "=" but without a
+// method's name belongs to the method before it. Throws Error for an unknown method or setting, and for a value out of
+// range.
 std::vector<MethodUse> parseMethods(const std::string& text);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Options that are read by our own rules, so that a wrong value gives one clear line: "--samples: '0' is not a whole
-// number from 1 to 65536".
+// Adds options with this program's own parsers, so that a wrong value gives one clear line: "--samples: '0' is not a
+// whole number from 1 to 65536".
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,22 +17,22 @@
 
 namespace defocus::engine {
 
-// Adds an option whose text goes to `parse`; an Error that it throws becomes a fault of the command line.
+// Adds an option whose text goes to `parse`. An Error from `parse` is reported as an error of the command line.
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
                        const std::string& description, std::function<void(const std::string&)> parse);
 
-// Marks an option that only --help-all shows. CLI11 has no such mark; `configurable` is free for it, as the program
-// reads no configuration files.
+// Marks an option that only --help-all shows. CLI11 has no such flag; `configurable` is free for it, because the
+// program reads no configuration files.
 inline CLI::Option* advanced(CLI::Option* option) {
     return option->configurable(false);
 }
 
-// A check whose name --help leaves out: the description says what is allowed.
+// Returns a check without a name in --help, where the description already names the allowed values.
 inline CLI::Validator unnamed(const CLI::Validator& check) {
     return check.description("");
 }
 
-// An option for a number that may be left empty. `target` must outlive the parse.
+// Adds an option for a number that may stay unset. `target` must outlive the parse.
 CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
                        const std::string& type, const std::string& description);
 CLI::Option* addNumber(CLI::App& command, const std::string& names, double& target, const Range& range,
@@ -48,10 +48,10 @@ CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& targ
         ->default_str(std::to_string(target));
 }
 
-// The parts of a list, between its commas.
+// Splits a list at its commas.
 std::vector<std::string> partsOf(const std::string& text);
 
-// An option for a list parted by commas, each part read by `parse`.
+// Adds an option for a list separated by commas; `parse` reads each part.
 template <typename Value, typename Parse>
 CLI::Option* addList(CLI::App& command, const std::string& names, const std::string& type, std::vector<Value>& target,
                      const std::string& description, Parse parse) {
@@ -61,7 +61,7 @@ CLI::Option* addList(CLI::App& command, const std::string& names, const std::str
     });
 }
 
-// The same for numbers.
+// Adds an option for a list of numbers separated by commas.
 CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector<double>& target, const Range& range,
                         const std::string& type, const std::string& description);
 

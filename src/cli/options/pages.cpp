@@ -1,4 +1,4 @@
-// defocus completions and defocus man: what is installed beside the program, written by itself.
+// defocus completions and defocus man: print the files that are installed beside the program.
 
 #include <fmt/format.h>
 

@@ -19,7 +19,7 @@ std::string longName(const CLI::Option& option) {
     return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
 }
 
-// The row of the table; null for an option of a command's own, whatever it is called.
+// Returns the setting that the option sets; null for an option of the command's own, even one of the same name.
 const Setting* settingOf(const CLI::Option& option) {
     for (const Setting& setting : settings())
         if (setting.option == longName(option) && setting.help == option.get_description()) return &setting;
@@ -34,14 +34,14 @@ bool isOfMethod(const CLI::Option& option) {
     });
 }
 
-// "half" is a word, "FILE" and "WxH" stand for one.
+// Returns whether the text is a literal word such as "half". "FILE" and "WxH" are placeholders.
 bool isWord(const std::string& text) {
     return !text.empty() &&
            std::ranges::none_of(text, [](unsigned char letter) { return std::isupper(letter) != 0; }) &&
            std::ranges::any_of(text, [](unsigned char letter) { return std::isalpha(letter) != 0; });
 }
 
-// The words in the form of a value: "off" and "half" of "off|half|N", all of "depth,coc".
+// Reads the literal words in the form of a value: "off" and "half" of "off|half|N", all words of "depth,coc".
 void readForm(OptionOutline& option) {
     option.list = option.value.find('|') == std::string::npos && option.value.find(',') != std::string::npos;
     for (const std::string& part : splitAt(option.value, option.list ? ',' : '|')) {
@@ -92,7 +92,7 @@ CommandOutline outlineOf(const CLI::App& program) {
 
 bool isEveryday(const CLI::Option& option) {
     const std::string name = longName(option);
-    return option.get_configurable() || name == "--help" || name == "--help-all";  // CLI11 marks its own two
+    return option.get_configurable() || name == "--help" || name == "--help-all";  // CLI11 unsets it for help options
 }
 
 std::string joinedNames(const CommandOutline& command) {

@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 CLI::Option* addBoolean(CLI::App& command, Request& request, const Setting& setting) {
-    // A camera of the file may have it on or off, so both can be said.
+    // The file's camera may have the flag on or off, so the command line can set both.
     std::string names = setting.option;
     if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
     return command

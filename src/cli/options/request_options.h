@@ -1,5 +1,5 @@
 #pragma once
-// The options of the command line that fill a request: the rows of the table of settings.
+// Adds the command-line options that fill a request, from the rows of the settings table.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -9,29 +9,28 @@
 
 namespace defocus::engine {
 
-// Adds an option for each of the settings named: a command offers none that it doesn't follow. Options that say the
-// same thing in different ways exclude each other. `request` holds the defaults that --help shows and must outlive the
-// parse.
+// Adds an option for each of the named settings. A command must name only settings that it uses. Options for the same
+// value exclude each other. `request` holds the defaults for --help and must outlive the parse.
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names);
 
-// The names of all settings of `groups` but those in `without`.
+// Returns the names of all settings of `groups`, except those in `without`.
 std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups,
                                     const std::vector<std::string>& without = {});
 
-// An option for each setting of each method; methods may share one.
+// Adds an option for each setting of each method. Methods may share an option.
 void addMethodSettings(CLI::App& command, Request& request);
 
-// What only those need who measure or mend the program: to be added last, so that --help ends with them.
+// Adds the options for developers of the program. They must be added last, so that --help ends with them.
 void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without = {});
 
-// What a frame needs, without the display of PNG and JPEG and what only developers need.
+// Groups of the settings of a frame, without the display of PNG and JPEG and without developer settings.
 inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,
                                                       SettingGroup::samples, SettingGroup::method};
-// The same with the display.
+// Groups of the settings of a frame and of its display as PNG and JPEG.
 inline const std::vector<SettingGroup> pictureGroups = {SettingGroup::display, SettingGroup::scene,
                                                         SettingGroup::camera,  SettingGroup::lens,
                                                         SettingGroup::samples, SettingGroup::method};
-// What picks a scene.
+// Settings that select a scene.
 inline const std::vector<std::string> sceneSettings = {"scene", "fishCount", "trianglesPerFish"};
 
 }  // namespace defocus::engine

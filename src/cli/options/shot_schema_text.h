@@ -4,7 +4,7 @@
 
 namespace defocus::engine {
 
-// docs/shot.schema.json, as it was when the program was built.
+// Returns docs/shot.schema.json as of the program's build.
 std::string_view shotSchemaText();
 
 }  // namespace defocus::engine

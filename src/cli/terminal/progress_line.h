@@ -1,5 +1,5 @@
 #pragma once
-// The line of a progress bar, for a terminal of any width.
+// Formats the line of a progress bar, for a terminal of any width.
 
 #include <optional>
 #include <string>
@@ -7,16 +7,17 @@
 
 namespace defocus::engine {
 
-// "samples [####----]  42 %, 12 s left" in fewer than `columns` columns, so that no terminal breaks the line. Where
-// they are few, the bar goes first, then what follows the stage's name, then the time, then the name. `share` is from 0
-// to 1, `left` in seconds; none: not known yet.
+// Returns "samples [####----]  42 %, 12 s left" in fewer than `columns` columns, so that no terminal breaks the line.
+// If space is short, it leaves out the bar first, then the rest of the stage's name, then the time, then the name.
+// `share`: 0 … 1. `left`: seconds; none: unknown.
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns);
 
-// How long work of one kind will take. Stages whose first words are alike, such as the frames of a film, are one kind.
+// Estimates the remaining time of work. Stages with the same first word, such as the frames of a film, count as one
+// work.
 class TimeLeft {
 public:
-    // Seconds until `share` is 1, at the pace of the stage so far; none within its first second and first hundredth.
-    // `seconds`: the time now, from any fixed moment on.
+    // Returns the seconds until `share` is 1, at the average pace so far. None while less than one second or one
+    // hundredth of the work has passed. `seconds`: time since any fixed moment.
     std::optional<double> after(std::string_view stage, double share, double seconds);
 
 private:

@@ -1,10 +1,11 @@
 #pragma once
-// SIGINT (Ctrl-C) and SIGTERM (Slurm's, before the end of a job) end long work after the piece that is being drawn.
+// Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job): long work stops after the current piece.
 
 namespace defocus::engine {
 
-// From now on the first of these signals only asks to stop; the next ends the process.
+// Installs the handlers. The first signal only requests a stop; the next one ends the process.
 void stopWhenAsked();
+// Returns whether a signal has requested a stop.
 bool stopAsked();
 
 }  // namespace defocus::engine

@@ -68,7 +68,8 @@ public:
     }
 
     bool advance() override { return walk_.advance(); }
-    // Fractions of rows are added up with rounding errors, which must not cost the last sample.
+    // Returns the mean number of samples. 1e-6 absorbs rounding errors in the sum of row fractions, which could cost
+    // the last sample.
     [[nodiscard]] std::uint32_t samples() const override {
         return static_cast<std::uint32_t>(sampleTotal() * share() + 1e-6);
     }
@@ -79,7 +80,7 @@ public:
     [[nodiscard]] const FramePlan& plan() const override { return plan_; }
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = walk_.stats();
-        stats.samples = sampleTotal();  // each finished tile has all of them
+        stats.samples = sampleTotal();  // each finished tile has all samples
         return stats;
     }
     [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
@@ -87,7 +88,7 @@ public:
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
 private:
-    // Copies a finished tile into its band, and hands the band on once its last tile is in.
+    // Copies a finished tile into the kept image or, with a row sink, into its band. A complete band goes to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
         const Band& band = bands_[band_];
@@ -107,9 +108,9 @@ private:
     double planMilliseconds_;
     RowSink takeRows_;
     std::vector<Band> bands_;
-    std::size_t band_ = 0;  // in which tiles are drawn
+    std::size_t band_ = 0;  // index of the band that is being drawn
     Image rowsOfBand_;
-    Image kept_;  // the whole frame, without a sink
+    Image kept_;  // the whole frame, if there is no row sink
     int rows_ = 0;
     TileWalk walk_;
 };
@@ -126,8 +127,8 @@ public:
                        std::min(order.samples->end, part_.frameSamples)};
         part_.width = plan_.view.width;
         part_.height = plan_.view.height;
-        if (count() == 0) return;  // a frame that needs fewer samples than the request has
-        // Both weigh a frame's samples against each other, which a part of them cannot do.
+        if (count() == 0) return;  // the frame has no samples in the requested range
+        // Cat's eye and axial chromatic aberration weight all samples of a frame relative to each other.
         const Lens& lens = plan_.view.lens;
         if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
             fail(
@@ -193,7 +194,7 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Chooses between one piece and tiles, and how many layers are drawn at once.
+// Chooses between one piece and tiles, and the number of layers that are drawn at once.
 void FrameDriver::fit(const FrameOrder& order) {
     const Method& method = *options_.method.method;
     const DrawLimits& limits = options_.limits;
@@ -211,7 +212,7 @@ void FrameDriver::fit(const FrameOrder& order) {
         return renderer_->setWave(0);
     }
 
-    // The previous frame's memory is given back before the rest is measured.
+    // Free the memory of the previous frame before measuring the remaining memory.
     renderer_.reset();
     giveBackFreedMemory();
     const FramePlan plan = planOfTiles(*world_, order.view, order.settings, order.stop.automatic);

@@ -24,11 +24,11 @@ bool namesRows(const fs::path& path) {
 }
 
 struct FoundTiles {
-    std::vector<RowFile> fitting;  // of the wanted settings, in order and without overlap
+    std::vector<RowFile> fitting;  // tiles with the wanted settings, from the top, without overlap
     std::vector<fs::path> all;
 };
 
-// Looks through the folder of an earlier run, and removes what a killed process left half written.
+// Finds the tiles of an earlier run, and removes incomplete files of a killed process.
 FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
     FoundTiles found;
     std::error_code none;
@@ -75,7 +75,7 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
     if (files.share && !oneExr) throw UsageError("--tile writes to one EXR file, such as -o tile.exr");
 }
 
-// out.exr → out.tiles
+// Returns the folder of the tiles: out.tiles for the output out.exr.
 fs::path FrameOutput::tilesFolder() const {
     fs::path folder = files_.outputs.front();
     folder.replace_extension("tiles");
@@ -93,7 +93,7 @@ RowFileHeader FrameOutput::header() const {
     return header;
 }
 
-// Keeps the finished tiles of an earlier run where they are to be resumed, and removes all others.
+// Keeps the finished tiles of an earlier run if that run is resumed, and removes all other tiles.
 void FrameOutput::findTiles() {
     const FoundTiles found = tilesIn(tilesFolder(), header());
     std::vector<RowRange> missing = {wanted_};
@@ -125,7 +125,7 @@ void FrameOutput::findShare() {
 void FrameOutput::start(const Progress& progress) {
     const Request& request = driver_.request();
     check(files_, request);
-    static_cast<void>(driver_.writeOptions());  // meters the exposure before the frame takes memory
+    static_cast<void>(driver_.writeOptions());  // meter the exposure before the frame allocates memory
     wanted_ = {0, request.size.height};
     parts_ = {.samples = files_.samples, .whole = files_.whole};
     if (files_.whole.empty() && !files_.samples)
@@ -184,7 +184,7 @@ std::string FrameOutput::stopMessage() const {
     return fmt::format("stopped after {} of {} samples: nothing is written", driver.samples(), driver.sampleTotal());
 }
 
-// Joins the tiles to the outputs, and removes them.
+// Joins the tiles into the output files, then removes the tiles.
 void FrameOutput::join() {
     const fs::path folder = tilesFolder();
     std::vector<fs::path> paths;

@@ -1,4 +1,4 @@
-// The public API's functions that need no renderer of their own.
+// Functions of the public API that need no renderer of their own.
 
 #include <fmt/format.h>
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* referenceName = "reference.exr";
 constexpr const char* referenceHalfName = "reference-half.exr";
 
-// An image and what was found out when it was made.
+// An image with its render time.
 struct Part {
     Image image;
     double milliseconds = 0;
@@ -48,7 +48,7 @@ bool holds(const Metadata& metadata, const char* name, const std::string& text) 
     return found != metadata.end() && found->second == MetadataValue(text);
 }
 
-// Nothing where there is no such file, it isn't whole, or it shows something else.
+// Returns the stored image; none if the file is missing, damaged or has another hash.
 std::optional<Part> stored(const fs::path& path, std::uint64_t hash, Metadata& metadata) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};
@@ -92,7 +92,7 @@ Difference remainingIn(const Metadata& metadata) {
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
 struct Half {
-    std::uint32_t first = 0;  // from the reference's offset on
+    std::uint32_t first = 0;  // index relative to referenceOffset
     std::uint32_t count = 0;
 };
 
@@ -104,7 +104,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
     settings.shadows = options.shadows;
-    settings.keepAll = true;  // brute force: nothing that a plan decides can be wrong in it
+    settings.keepAll = true;  // brute force: no culling error can reach the reference
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
     precise.settings.clear();
@@ -133,14 +133,14 @@ Half secondHalf(std::uint32_t samples) {
     return {samples / 2, samples - samples / 2};
 }
 
-// The mean of both, and how far it is from either.
+// Sets the reference's image to the mean of its halves, and its error to the difference between the mean and a half.
 void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.image = meanOf(one.image, firstHalf(reference.samples), other.image, secondHalf(reference.samples));
     reference.remaining = compareImages(reference.image, one.image);
     reference.milliseconds = one.milliseconds + other.milliseconds;
 }
 
-// Without its image yet.
+// Returns a reference with its number of samples and its hash, but without its image.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
         fail("reference of {} samples: choose 2 to {}", options.samples, maxSamples);
@@ -189,7 +189,7 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
                               const fs::path& folder, const Progress& progress) {
     ReferenceImage reference = askedFor(world, view, options);
 
-    // As it was stored, if it is what is asked for.
+    // Return the stored reference if it has the right hash.
     const fs::path path = folder / referenceName;
     Metadata metadata;
     if (std::optional<Part> part = stored(path, reference.hash, metadata)) {
@@ -200,7 +200,7 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
         return reference;
     }
 
-    // Two halves; the first is kept until the second is there too.
+    // Render two halves. The file of the first half is kept until the complete reference is stored.
     const fs::path halfPath = folder / referenceHalfName;
     std::optional<Part> one = stored(halfPath, reference.hash, metadata);
     if (!one) {

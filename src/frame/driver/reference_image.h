@@ -1,11 +1,12 @@
 #pragma once
-// Makes the converged image that methods are measured against: full detail, many lens samples of its own (they begin at
-// an offset in their sequence), 32-bit float layers. It is kept as an EXR with a hash of everything that it depends on,
-// and with an estimate of its own error.
+// Renders the converged image that methods are compared with: full detail, 32-bit float layers, many lens samples. The
+// samples come from a part of their sequence that other images don't use. The image is kept as an EXR file with a hash
+// of everything that it depends on, and with an estimate of its own error.
 //
-// It is the mean of two halves, each of its own lens samples. Were their errors independent, the mean's would be half
-// the difference between the two: the difference between the mean and either half. Neighbouring stretches of a Halton
-// sequence fill each other's gaps, so that the mean is rather better than that.
+// The reference is the mean of two halves with different lens samples. If the errors of the halves were independent,
+// the error of the mean would be half the difference between the halves. Half that difference is also the difference
+// between the mean and either half. Neighbouring stretches of a Halton sequence fill each other's gaps, so the mean is
+// more accurate than this estimate.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,43 +19,46 @@
 
 namespace defocus::engine {
 
-// Where references begin in the sequence of lens samples: far beyond what others use.
+// Index of a reference's first lens sample in its sequence, far beyond the samples of other images.
 inline constexpr std::uint32_t referenceOffset = 1u << 20;
-// Whatever the methods sample with, so that a reference stays the truth for all of them.
+// Sequence of a reference's lens samples, independent of the methods' sequences: one reference serves all methods.
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
     std::uint32_t samples = 4096;  // of both halves together, 2 … maxSamples
-    RendererOptions renderer;      // its layer format is not used
+    RendererOptions renderer;      // layerFormat is ignored
     Shadows shadows = Shadows::automatic;
 };
 
 struct ReferenceImage {
     Image image;
     std::uint32_t samples = 0;
-    std::uint64_t hash = 0;   // of the world, the view, the shaders and the samples
-    Difference remaining;     // estimate of its own error: mae, rmse, psnr, ssim and flip
-    double milliseconds = 0;  // what it took to render
-    bool reused = false;      // read from the folder
+    std::uint64_t hash = 0;   // hash of the world, the view, the shaders and the samples
+    Difference remaining;     // estimate of the reference's own error: mae, rmse, psnr, ssim and flip
+    double milliseconds = 0;  // render time
+    bool reused = false;      // whether the image was read from the folder
 };
 
-// Returns a remark for a row whose PSNR, FLIP or both are below the reference's own error; empty if neither is.
+// Returns a remark for a table row whose difference by PSNR, FLIP or both is smaller than the reference's own error;
+// empty for neither.
 std::string belowReferenceText(bool psnr, bool flip);
 
-// Renders a reference without storing it. Needs a current GL context. Throws Error for an impossible number of samples.
+// Renders a reference without storing it. Needs a current GL context. Throws Error for a number of samples outside 2 …
+// maxSamples.
 ReferenceImage renderedReference(const World& world, const View& view, const ReferenceOptions& options,
                                  const Progress& progress = {});
 
-// Returns what ReferenceImage::hash will be. Needs no pyramids.
+// Returns the value that ReferenceImage::hash will have. Needs no pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
 
-// Returns whether the folder holds a reference, or half of one, with another hash, which referenceImage would replace.
-// Files that can't be read as images don't count.
+// Returns whether the folder holds a reference, or half of a reference, with another hash; referenceImage would replace
+// it. Files that cannot be read as images are ignored.
 bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
 
-// Reads `folder`/reference.exr if it has the hash and is whole. Else renders the image and writes it there, continuing
-// from the half that a killed run may have left (reference-half.exr). Rendering needs a current GL context. Throws
-// Error for an impossible number of samples and if the files can't be written.
+// Returns the image in `folder`/reference.exr if that file is complete and has the right hash. Otherwise renders the
+// image and writes that file. A killed run may leave reference-half.exr; rendering then continues from that half.
+// Rendering needs a current GL context. Throws Error for a number of samples outside 2 … maxSamples, and if the files
+// cannot be written.
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const std::filesystem::path& folder, const Progress& progress = {});
 

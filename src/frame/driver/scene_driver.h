@@ -1,6 +1,6 @@
 #pragma once
-// Turns requests of one scene into pixels, frame after frame: the implementation of the public SceneRenderer
-// (defocus/renderer.h), and what the program's commands use. Scene and pyramids are loaded once.
+// Turns requests of one scene into pixels, frame after frame. Implements the public SceneRenderer (defocus/renderer.h)
+// and serves the program's commands. The scene is loaded once, and its pyramids are reused.
 
 #include <array>
 #include <filesystem>
@@ -20,7 +20,7 @@
 
 namespace defocus::engine {
 
-// Which part of a frame is drawn; see FrameOrder.
+// Selects the part of a frame to draw; see FrameOrder.
 struct FrameParts {
     std::optional<SampleRange> samples = {};
     std::optional<std::vector<RowRange>> rows = {};
@@ -30,71 +30,72 @@ struct FrameParts {
 
 class SceneDriver {
 public:
-    // Opens the scene that the request names, or takes `scene` if it isn't null. Checks values, scene, lens and device
-    // before it builds pyramids. Throws Error as SceneRenderer does.
+    // Loads the scene that the request names, or takes `scene` if it isn't null. Checks values, scene, lens and device
+    // before building pyramids. Throws Error as SceneRenderer does.
     SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
     ~SceneDriver();
     SceneDriver(const SceneDriver&) = delete;
     SceneDriver& operator=(const SceneDriver&) = delete;
 
-    // Begins a frame. A request that fails leaves the frame before as it is.
+    // Begins a frame. A request that fails its checks leaves the previous frame unchanged.
     void start(const Request& request, const FrameParts& parts = {}, const Progress& progress = {});
-    // Draws one wave of samples; false once the frame is done.
+    // Draws one wave of samples. Returns false once the frame is done.
     bool advance();
 
     [[nodiscard]] const Request& firstRequest() const { return first_; }
-    [[nodiscard]] const Request& request() const { return request_; }  // of the frame that was started last
+    [[nodiscard]] const Request& request() const { return request_; }  // request of the latest started frame
     [[nodiscard]] const PreparedFrame& frame() const { return frame_; }
     [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
     [[nodiscard]] const GlContext& context() const { return *context_; }
 
     [[nodiscard]] bool started() const { return driver_.has_value(); }
-    // Times and figures of the frame that was started last; without one, those of loading.
+    // Returns times and counts of the latest started frame; before the first frame, only the times of loading.
     [[nodiscard]] RenderStatistics statistics() const;
 
-    // Lines that a person should know: of the scene, of the request, and of the frame once it is started.
+    // Returns warnings for the user: about the scene, the request and, once it is started, the frame.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
-    // What the frame's parts have in common, see settingsHash.
+    // Returns the hash that all parts of the frame share; see frame/setup/settings_hash.h.
     [[nodiscard]] std::string settingsHash() const;
 
-    // All below need a frame that was started.
+    // All members below need a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
-    // How PNG and JPEG files are made of the image. Where the exposure is metered, the first frame decides it.
+    // Returns how the image is encoded as PNG and JPEG. A metered exposure is measured for the first frame and then
+    // kept.
     [[nodiscard]] WriteOptions writeOptions();
     [[nodiscard]] Metadata metadata();
-    // `command`: the command line as a shell would take it; empty: none. `milliseconds`: of the whole command so far.
+    // `command`: the command line in shell syntax; empty: none. `milliseconds`: time of the whole command so far.
     [[nodiscard]] RenderReport report(std::string command = {}, double milliseconds = 0);
-    // Writes an image of the frame with its metadata.
+    // Writes an image of the frame to a file, with the frame's metadata.
     void write(const std::filesystem::path& path, const ImageView& image);
 
 private:
-    // The driver's context is current as long as this lives, then the caller's again.
+    // Makes the driver's context current during the object's lifetime, then restores the caller's context.
     struct InContext {
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // full detail alone, or levels of each LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and levels of each LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
 
-    bool named_;  // the request names the scene
+    bool named_;  // whether the request names the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;                                  // shared with others and never written to
-    PreparedFrame frame_;                                           // of request_; the driver refers to its world
-    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // of earlier frames; the present frame's are empty
+    std::shared_ptr<Scene> scene_;                                  // may be shared with others; never modified
+    PreparedFrame frame_;                                           // frame of request_; driver_ refers to its world
+    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids of other frames, one entry per kind
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
-    std::optional<double> metered_;     // EV
-    std::vector<std::string> clipped_;  // warnings of the 8-bit image that was written last
+    std::optional<double> metered_;     // metered exposure, EV
+    std::vector<std::string> clipped_;  // warnings about the latest written 8-bit image
     std::unique_ptr<GlContext> context_;
     std::optional<FrameDriver> driver_;
 };

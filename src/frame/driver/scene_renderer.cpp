@@ -1,4 +1,4 @@
-// The public SceneRenderer, which hands all work to the SceneDriver.
+// The public SceneRenderer. SceneDriver does all its work.
 
 #include <utility>
 
@@ -57,7 +57,7 @@ Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
     return render(state_->firstRequest(), progress, std::move(stop));
 }
 
-// At least one sample is drawn, so that there is an image.
+// Draws at least one sample even after a stop request, because the returned image needs one.
 Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
     state_->start(request, {}, progress);
     engine::report(progress, "samples", 0, sampleTotal());

@@ -12,14 +12,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float white = 254.5f / 255;  // display-encoded
+constexpr float white = 254.5f / 255;  // display-encoded channel value
 constexpr float black = 0.5f / 255;
-constexpr double maxWhite = 0.5;  // of the pixels
+constexpr double maxWhite = 0.5;  // fraction of the covered pixels
 constexpr double maxBlack = 0.95;
 constexpr double wantedMedian = 0.18;  // middle grey
 constexpr double minLuminance = 1e-6;
 
-// In which the median luminance of what isn't empty is middle grey.
+// Returns the exposure (EV) that maps the median luminance of the lit pixels to middle grey.
 double helpfulExposure(const ImageView& image) {
     std::vector<double> luminances;
     for (int y = 0; y < image.height; ++y)

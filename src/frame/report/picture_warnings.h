@@ -1,5 +1,5 @@
 #pragma once
-// Warns of what a person should know about a finished picture.
+// Warns about pictures that are mostly white or black.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace defocus::engine {
 
-// Returns a line, with what helps, where most of an 8-bit picture of `image` (linear) would be white, or where nearly
-// all of what the image shows would be black.
+// Returns a warning with a suggested exposure if an 8-bit picture of `image` (linear) would be mostly white or black.
+// The limits are 50 % white, and 95 % black if a longer exposure helps. Pixels with alpha 0 don't count.
 std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOptions& write);
 
 }  // namespace defocus::engine

@@ -18,10 +18,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double visibleShare = 0.02;   // of the image's width: a blur that shows at a glance
-constexpr std::size_t maxIgnored = 20;  // lines
+constexpr double visibleShare = 0.02;   // fraction of the image's width: a blur that is easy to see
+constexpr std::size_t maxIgnored = 20;  // maximum number of lines
 
-// 1, 2 or 5 times a power of ten, near `value`.
+// Rounds `value` to 1, 2 or 5 times a power of ten.
 double roundNumber(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     const double digit = value / power;
@@ -46,16 +46,16 @@ bool blursCells(const MethodUse& use) {
     return cells != use.settings.end() && cells->second == "on";
 }
 
-// How far apart the images of a point lie, px; of lens cells, the σ that fills it.
+// Distance between a point's images from neighbouring samples, px. With lens cells: σ of the blur that fills the gap.
 struct Gaps {
     double size = 0;
-    double max = 16;  // that a disk may show
+    double max = 16;  // largest gap without a warning
     double good = 8;
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
     if (const LensCells cells = blursCells(use) ? lensCells(plan) : LensCells{}; cells.blur > 0) {
-        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ, px
+        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ of the widest lens cell, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
     return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};

@@ -1,5 +1,5 @@
 #pragma once
-// Warns of what a person should know about a picture, from its plan alone.
+// Warnings about a picture that follow from its plan, its request and its scene.
 
 #include <cstdint>
 #include <string>
@@ -11,20 +11,21 @@
 
 namespace defocus::engine {
 
-// Returns a line, with what helps, for each of these:
-// - the lens is open, but nothing is blurred by half a pixel;
-// - the method draws transmitting materials opaque, and there are some;
-// - each lens sample of the method is an image of its own, and an object's blur is so large for
-//   the number of samples that they show as copies: N points spread over a disk of c px lie about c·√(π/(4N)) px apart.
-//   Lens cells (plan/lens_cells.h) fill that, as far as their widest blur reaches.
-// `samples`: of the whole frame, where the plan is that of its last block; 0: the plan's.
+// Returns a warning with a remedy for each of these cases:
+// - The lens is open, but the largest blur is below half a pixel.
+// - The method draws transmitting materials opaque, and the frame has such materials.
+// - The method draws no shadows, and the frame has shadows.
+// - The method draws an image per lens sample, and the blur is so large that these images show as copies. N points in a
+//   disk of c px lie about c·√(π/(4N)) px apart. Lens cells (plan/lens_cells/lens_cells.h) fill gaps up to their widest
+//   blur.
+// `samples`: number of lens samples in the whole frame, if `plan` covers only its last block; 0: the plan's number.
 std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples = 0);
 
-// Returns a line for each thing in the scene's file that isn't drawn, up to 20. For faults of the file see
-// damageWarnings (prepared_frame.h).
+// Returns a line for each kind of thing in the scene's file that isn't drawn, up to 20, and a line for the number of
+// further kinds. damageWarnings (frame/setup/prepared_frame.h) reports faults of the file.
 std::vector<std::string> ignoredWarnings(const Scene& scene);
 
-// Returns all warnings of a request that need no plan: of the frame's scene and camera, and of settings without effect.
+// Returns all warnings of a request that need no plan: about the scene, the camera, and settings without effect.
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame);
 
 }  // namespace defocus::engine

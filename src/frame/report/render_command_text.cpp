@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// With '=' where the value would be taken for an option.
+// Adds an option and its value, joined by '=' if the value begins with '-'.
 void addWords(std::string& command, std::string_view option, const std::string& value) {
     command += fmt::format(" {}{}{}", option, value.starts_with('-') ? '=' : ' ', shellWord(value));
 }
@@ -40,20 +40,20 @@ void addSetting(std::string& command, const Setting& setting, const Request& req
     }
 }
 
-// The view's camera, unless only the file can say how it moves.
+// Sets the request's camera to that of the view. A camera that moves during the exposure is left to the scene's file.
 void placeCameraOf(const RenderCommandText& text, Request& request) {
     if (!text.view.shutterCameras.empty()) return;
     const glm::dmat4& camera = text.view.worldFromCamera;
     const glm::dvec3 position(camera[3]);
     request.cameraPosition = asArray(position);
     request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
-    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // or looking straight up or down
+    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // rolled, or looking straight up or down
     request.cameraUp.reset();
     if (rolled) request.cameraUp = asArray(camera[1]);
 }
 
-// The view's lens as far as it isn't the camera's own. Focal length and focus are always said: they follow from the
-// scene otherwise.
+// Returns the view's lens values that differ from the camera's own. The focal length is always included, because its
+// default depends on the scene. The focus distance is left out.
 LensSettings lensOf(const RenderCommandText& text) {
     const Lens& lens = text.view.lens;
     LensSettings given;
@@ -70,7 +70,7 @@ LensSettings lensOf(const RenderCommandText& text) {
     return given;
 }
 
-// The picture's own request: what `render` would have to be asked for.
+// Returns the request with which `defocus render` makes the picture.
 Request requestOf(const RenderCommandText& text) {
     Request request = text.options;
     request.size = {text.view.width, text.view.height};
@@ -78,9 +78,9 @@ Request requestOf(const RenderCommandText& text) {
     request.lens = lensOf(text);
     request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->max)};
     const double metresPerUnit = text.frame.scene->metresPerUnit;
-    if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess comes out otherwise for a placed camera
+    if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess would differ for a camera placed by options
     request.toneMap = text.write.toneMap;
-    // Brightness is by the lens or by an exposure value, which exclude each other.
+    // The lens's exposure time and an exposure value exclude each other.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
     const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
@@ -113,7 +113,7 @@ std::string captureCommand(const std::filesystem::path& shot, const Request& opt
 
 std::string renderCommand(const RenderCommandText& text) {
     const Request request = requestOf(text);
-    // A preset says all that belongs to it.
+    // Options that the preset sets are left out.
     const Setting& preset = *settingNamed("preset");
     const std::optional<std::string> presetName = preset.text(request);
     Request standard;

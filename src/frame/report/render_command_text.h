@@ -1,5 +1,5 @@
 #pragma once
-// Writes the `defocus render` command that makes the picture of a view, to paste into a shell.
+// Writes `defocus` commands that render a view or film a shot, to paste into a shell.
 
 #include <string>
 
@@ -11,19 +11,20 @@ namespace defocus::engine {
 struct RenderCommandText {
     const Request& options;      // scene, method, levels, samples
     const PreparedFrame& frame;  // with the camera that options.camera names
-    const View& view;            // as it is now
-    double pivotDistance = 1;    // m, > 0: how far ahead the target lies
+    const View& view;            // view to render
+    double pivotDistance = 1;    // m, > 0: distance from the camera to its target
     WriteOptions write;
     std::string output = "out.png";
 };
 
-// Returns the command. Options that have their standard value are left out.
+// Returns the `defocus render` command. Options that have their default are left out.
 std::string renderCommand(const RenderCommandText& text);
 
-// Returns the command that films a shot which was recorded in a view. It has the options that no shot file holds.
+// Returns the `defocus capture` command for a shot that was recorded in a view. It has the options that shot files
+// don't hold.
 std::string captureCommand(const std::filesystem::path& shot, const Request& options);
 
-// Returns a word so that a shell reads it back: as it is, or in single quotes.
+// Returns a word in shell syntax: unchanged, or in single quotes.
 std::string shellWord(const std::string& word);
 
 }  // namespace defocus::engine

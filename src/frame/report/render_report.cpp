@@ -1,5 +1,5 @@
-// OpenEXR, "Standard Attributes": matrices lead from the world to a left-handed camera space that looks along +z, and
-// to an NDC space whose (0, 0) is the upper left corner of the image and (1, 1) the lower right one.
+// The matrices follow OpenEXR, "Standard Attributes". They lead from the world to a left-handed camera space that looks
+// along +z, and to an NDC space. (0, 0) in NDC is the upper left corner of the image, (1, 1) the lower right corner.
 
 #include "frame/report/render_report.h"
 
@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parse.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
@@ -45,7 +45,7 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
-// Adds the recorded settings. Camera and lens have attributes of their own, and paths are private.
+// Adds the recorded settings. Camera and lens are left out, as they have attributes of their own; paths are private.
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
         const std::optional<std::string> text = setting.text(request);
@@ -63,7 +63,7 @@ void addSettings(Metadata& metadata, const Request& request) {
     }
 }
 
-// "2026-01-31T12:00:00Z"
+// Returns the current time in UTC: "2026-01-31T12:00:00Z".
 std::string dateNow() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -96,7 +96,7 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:device", report.stats.device},
     };
     addSettings(metadata, report.options);
-    // What was drawn where a setting leaves it open.
+    // Values that were used for settings that the request leaves open.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
     if (stopSettings(report.options).given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
     if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;

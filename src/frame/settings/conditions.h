@@ -1,5 +1,6 @@
 #pragma once
-// Why a setting has no effect in a request: each function returns a reason, or an empty string if the setting has one.
+// Reasons why a setting has no effect in a request. Each function returns a reason, or an empty string if the setting
+// has an effect.
 
 #include <initializer_list>
 #include <string>
@@ -23,7 +24,7 @@ std::string withoutBlurOrExposure(const SettingContext& context);
 std::string withoutLevels(const SettingContext& context);
 std::string withMeasuredLevels(const SettingContext& context);
 
-// Returns the first reason.
+// Returns the first reason that isn't empty; empty if all conditions let the setting have an effect.
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions);
 
 }  // namespace defocus::engine

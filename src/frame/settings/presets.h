@@ -1,6 +1,6 @@
 #pragma once
-// Presets name settings that belong together. Applying a preset sets them, and later settings override it. A request
-// doesn't remember a preset; it has one as long as all of the preset's settings are as the preset sets them.
+// Presets: named groups of settings. Applying a preset sets all its settings; later settings override them. A request
+// doesn't store a preset's name. The request has a preset while all of the preset's settings have the preset's values.
 
 #include <optional>
 #include <span>
@@ -13,8 +13,8 @@
 namespace defocus::engine {
 
 struct PresetValue {
-    std::string setting;  // its name in the table
-    std::string text;     // as Setting::text writes it
+    std::string setting;  // name of the setting in the settings table
+    std::string text;     // value as Setting::text writes it
 };
 
 struct Preset {
@@ -26,12 +26,12 @@ struct Preset {
 // Returns all presets; their names are the choices of the setting "preset".
 std::span<const Preset> presets();
 
-// Throws UsageError for an unknown name.
+// Returns the preset of that name. Throws UsageError for an unknown name.
 const Preset& presetNamed(std::string_view name);
 
 void applyPreset(const Preset& preset, Request& request);
 
-// Takes the preset's settings back to those of a default-made request.
+// Resets the preset's settings to their defaults.
 void clearPreset(const Preset& preset, Request& request);
 
 // Returns the first preset whose settings the request has; null if there is none.

@@ -1,6 +1,6 @@
 #pragma once
-// Builds rows of the table of settings: a function for each kind of value, and a member for each column. Kinds take a
-// `member`, a function from a request, const or not, to the value. Private to rows.cpp.
+// Builds rows of the settings table, with a function for each kind of value and a member for each column. The functions
+// take a `member`: a callable that returns a reference to the value in a request, const or not. Private to rows.cpp.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +28,7 @@ public:
         setting_.help = std::move(help);
     }
 
-    // Columns.
+    // Members that set a column.
     Row&& kind(SettingKind kind) && { return with(&Setting::kind, kind); }
     Row&& metavar(std::string metavar) && { return with(&Setting::metavar, std::move(metavar)); }
     Row&& unit(std::string unit) && { return with(&Setting::unit, std::move(unit)); }
@@ -55,7 +55,7 @@ public:
     }
     Row&& unused(Setting::Unused reason) && { return with(&Setting::unused, std::move(reason)); }
 
-    // Values.
+    // Members that set how a value is read, written and cleared.
     template <typename Set, typename Text>
     Row&& values(Set set, Text text) && {
         setting_.set = set;
@@ -76,13 +76,13 @@ public:
             setting_.clear = [=](Request& request) { member(request) = member(std::as_const(defaultRequest())); };
         return std::move(*this);
     }
-    // The setting may be given several times.
+    // Marks a setting that may be given several times; `texts` returns all its values.
     Row&& repeats(std::function<std::vector<std::string>(const Request&)> texts) && {
         setting_.repeated = true;
         return with(&Setting::texts, std::move(texts));
     }
 
-    // NOLINTNEXTLINE(google-explicit-constructor): a finished row goes wherever a Setting does
+    // NOLINTNEXTLINE(google-explicit-constructor): a finished row converts to a Setting
     operator Setting() && { return std::move(setting_); }
 
 private:
@@ -106,7 +106,7 @@ struct IsOptional : std::false_type {};
 template <typename Value>
 struct IsOptional<std::optional<Value>> : std::true_type {};
 
-// Returns the value of a member; none for an optional that holds nothing.
+// Returns the value of a member; none for an empty optional.
 template <typename Member>
 auto valueOf(const Request& request, Member member) {
     const auto& value = member(request);
@@ -180,7 +180,7 @@ Row choice(std::string name, std::string option, std::vector<std::pair<std::stri
                 });
 }
 
-// Text, or with SettingKind::path the name of a file or folder. Empty text is an open value.
+// Row for a text or, with SettingKind::path, a file or folder name. An empty text leaves the value open.
 template <typename Member>
 Row words(SettingKind kind, std::string name, std::string option, std::string metavar, Member member,
           std::string help) {
@@ -196,7 +196,7 @@ Row words(SettingKind kind, std::string name, std::string option, std::string me
                 });
 }
 
-// A value with a form of its own.
+// Row for a value with a text form of its own.
 template <typename Set, typename Text>
 Row other(std::string name, std::string option, std::string metavar, Set set, Text text, std::string help) {
     return Row(SettingKind::other, std::move(name), std::move(option), std::move(metavar), std::move(help))

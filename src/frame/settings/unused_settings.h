@@ -1,5 +1,5 @@
 #pragma once
-// Settings that a request gives and that change nothing beside the rest of it.
+// Finds settings that a request gives but that have no effect.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// A line for each reason: which options do nothing, and why. `lens` is the one that the request and the camera make.
+// Returns a line for each reason that lists the options without effect. `lens`: the lens of the request and its camera.
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens);
 
 }  // namespace defocus::engine

@@ -173,7 +173,7 @@ std::optional<std::string> focusAutoText(const Request& request) {
     return std::holds_alternative<FocusAuto>(request.focus) ? "true" : "false";
 }
 
-// The name may hold an equals sign.
+// Splits at the last '=', because the name may contain '='.
 void addNodeBlur(Request& request, const std::string& text) {
     const std::size_t equals = text.rfind('=');
     if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);

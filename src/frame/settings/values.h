@@ -1,6 +1,6 @@
 #pragma once
-// Texts of values with a form of their own: "320x240", "x,y", "circular:far-components=5". Private to rows.cpp. Each
-// set… throws Error that says what is allowed; each …Text returns none if the value is open.
+// Text forms of values such as "320x240", "x,y", "circular:far-components=5". Private to rows.cpp. Each set… function
+// throws Error that names the allowed values. Each …Text function returns none if the value is open.
 
 #include <optional>
 #include <string>
@@ -50,7 +50,7 @@ void addNodeBlur(Request& request, const std::string& text);
 std::vector<std::string> nodeBlurTexts(const Request& request);
 std::optional<std::string> nodeBlurText(const Request& request);
 
-// The method's settings that the text doesn't name get their defaults.
+// Sets the method. Method settings that the text doesn't name get their defaults.
 void setMethod(Request& request, const std::string& text);
 std::optional<std::string> methodText(const Request& request);
 void clearMethod(Request& request);

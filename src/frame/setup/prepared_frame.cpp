@@ -33,8 +33,7 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- surroundings
-// ----------------------------------------------------------------------------------------------------
+// ---- environment ----------------------------------------------------------------------------------------------------
 
 std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, double rotation) {
     const bool builtIn = isBuiltInEnvironment(path.string());
@@ -49,11 +48,10 @@ void brighten(Environment& environment, double scale) {
         *radiance *= static_cast<float>(scale);
 }
 
-// ---- camera and lens
-// -------------------------------------------------------------------------------------------------
+// ---- camera and lens ------------------------------------------------------------------------------------------------
 
-// Everything but the focus distance, which needs the view. Values of the camera that no lens can have go to `refused`.
-// `folder`: where the scene's file lies.
+// Returns the lens without its focus distance, which needs the view. Messages about impossible values of the camera go
+// to `refused`. `folder`: folder of the scene's file.
 Lens chosenLens(const Request& request, const Camera& camera, const std::filesystem::path& folder,
                 std::vector<std::string>& refused) {
     const LensValues given = givenLensValues(request);
@@ -86,7 +84,7 @@ std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const P
     return pyramids;
 }
 
-// The camera turned and moved as the options say.
+// Returns the camera's matrix after the moves and turns that the request gives.
 glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCamera) {
     const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& standard) {
         return given ? asVector(*given) : standard;
@@ -105,7 +103,7 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
-// The camera and its lens; the focus last, as it may depend on all else.
+// Places the camera and its lens. The focus comes last, because it may depend on all other values.
 PlacedCamera place(PreparedFrame& frame, const Request& request) {
     const double aspect = static_cast<double>(request.size.width) / request.size.height;
     PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
@@ -145,7 +143,7 @@ std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path
     Lens lens;
     lens.apertureImage = std::make_shared<Image>(readImage(path));
     try {
-        static_cast<void>(makeAperture(lens));  // finds fault with what it holds
+        static_cast<void>(makeAperture(lens));  // throws Error for an unusable image
     } catch (const Error& error) {
         fail("{}: {}", path.string(), error.what());
     }
@@ -208,7 +206,7 @@ std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<P
 }
 
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
-    // The scene, at its time.
+    // Scene and pose.
     PreparedFrame frame;
     frame.scene = scene;
     frame.scaleNote = guessedScaleNote(request, *scene);
@@ -216,9 +214,9 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
-    // Camera, light, surroundings and settings.
+    // Camera, lights, environment and settings.
     const PlacedCamera placed = place(frame, request);
-    // Surroundings that are asked for are light enough.
+    // An environment that the request names replaces the default lights.
     frame.ownLights =
         request.environment.empty() ? lightsOrDefault(*frame.scene, frame.world.pose, placed) : frame.world.pose.lights;
     frame.world.lights = sizedLights(request, frame.ownLights, frame.world.pose);
@@ -226,7 +224,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     frame.settings = renderSettings(request);
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
-    // Levels of full detail are not worth storing.
+    // Pyramids of full detail are not worth caching.
     if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
 }
@@ -268,7 +266,7 @@ std::vector<std::string> damageWarnings(const Scene& scene) {
     return lines;
 }
 
-// Squares of lengths in units of the scene must be numbers of single precision.
+// Bounds that keep squared lengths within the range of 32-bit floats.
 constexpr double largestScene = 1e15;    // m
 constexpr double smallestScene = 1e-15;  // m
 

@@ -1,5 +1,5 @@
 #pragma once
-// How long the units of a scene's lengths are: blur is in real millimetres, whatever units a model has.
+// Finds the length of a scene's unit in metres. The blur needs real lengths.
 
 #include <optional>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace defocus::engine {
 
-// Sets Scene::metresPerUnit to what the request says, else to what the file itself says. Without either, metres count
-// if the request or the camera gives a length of the lens (a focus distance, a focal length, a place of the camera),
-// and else guessedMetresPerUnit (scene/units.h) of what the image frames. The scene may be scaled already. Throws Error
-// for a camera or an animation that the scene doesn't have.
+// Sets Scene::metresPerUnit to the request's value, else to the file's. Without either, the unit is a metre if the
+// request or the camera gives a length: a focus distance, a focal length, a camera position. Otherwise
+// guessedMetresPerUnit (scene/units.h) guesses it from the extent of the framed part. The scene may be scaled already.
+// Throws Error for a camera or an animation that the scene doesn't have.
 void setScale(const Request& request, Scene& scene);
 
-// Says what a scene's unit was guessed to be; nothing where it is a metre or where somebody said what it is.
+// Returns a note that names the guessed unit of a scene; none if the unit is a metre or was given.
 std::optional<std::string> guessedScaleNote(const Request& request, const Scene& scene);
 
 }  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/hash.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/world_hash.h"
 #include "lens/lens_fields.h"
@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Numbers as text that gives exactly them again.
+// Collects values as text that keeps the full precision of numbers, and hashes the text.
 class HashedText {
 public:
     template <typename... Values>

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Members are added one by one: structs have gaps between them whose bytes are anything.
+// Hashes members one by one, because the padding bytes of structs are undefined.
 class Hasher {
 public:
     template <typename... Values>

@@ -1,7 +1,6 @@
 #pragma once
-// Computes one number for everything that an image shows: the meshes, materials, textures, objects, lights and
-// surroundings of a world, the view with its lens, and the shaders that draw it. Worlds with equal numbers may be
-// expected to give the same picture.
+// Computes a hash of everything that an image shows: the meshes, materials, textures, objects, lights and environment
+// of a world, the view with its lens, and the shaders. Worlds with equal hashes are expected to give the same picture.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,8 +9,8 @@
 
 namespace defocus::engine {
 
-// Returns that number. `shaderFolder`: shaders read from there replace the embedded ones; empty: none. Throws Error for
-// one that can't be read.
+// Returns the hash. `shaderFolder`: folder whose shaders replace the embedded ones; empty: none. Throws Error for a
+// folder that can't be read.
 std::uint64_t worldHash(const World& world, const View& view, const std::filesystem::path& shaderFolder = {});
 
 }  // namespace defocus::engine

@@ -19,26 +19,27 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // its patches of 2, 4, … 512 cells fill a table
+constexpr int maxResolution = 512;  // patches of 2, 4, … 512 cells fill a table
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // from level to level
-constexpr double minError = 1e-6;         // of level 1
-// Half as many triangles double the error of a smooth surface (it goes with the square of the edges). Twice that bounds
-// from below the error of a level whose triangles are too small for a picture.
+constexpr double minBlurredGrowth = 1.1;  // min ratio between consecutive levels
+constexpr double minError = 1e-6;         // min error of level 1
+// Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
+// the error grows with the squared edge length. Twice this factor gives a lower bound for levels whose triangles are
+// smaller than picture cells.
 constexpr float maxUnseenGrowth = 4;
 
-// ---- what is left over patches
+// ---- averages over patches
 
-// Sums of squares over all cells and channels: of the values, and of their means over patches.
+// Sums of squares over all cells and channels, one per patch size: of the cells' values (entry 0), then of patch means.
 using SquareSums = std::array<double, blurSizes>;
 
-// A picture, and its means over patches of 2, 4, … cells: each of the white cells of a chess board, and of the black
-// ones.
+// A picture with its means over patches of 2, 4, … cells. Each patch has two means: over the white cells of a
+// checkerboard and over the black cells.
 class Patches {
     struct Size {
-        CellBox shown;  // patches that may show anything
-        CellBox kept;   // with those around that the next size is made of, which stay black
-        std::array<LargeVector<glm::vec3>, 2> means;  // white and black; none of single cells
+        CellBox shown;                                // patches that may contain lit cells
+        CellBox kept;                                 // `shown`, enlarged by black patches as needed for the next size
+        std::array<LargeVector<glm::vec3>, 2> means;  // white and black; empty for single cells
     };
 
 public:
@@ -54,7 +55,7 @@ public:
         }
     }
 
-    // Keeps a reference to the cells.
+    // Computes the patch means. Keeps a reference to the cells.
     void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
@@ -67,7 +68,7 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // The row's values from the left of the box on. Single cells are neither white nor black.
+    // Returns a row of values, starting at the left edge of the box. `black` is ignored for single cells.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -103,14 +104,13 @@ private:
     std::vector<Size> sizes_;
 };
 
-// How a value changes from one picture to another. What is brighter than `brightest` is shown as bright as that, once
-// it is blurred.
+// Change of values from one picture to another. After averaging, values are clamped to `brightest`.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Sums, over `count` cells of a row and all channels, what two changes have in common.
+// Returns the sum of products of two changes over `count` cells of a row and all channels.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -130,12 +130,12 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Adds the squares of how `seen` and `truth` differ; `dark` is a row of black cells that stands for a picture that
-// isn't there.
+// Adds the squared differences between `seen` and `truth`. If `truth` is null, the row `dark` of black cells replaces
+// it.
 //
-// The cells of a patch are seen at points, whose own chance would remain in the square of their mean. So the patch's
-// mean is taken twice, over the white and over the black cells of a chess board, and the two are multiplied: what they
-// don't have in common cancels.
+// Each cell shows one point, so that a patch mean contains sampling noise. Squaring the mean would add the variance of
+// this noise. Therefore two independent means are multiplied: over the white and over the black cells of a
+// checkerboard. Their noise is uncorrelated and cancels on average.
 void addSquares(const Patches* truth, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
     for (std::size_t i = 0; i < seen.count(); ++i) {
@@ -151,14 +151,14 @@ void addSquares(const Patches* truth, const Patches& seen, std::span<const glm::
     }
 }
 
-// From the sums' own chance to what can be: a mean square never grows with the patch, nor falls faster than that of two
-// spots that cancel.
+// Restricts the noisy sums to possible values. The mean square never grows with the patch size. It falls at most as
+// fast as for two spots that cancel each other.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = 1; i < blurSizes; ++i)
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
 
-// A picture that waits: many of its cells are black.
+// Compressed storage for a picture with many black cells.
 class SparseCells {
 public:
     SparseCells() = default;
@@ -181,16 +181,16 @@ public:
 
 private:
     std::vector<bool> lit_;
-    LargeVector<glm::vec3> values_;  // of those that are lit
+    LargeVector<glm::vec3> values_;  // values of the lit cells
 };
 
-// What is seen from one direction.
+// The pictures and measurements from one direction.
 struct Sight {
     Eye eye;
-    SparseCells truth;                // level 0
+    SparseCells truth;                // picture of level 0
     double covered = 0, sum = 0;      // of level 0; see Picture
-    SquareSums light{};               // of level 0
-    std::vector<SquareSums> changes;  // of each level
+    SquareSums light{};               // squared light of level 0
+    std::vector<SquareSums> changes;  // squared differences from level 0, per level
 
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
         const LargeVector<glm::vec3> cells = truth.all();
@@ -198,7 +198,8 @@ struct Sight {
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         Patches before(eye), after(eye);
         before.measure(cells);
-        // A sample shows a point, and no sum of points is brighter than all of them.
+        // A lens sample shows one point, and clamping each point bounds any average. Points are therefore clamped
+        // before averaging.
         Picture picture;
         picture.light = cells;
         for (glm::vec3& value : picture.light) value = glm::min(value, brightest);
@@ -220,7 +221,7 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Between the sizes of the table and beyond its last; at(i) is linear in the side between two sizes.
+// Interpolates linearly between the patch sizes of the table; uses the last value beyond. at(i) returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {
     double low = 0;
@@ -240,7 +241,7 @@ double squared(float value) {
 
 }  // namespace
 
-// Over the whole sphere, and along no axis of a mesh: of a Fibonacci lattice.
+// Directions of a Fibonacci lattice on the sphere, not aligned with the coordinate axes.
 std::vector<glm::dvec3> blurredErrorViews() {
     std::vector<glm::dvec3> directions(viewCount);
     for (std::size_t i = 0; i < viewCount; ++i) {
@@ -258,7 +259,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const std::vector<Finish> matt(finishes.empty() ? pyramid.levels.front().primitives.size() : 0);
     if (finishes.empty()) finishes = matt;
 
-    // Look at level 0 from each direction.
+    // Render level 0 from each direction.
     const int resolution = resolutionFor(pyramid.levels.front().triangleCount);
     const std::vector<glm::dvec3> directions = blurredErrorViews();
     std::array<Sight, viewCount> sights;
@@ -275,7 +276,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = truth.sum;
     });
 
-    // A black mesh has no light to measure in, and no error.
+    // A black mesh has no light to serve as unit, and no error.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -286,7 +287,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const double unit = light / covered;
     const double scale = 1 / (3 * covered * unit * unit);
 
-    // Compare the other levels with it.
+    // Compare the other levels with level 0.
     fromAll([&](Sight& sight, const glm::dvec3&) {
         sight.judge(pyramid, finishes, static_cast<float>(shownWhite * unit));
     });
@@ -342,7 +343,7 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     const auto limit = [&](std::size_t l) {
         return contrast * measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
     };
-    double fine = -limit(0);  // how much more than its limit a level is off
+    double fine = -limit(0);  // error of the level minus its limit
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         const double coarse = rootOfSum([&](double side) { return squaredError(pyramid, l, side); }) - limit(l);
         if (coarse > 0) return static_cast<double>(l) - coarse / (coarse - fine);

@@ -27,7 +27,8 @@ namespace {
 constexpr std::string_view extension = ".pyramid";
 constexpr std::size_t keyDigits = 16;
 
-// The whole key is in the name, so that versions of the program and options don't take each other's files away.
+// The name contains the complete key. Different program versions and options therefore never overwrite each other's
+// files.
 fs::path fileName(const PyramidKey& key) {
     const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,
                                    static_cast<std::uint64_t>(key.options.maxLevels),
@@ -41,7 +42,7 @@ bool consistsOf(std::string_view text, const char* letters) {
     return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// "KEY.pyramid", or what PendingFile makes of it while it is written: ".KEY.PROCESS-NUMBER.pyramid".
+// Complete files are named "KEY.pyramid". PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
 NameKind kindOf(std::string_view name) {
     const bool pending = name.starts_with('.');
     if (pending) name.remove_prefix(1);
@@ -79,7 +80,7 @@ std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const Pyra
     try {
         return decodePyramid(readFile(path), mesh, key);
     } catch (const Error&) {
-        return {};  // a miss, not a fault
+        return {};  // a cache miss, not an error
     }
 }
 
@@ -90,7 +91,7 @@ void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, con
     writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key));
 }
 
-// Why it couldn't be stored; empty where it was.
+// Returns why the pyramid could not be stored; empty on success.
 std::string tryToStore(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
     try {
         store(pyramid, mesh, folder, key);
@@ -133,7 +134,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     }
 
     const std::uint64_t triangles = trianglesOf(meshes);
-    // The largest first, so that no core is left with a large one at the end.
+    // Largest mesh first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -142,7 +143,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
 
     result.pyramids.resize(meshes.size());
     PyramidProgress steps(meshes, progress);
-    std::mutex mutex;  // of `result` but for the pyramids
+    std::mutex mutex;  // protects `result` except for its pyramids
     const auto stillStoring = [&] {
         const std::scoped_lock lock(mutex);
         return result.failure.empty();

@@ -1,6 +1,6 @@
 #pragma once
-// The disk cache of pyramids: one file a mesh, named after its key (file.h). Several processes may use a folder
-// at once. Whatever is wrong with a file is a miss, and the pyramid is built again and replaces it.
+// Disk cache of pyramids: one file per mesh, named after its key (file.h). Several processes may use a folder at the
+// same time. A defective file is a cache miss: the pyramid is rebuilt and replaces the file.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,26 +13,27 @@
 
 namespace defocus::engine {
 
-// $XDG_CACHE_HOME/defocus, else $HOME/.cache/defocus; empty where the environment has neither (as absolute paths).
+// Returns $XDG_CACHE_HOME/defocus, or else $HOME/.cache/defocus. Returns an empty path if neither variable holds an
+// absolute path.
 std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
-    std::vector<Pyramid> pyramids;  // one a mesh
-    std::size_t loaded = 0;         // how many of them; the rest was built
-    std::string failure;            // why a built one wasn't stored; empty where nothing went wrong
+    std::vector<Pyramid> pyramids;  // one per mesh
+    std::size_t loaded = 0;         // number of pyramids loaded from the cache; the others were built
+    std::string failure;            // reason why a pyramid was not stored; empty on success
 };
 
-// Does what buildPyramids does, but takes from `folder` the pyramids that it holds and stores there those that it
-// doesn't; with an empty `folder` there is no cache. A missing folder is made. A pyramid that can't be stored is no
-// fault; after the first, no other is tried. Meshes that are too small to be simplified are not stored.
+// Loads pyramids from `folder`; builds and stores the missing ones. With an empty `folder`, all are built and none is
+// stored. Creates the folder if it is missing. A failure to store is not an error; after the first failure, no further
+// pyramid is stored. Meshes that are too small to be simplified are not stored.
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 
-// Loads one pyramid. Returns nothing if the folder doesn't have it whole and sound.
+// Loads one pyramid. Returns nothing if the folder holds no valid file for it.
 std::optional<Pyramid> loadPyramid(const Mesh& mesh, const std::filesystem::path& folder,
                                    const PyramidOptions& options = {});
 
-// Stores one pyramid. Throws Error where it can't be written, and std::bad_alloc; no half file stays.
+// Stores one pyramid. Throws Error if the file cannot be written, and std::bad_alloc. An incomplete file is removed.
 void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const std::filesystem::path& folder,
                   const PyramidOptions& options = {});
 
@@ -40,15 +41,15 @@ struct CacheFile {
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::filesystem::file_time_type written;
-    std::uint32_t triangles = 0;  // of the mesh
-    bool pending = false;         // being written, or left by a process that was killed
+    std::uint32_t triangles = 0;  // triangles of the mesh
+    bool pending = false;         // the file is being written, or its process was killed
 };
 
-// Lists the files of `folder` that the cache wrote, told by name and first bytes, newest first; none where there is no
-// such folder. Throws Error where the folder can't be read.
+// Lists the cache files in `folder`, newest first. They are recognised by name and first bytes. Returns nothing if the
+// folder does not exist. Throws Error if it cannot be read.
 std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 
-// Removes those files and returns them. Throws Error for one that can't be removed.
+// Removes the cache files in `folder` and returns them. Throws Error if a file cannot be removed.
 std::vector<CacheFile> clearCache(const std::filesystem::path& folder);
 
 }  // namespace defocus::engine

@@ -16,47 +16,50 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- growing: which triangles are a cluster
+// ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // of likeness of normals against compactness
-constexpr float minTurn = 1e-3f;        // what the price of a normal doesn't fall below
-constexpr std::size_t seedsAhead = 64;  // triangles beside earlier clusters that are looked at for a seed
-// Of a vertex, that one cluster looks at: more than it can take. Files may have millions at one.
+constexpr float coneWeight = 0.75f;     // weight of similar normals against compactness
+constexpr float minTurn = 1e-3f;        // lower bound of the price of a differing normal
+constexpr std::size_t seedsAhead = 64;  // max number of triangles next to earlier clusters that are considered as seeds
+// Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
+// vertex.
 constexpr std::size_t maxNeighbours = 1024;
 
 struct Facet {
     glm::vec3 centre{0};
-    glm::vec3 normal{0};  // unit length; zero without area
+    glm::vec3 normal{0};  // unit length; zero for a triangle without area
 };
 
 using ClusterNumber = Number<struct ClusterKind>;
 
-// The clusters so far, and the one that grows.
+// The finished clusters and the growing cluster.
 struct ClusterGrowth {
     ClusterGrowth(const Numbered<TriangleCorner, LocalNumber>& all, std::size_t placeCount)
         : corners(all), around(placeCount, all.size(), [&](TriangleCorner corner) { return all[corner]; }) {}
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    std::unordered_map<LocalNumber, std::size_t> firstOpen;  // in `around`, where that holds more than mostAround
+    // Index into `around` of the first corner whose triangle may still be unassigned. Only for vertices with more than
+    // maxNeighbours corners.
+    std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
-    float radius = 0;  // that a full cluster would have on a flat, even surface
+    float radius = 0;  // radius of a full cluster on a flat, evenly tessellated surface
 
-    Numbered<LocalNumber, std::uint32_t> open;         // corners of triangles that are in no cluster yet
-    Numbered<LocalNumber, ClusterNumber> lastCluster;  // that the place is in
+    Numbered<LocalNumber, std::uint32_t> open;         // per position, the number of corners of unassigned triangles
+    Numbered<LocalNumber, ClusterNumber> lastCluster;  // last cluster that contains the position
     Numbered<TriangleNumber, std::uint8_t> taken;
 
-    // The one that grows: sums over its triangles, …
+    // The growing cluster: sums over its triangles.
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
-    // … and the triangles that touch it. They may have been taken since.
-    std::vector<TriangleNumber> closed;    // all three corners are in it
-    std::vector<TriangleNumber> hanging;   // the last one open at a vertex: alone it would be dear to draw
-    std::vector<TriangleNumber> beside;    // two corners are in it
-    std::vector<TriangleNumber> touching;  // one is
-    std::vector<TriangleNumber> left;      // those of earlier clusters
-    TriangleNumber unseen{0};              // all triangles before it have been taken
+    // Triangles that touch the growing cluster; some of them may already be assigned.
+    std::vector<TriangleNumber> closed;    // all three corners are in the cluster
+    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex: expensive to draw in another cluster
+    std::vector<TriangleNumber> beside;    // two corners are in the cluster
+    std::vector<TriangleNumber> touching;  // one corner is in the cluster
+    std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters
+    TriangleNumber unseen{0};              // all triangles before this one are assigned
 
     GrownClusters result;
 
@@ -82,8 +85,8 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
     g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * max));
 }
 
-// Corners at the vertex: all, or where there are a great many, so many of open triangles. Those of taken ones go to the
-// front once.
+// Returns corners at the vertex. If there are more than maxNeighbours, returns at most that many corners of unassigned
+// triangles. Corners of assigned triangles are swapped to the front, each only once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;
@@ -94,7 +97,7 @@ std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     return all.subspan(first, end - first);
 }
 
-// The vertex is in the cluster: the triangles around it touch that, or more than they did.
+// Adds a vertex to the cluster and sorts the unassigned triangles around it into the lists of neighbours.
 void addVertex(ClusterGrowth& g, LocalNumber v) {
     const auto cluster = itemAt<ClusterNumber>(g.result.sizes.size());
     if (g.lastCluster[v] == cluster) return;
@@ -130,8 +133,8 @@ void take(ClusterGrowth& g, TriangleNumber triangle) {
     for (const LocalNumber v : g.cornersOf(triangle)) addVertex(g, v);
 }
 
-// Takes from the end of a list what doesn't face away from the cluster, as the back of a thin sheet does; invalid if
-// there is none.
+// Removes and returns the last triangle of the list that does not face away from the cluster, unlike the back of a thin
+// sheet. Returns an invalid number if there is none.
 TriangleNumber lastFacing(ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     while (!list.empty()) {
         const TriangleNumber triangle = list.back();
@@ -147,7 +150,7 @@ void keepOpen(const ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     std::erase_if(list, [&](TriangleNumber triangle) { return g.taken[triangle] != 0; });
 }
 
-// That of the list which lies nearest and faces most as the cluster does.
+// Returns the triangle of the list that is most similar to the cluster in position and orientation.
 TriangleNumber mostAlike(const ClusterGrowth& g, const std::vector<TriangleNumber>& list) {
     const glm::vec3 centre = g.centres / static_cast<float>(g.size);
     const float length = glm::length(g.normals);
@@ -175,7 +178,8 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     return mostAlike(g, g.touching);
 }
 
-// What touches the full cluster and has the fewest open neighbours: later it might be left alone.
+// Returns the unassigned neighbour of the full cluster with the fewest unassigned neighbours of its own. Such a
+// triangle might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
@@ -191,7 +195,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// The nearest to `place` of those that touched the clusters before, the last first; else the next in order.
+// Returns the neighbour of earlier clusters that is nearest to `place`, among the most recent ones. Returns the first
+// unassigned triangle if there is none.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -209,7 +214,7 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Of what touches the cluster only as much stays known as is looked at: at one vertex there may be any number.
+// Finishes the cluster. Keeps only `seedsAhead` neighbours per list, because a vertex can have any number of triangles.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);
@@ -246,25 +251,25 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
     return std::move(g.result);
 }
 
-// ---- what a cluster is drawn by
+// ---- bounds of a cluster
 
 namespace {
 
-// What single precision may lose of a stored value, relative to the size of what it was computed from.
+// Relative rounding error of a stored value in single precision, relative to the magnitude of its inputs.
 constexpr double valueRounding = 1e-6;
 
-// 0 for what is no place at all.
+// Replaces NaN and infinite positions by 0.
 glm::vec3 finitePosition(const glm::vec3& position) {
     return isFinite(position) ? position : glm::vec3(0);
 }
 
-// A primitive's triangles with places numbered from 0: its cost shall not depend on the whole mesh.
+// A primitive's triangles with positions numbered from 0, so that the cost does not depend on the size of the mesh.
 struct LocalTriangles {
     Numbered<TriangleCorner, LocalNumber> corners;
     Numbered<LocalNumber, glm::vec3> positions;
 };
 
-// `localOf` knows no place before and after.
+// `localOf` must be all invalid, and is again afterwards.
 template <typename Vertex>
 LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
                               const Numbered<Vertex, PositionNumber>& places,
@@ -311,7 +316,7 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
         sum += triangle.cross;
     }
 
-    // The ball, and the cone of normals about their mean by area.
+    // Bounding sphere, and normal cone around the area-weighted mean normal.
     Cluster cluster;
     cluster.centre = glm::vec3(0.5 * (glm::dvec3(min) + glm::dvec3(max)));
     const glm::dvec3 centre(cluster.centre);
@@ -340,7 +345,7 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
     return cluster;
 }
 
-// Orders the triangles of a primitive, the first of whose indices is the level's `first`.
+// Reorders the triangles of a primitive; `first` is the offset of its first index in the level.
 template <typename Vertex>
 void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
                       std::uint32_t first, std::vector<Cluster>& result) {

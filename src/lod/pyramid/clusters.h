@@ -1,7 +1,7 @@
 #pragma once
-// Makes clusters (see Cluster). They grow from triangle to triangle: each takes in what touches it, adds no vertices if
-// possible and lies and faces most as it does, until it is full: choices of the kind that meshoptimizer's meshlets are
-// made by. Neither shape nor order of the triangles matters to what may be one.
+// Builds clusters (see Cluster). A cluster grows by one triangle at a time until it is full. The next triangle touches
+// the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer builds its meshlets by
+// similar criteria. Triangles may have any shape and order.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,22 +12,22 @@
 
 namespace defocus::engine {
 
-using LocalNumber = Number<struct LocalKind>;  // of the places that one primitive uses
+using LocalNumber = Number<struct LocalKind>;  // a distinct position among those that one primitive uses
 
 struct GrownClusters {
-    std::vector<TriangleNumber> triangles;  // all, cluster after cluster, mostly neighbours one after the other
-    std::vector<std::uint32_t> sizes;       // triangles of each cluster
+    std::vector<TriangleNumber> triangles;  // cluster by cluster; consecutive triangles are mostly neighbours
+    std::vector<std::uint32_t> sizes;       // number of triangles per cluster
 };
 
-// The positions of the corners, in object units, may be anything. No cluster has more than `most` (1 or more)
-// triangles. Deterministic.
+// Groups triangles into clusters of at most `max` (≥ 1) triangles. Corner positions are in object units and may be NaN
+// or infinite. Deterministic.
 GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
                            const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max);
 
-// Reorders the triangles within each primitive into clusters, mostly neighbours one after the other, and within each
-// from neighbour to neighbour. `positions` and `places` have an entry a vertex; the places are below `placeCount`, and
-// vertices at one place have one position. The clusters' ranges count from the level's first index and follow each
-// other over all of it. Deterministic.
+// Reorders the triangles of each primitive into clusters. Consecutive clusters are mostly neighbours, and so are
+// consecutive triangles within a cluster. `positions` and `places` have one entry per vertex; places are below
+// `placeCount`. Vertices with the same place have the same position. The index ranges of the clusters start at the
+// level's first index and are contiguous. Deterministic.
 template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);

@@ -1,6 +1,6 @@
 #pragma once
-// Measures what a blur leaves of a surface, so that a level can be compared with level 0: its mean colour, the light it
-// throws back, and the area it covers.
+// Measures the properties of a surface that a wide blur preserves: mean colour, reflected light and covered area. They
+// allow a level to be compared with level 0.
 
 #include <array>
 #include <cstdint>
@@ -16,30 +16,30 @@ namespace defocus::engine {
 struct Conserved {
     double area = 0;       // object units squared
     glm::dvec3 colour{0};  // mean over the area
-    LightMeans light{};    // of vertex colours alone
-    // What the surface covers, seen along each direction and from either side, in object units squared. It is the same
-    // from the opposite direction.
+    LightMeans light{};    // with vertex colours only
+    // Area that the surface covers in a parallel projection along each direction, in object units squared. Both sides
+    // of a face count. The opposite direction gives the same area.
     std::array<double, outlineDirections> outline{};
 };
 
-// Returns the colour of a surface at a point: on the triangle that begins at `firstIndex` in Pyramid::indices, at the
-// barycentric coordinates `weights`.
+// Returns the colour of a surface at a point. `firstIndex` is the triangle's first entry in Pyramid::indices; `weights`
+// are barycentric coordinates.
 using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::dvec3& weights)>;
 
-// Returns the level's interpolated vertex colours; white if it has none.
+// Returns a function that interpolates the level's vertex colours. The colour is white if the level has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
-// Measures a level with at least `points` points over its area for colour and light, and on a grid of `resolution`²
-// points for the outline. The colour is exact where it is linear over each triangle.
+// Measures a level. Colour and light use at least `points` points on its area; the outline uses a grid of `resolution`²
+// points. The mean colour is exact if the colour is linear over each triangle.
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
-// The largest differences of these values between a level and level 0.
+// Largest differences between a level and level 0.
 struct ConservedDifference {
-    double colour = 0;       // of a channel
-    double light = 0;        // of a light
-    double outline = 0;      // relative, of a direction
-    double meanOutline = 0;  // relative, signed: of the mean over directions
+    double colour = 0;       // in any colour channel
+    double light = 0;        // under any light
+    double outline = 0;      // relative, in any direction
+    double meanOutline = 0;  // relative and signed: of the mean over all directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

@@ -1,7 +1,7 @@
 #pragma once
-// A quick stand-in for a mesh, to be shown while its pyramid is being built: meshoptimizer's simplifier, and its sloppy
-// one (vertices that share a cell of a grid become one) where the first comes to no end, as with triangles that share
-// no vertices. Nothing is fitted or measured.
+// Fast preview of a mesh, shown while its pyramid is built. It uses meshoptimizer's simplifier. If that simplifier
+// cannot reach the target, for example because triangles share no vertices, its sloppy variant is used. The sloppy
+// variant merges the vertices in each cell of a grid. Attributes are neither fitted nor measured.
 
 #include <cstdint>
 
@@ -9,9 +9,9 @@
 
 namespace defocus::engine {
 
-// Makes one level of about `triangles` triangles (up to half as many more). Its vertices are some of the mesh's
-// (`source` says which), with joints and morph targets. A mesh that has no more is kept as it is; a primitive that no
-// cell can show is left out.
+// Builds a pyramid with one level of about `triangles` triangles, at most 1.5 times as many. Its vertices are a subset
+// of the mesh's vertices (see Pyramid::source), with joints and morph targets. A mesh with fewer triangles is kept
+// unchanged. A primitive that is smaller than a grid cell may be lost.
 Pyramid draftPyramid(const Mesh& mesh, std::uint32_t triangles);
 
 }  // namespace defocus::engine

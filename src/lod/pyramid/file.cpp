@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Structs are taken apart by structured bindings, some of them unused: that stops compiling when a struct gets another
-// member, which the key or the file would lack.
+// Structs are unpacked by structured bindings, some of which are unused. A new struct member then causes a compile
+// error, as a reminder to add it to the key or the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 168 && sizeof(PyramidFileLevel) == 80 && sizeof(Cluster) == 48,
@@ -96,7 +96,7 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
 
 // ---- reading -----------------------------------------------------------------------------------
 
-// Takes one array after the other from the bytes. Nothing is allocated for what isn't there.
+// Reads consecutive arrays from the bytes. Checks the size before it allocates memory.
 class Reader {
 public:
     explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -133,7 +133,7 @@ bool isBlurTable(const BlurTable& table) {
     return std::all_of(table.begin(), table.end(), [](float value) { return value >= 0; });
 }
 
-// The clusters' ranges follow each other over each primitive's.
+// Returns whether the clusters' index ranges cover each primitive's range without gaps.
 bool clustersFit(const PyramidLevel& level) {
     auto cluster = level.clusters.begin();
     for (const IndexRange& primitive : level.primitives) {
@@ -149,8 +149,7 @@ bool clustersFit(const PyramidLevel& level) {
     return cluster == level.clusters.end();
 }
 
-// The record's numbers and ranges: the levels' ranges follow each other over all indices, which stay below the level's
-// number of vertices.
+// Reads the level records and index ranges. Checks that the ranges cover all indices without gaps, level by level.
 bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<PyramidLevel>& levels,
                 std::vector<IndexRange>& ranges) {
     std::vector<PyramidFileLevel> records;
@@ -188,7 +187,7 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
     return true;
 }
 
-// Level 0 of a mesh has its first so many triangles a primitive.
+// Returns whether level 0 has all triangles of each primitive.
 bool keepsEveryTriangle(const PyramidLevel& level, const Mesh& mesh) {
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
         if (level.primitives[p].count != mesh.primitives[p].indices.size() / 3 * 3) return false;
@@ -242,7 +241,7 @@ std::uint64_t meshHash(const Mesh& mesh) {
 }
 
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
-    // The build's hash of this folder's sources: no file outlives a change of what buildPyramid does.
+    // The build system's hash of the sources in src/lod invalidates all files when the algorithm changes.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
     const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
     return {hashBytes(std::as_bytes(std::span(sources)), own), options};
@@ -252,7 +251,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     std::vector<std::byte> bytes(sizeof(PyramidFileHeader));
     bytes.reserve(encodedSize(pyramid, mesh));
 
-    // The levels' table, then the arrays.
+    // Write the level table, then the arrays.
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
     std::vector<Cluster> allClusters;
@@ -277,7 +276,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
         append(bytes, pyramid.levels[l].uv1);
     }
 
-    // The header, with the checksum of all after it.
+    // Write the header with the checksum of all following bytes.
     PyramidFileHeader header = headerOf(pyramid, mesh, key);
     std::memcpy(bytes.data(), &header, sizeof header);
     header.checksum = hashBytes(std::span(bytes).subspan(checkedFrom));
@@ -294,12 +293,12 @@ std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes)
 }
 
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key) {
-    // The right file, and whole?
+    // Check the key and the checksum.
     const std::optional<PyramidFileHeader> header = pyramidHeader(bytes);
     if (!header || !matches(*header, mesh, key)) return {};
     if (hashBytes(bytes.subspan(checkedFrom)) != header->checksum) return {};
 
-    // Levels and indices.
+    // Read levels and indices.
     Reader reader(bytes.subspan(sizeof *header));
     Pyramid pyramid;
     std::vector<IndexRange> ranges;
@@ -309,7 +308,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         return {};
     if (!reader.read(pyramid.indices, header->indexCount) || !indicesInRange(pyramid)) return {};
 
-    // Vertices: the mesh's, and those of the levels.
+    // Gather vertices from the mesh, then read the levels' own attributes.
     pyramid.vertices = gathered(mesh.vertices, pyramid.source);
     if (mesh.vertices.normals.empty() && !reader.read(pyramid.vertices.normals, header->vertexCount)) return {};
     if (!readStreams(reader, pyramid) || !reader.finished()) return {};

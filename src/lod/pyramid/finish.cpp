@@ -13,11 +13,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float dielectric = 0.04f;  // reflectance, as glTF has it
+constexpr float dielectric = 0.04f;  // reflectance at normal incidence, as defined by glTF
 
 using Decoding = std::array<float, 256>;
 
-// The light, or the value, that each byte stands for.
+// Returns the linear value of each byte.
 const Decoding& decoding(bool srgb) {
     const auto made = [](const auto& decode) {
         Decoding values{};
@@ -33,7 +33,7 @@ std::uint8_t byteOf(float value, bool srgb) {
     return static_cast<std::uint8_t>(std::lround(255 * (srgb ? srgbEncode(value) : value)));
 }
 
-// The mean of each piece of the image; alpha is left out.
+// Downsamples the image by averaging blocks of texels; ignores alpha.
 FinishImage reduced(const TextureImage& image, bool srgb) {
     const Decoding& values = decoding(srgb);
     FinishImage result;

@@ -1,7 +1,7 @@
 #pragma once
-// Holds what the surfaces of a scene's meshes look like, for the pictures that levels are judged by (picture.h). These
-// are glTF's metallic-roughness materials. The pictures leave out normal maps, occlusion maps, transparency, coats and
-// sheen, of full detail and of levels alike.
+// Simplified materials of a scene's meshes, used for the pictures that measure the error of levels (picture.h). They
+// follow glTF's metallic-roughness model. Normal maps, occlusion maps, transparency, clear coat and sheen are ignored
+// for all levels.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,49 +18,48 @@
 
 namespace defocus::engine {
 
-// A texture, reduced to a size that such a picture can show.
+// A texture, downsampled to a size that is sufficient for these pictures.
 struct FinishImage {
     static constexpr int maxSide = 256;  // texels
 
     int width = 0;
     int height = 0;
     bool srgb = false;
-    std::vector<glm::u8vec3> texels;  // encoded as the file's, row by row from the top
+    std::vector<glm::u8vec3> texels;  // in the encoding of the file, row by row from the top
 };
 
 struct FinishMap {
-    std::shared_ptr<const FinishImage> image;  // null: none
+    std::shared_ptr<const FinishImage> image;  // null: no image
     Wrap wrapS = Wrap::repeat;
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // Returns the map's linear value at texture coordinates, of which both sets are given. It is interpolated between
-    // texels, and 1 if there is no image.
+    // Returns the map's linear value, interpolated between texels. Both sets of texture coordinates are passed; uvSet
+    // selects one. Returns 1 if there is no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// What one material looks like. The defaults are what meshes without a scene get: white and matt, coloured by their
-// vertices alone.
+// Simplified material. The default is used for meshes without a scene: white and matt, tinted by vertex colours only.
 struct Finish {
     bool unlit = false;
     glm::vec3 baseColor{1.0f};
     float metallic = 0;
     float roughness = 1;
-    float reflectance = 0;  // at normal incidence, of what isn't metal
+    float reflectance = 0;  // reflectance of non-metals at normal incidence
     glm::vec3 emission{0.0f};
     FinishMap baseColorMap = {};
-    FinishMap metallicRoughnessMap = {};  // y roughness, z metallic
+    FinishMap metallicRoughnessMap = {};  // y: roughness, z: metallic
     FinishMap emissionMap = {};
 };
 
-// The finishes of a scene, which must outlive this object. An image is reduced when a finish first needs it, and kept
-// as long as a finish holds it. Several threads may ask at once.
+// The finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs it. It is
+// kept as long as a finish uses it. Thread-safe.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);
-    // Returns the finish of a primitive's material; −1 is glTF's default material.
+    // Returns the finish of a material; −1 selects glTF's default material.
     [[nodiscard]] Finish of(int material) const;
-    // Returns a hash of the materials and textures that the mesh uses, as far as finishes hold them.
+    // Returns a hash of the mesh's materials and textures, restricted to the properties that a Finish holds.
     [[nodiscard]] std::uint64_t hash(const Mesh& mesh) const;
 
 private:
@@ -69,7 +68,7 @@ private:
     const Scene& scene_;
     std::vector<std::uint64_t> imageHashes_;  // 0 for images that no finish uses
     mutable std::mutex mutex_;
-    mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // by image, sRGB or not
+    mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // key: image, sRGB flag
 };
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Four numbers that GCC and Clang compute with at once.
+// SIMD types: four values that GCC and Clang process in one instruction.
 
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,7 @@ namespace defocus::engine {
 using Four = float __attribute__((vector_size(16)));
 using FourWords = std::uint32_t __attribute__((vector_size(16)));
 
-// Reads and writes four numbers that lie one after the other.
+// Read and write four consecutive values.
 template <typename Numbers, typename Value>
 Numbers loaded(const Value* from) {
     Numbers numbers;

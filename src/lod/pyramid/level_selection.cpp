@@ -10,15 +10,15 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 samples
-constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
+constexpr LodThresholds referenceSize{0.25, 3.3};     // mean edge in px at 64 samples
+constexpr LodThresholds referenceError{0.018, 0.18};  // error in px at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;   // px
-constexpr double sampleErrorShareMax = 0.3;  // both together are expected to err by 1.04 times as much as the samples
-constexpr double largestFactor = 2;          // few samples: their noise hides nothing of the silhouette
+constexpr double lightOfSampleError = 6.7;   // px; `light` for one sample
+constexpr double sampleErrorShareMax = 0.3;  // raises the total expected error by at most 4 %
+constexpr double largestFactor = 2;          // few samples: their noise does not hide silhouette errors
 
-// Whether edges are held against the target.
+// Returns whether the metric compares edge lengths with the target.
 bool bySize(LodMetric metric) {
     return metric == LodMetric::size || metric == LodMetric::score;
 }
@@ -27,15 +27,16 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return bySize(metric) ? level.meanEdge : level.error;
 }
 
-// How often the triangles may be halved for edges of `target` px, at most as often as they are.
+// Returns the number of triangle halvings that lengthens the edges to `target` px, limited to the number of levels.
 double halvings(const Pyramid& pyramid, double pixelsPerUnit, double target) {
     const double coarsest = static_cast<double>(pyramid.levels.size() - 1);
     const double edge = pyramid.levels.front().meanEdge * pixelsPerUnit;
     return edge > 0 ? std::clamp(2 * std::log2(target / edge), 0.0, coarsest) : coarsest;
 }
 
-// Where `target` lies between the sizes of two levels, 0 to 1. `size` interpolates logarithms: halving the triangles
-// multiplies the edges. Errors start at 0 and are interpolated as they are.
+// Returns the position of `target` between the sizes of two levels, 0 to 1. Edge lengths are interpolated
+// logarithmically, because halving the triangles multiplies them by a constant. Errors start at 0 and are interpolated
+// linearly.
 double between(double fine, double coarse, double target, LodMetric metric) {
     const double fraction = bySize(metric) && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
                                                        : (target - fine) / (coarse - fine);
@@ -116,7 +117,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
     if (!(target > 0)) return 0;
     if (metric == LodMetric::halving) return halvings(pyramid, query.pixelsPerUnit, target);
 
-    // The first level that is coarser than the target; λ lies just before it.
+    // Find the first level that is coarser than the target; λ lies between it and the level before.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const double coarse = storedSize(pyramid.levels[l], metric) * query.pixelsPerUnit;
         if (coarse <= target) continue;

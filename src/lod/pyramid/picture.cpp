@@ -15,21 +15,21 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float backBias = 1e-3f;  // cells by which a face that looks away lies behind one at its place
-constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth where there is nothing
+constexpr float backBias = 1e-3f;  // depth offset in cells: a front face wins against a back face at the same depth
+constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth of an empty cell
 
-constexpr int narrow = 8;  // cells, a row of which is looked at as a whole
+constexpr int narrow = 8;  // rows up to this number of cells are tested completely
 
 constexpr int lanes = 4;
 
-// The first cell whose middle lies at or after `place`, from `first` to `end`.
+// Returns the first cell in [first, end] whose centre is at or after `place`.
 int firstAt(float place, int first, int end) {
     const float bounded = std::min(std::max(static_cast<float>(first), place - 0.5f), static_cast<float>(end));
     const int whole = static_cast<int>(bounded);
     return whole + (static_cast<float>(whole) < bounded ? 1 : 0);
 }
 
-// Where the weights of a triangle's corners stop being positive along rows.
+// Computes the range of a row in which the barycentric weights of a triangle are positive.
 class RowBounds {
 public:
     explicit RowBounds(const Weights& weights)
@@ -37,7 +37,7 @@ public:
         for (std::size_t k = 0; k < 3; ++k) inverse_[k] = 1 / steps_[k].x;
     }
 
-    // Cells of the row from `left` up to `right` that may lie in the triangle, and a few more.
+    // Returns the range of cells in [left, right) that may lie in the triangle, slightly enlarged.
     [[nodiscard]] std::array<int, 2> within(int y, int left, int right) const {
         const float dy = static_cast<float>(y) + 0.5f - origin_.y;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ private:
     float inverse_[3];
 };
 
-// With a cell more at each side, for rounding.
+// Returns the cells that the bounds cover, enlarged by one cell on each side for rounding.
 CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
     glm::vec3 min(std::numeric_limits<float>::infinity());
     glm::vec3 max = -min;
@@ -72,7 +72,7 @@ CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
             down(firstAt(min.y - 1, 0, eye.resolution)), up(firstAt(max.y + 1, 0, eye.resolution))};
 }
 
-// The primitive that has the pyramid's index `first`.
+// Returns the primitive that contains the index `first` of the pyramid.
 std::size_t primitiveAt(const PyramidLevel& level, std::uint32_t first) {
     const auto next = std::upper_bound(level.primitives.begin(), level.primitives.end(), first,
                                        [](std::uint32_t i, const IndexRange& range) { return i < range.first; });
@@ -140,7 +140,7 @@ void Painter::drawTriangle(std::uint32_t first) {
 void Painter::draw(std::size_t number, Picture& picture) {
     const PyramidLevel& level = pyramid_.levels[number];
     const CellBox& box = eye_.box;
-    depths_.assign(box.count() + lanes, nothing);  // four of the last cells reach beyond the end
+    depths_.assign(box.count() + lanes, nothing);  // SIMD access to the last cells reaches past the end
     firsts_.resize(box.count() + lanes);
     places_.clear();
     for (const glm::vec3& position : level.positions) places_.push_back(eye_.place(position));

@@ -1,6 +1,6 @@
 #pragma once
-// Draws pictures of a level, from afar and without a lens. Each cell shows what is nearest to the eye at its middle,
-// under an even sky and the lights that a scene without lights gets (scene/defaults.h).
+// Renders pictures of a level by parallel projection, without a lens. Each cell shows the surface nearest to the eye at
+// its centre. The lighting is a uniform sky and the default lights of scenes without lights (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace defocus::engine {
 
-// Cells of a grid, the ends not included. Values of its cells lie row by row.
+// A rectangle of grid cells; `right` and `top` are exclusive. Values are stored row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;
@@ -26,28 +26,30 @@ struct CellBox {
                static_cast<std::size_t>(x - left);
     }
 };
-inline constexpr int boxAlignment = 32;  // cells, of the sides of an eye's box
+inline constexpr int boxAlignment = 32;  // the sides of an eye's box are multiples of this number of cells
 
-// A square grid at right angles to a direction, over a ball around the mesh.
+// View direction and square grid of a picture. The grid is perpendicular to the direction and covers a bounding sphere
+// of the mesh.
 struct Eye {
-    glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: from the mesh to the eye, unit
+    glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: unit vector from the mesh to the eye
     double cellsPerUnit = 0;
-    int resolution = 0;  // cells a side
-    CellBox box;         // that may show the mesh; its sides are multiples of boxAlignment, or the grid's
+    int resolution = 0;  // cells per side
+    // Cells that may show the mesh. The sides are multiples of boxAlignment, or equal to the side of the grid.
+    CellBox box;
 
-    // Returns where a position lies, in cells; z grows towards the eye.
+    // Projects a position to cell coordinates; z increases towards the eye.
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const;
 };
 
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    LargeVector<glm::vec3> light;  // linear, of the cells of the eye's box; 0 where nothing is
-    std::size_t covered = 0;       // cells
-    double sum = 0;                // of the light's mean channels
+    LargeVector<glm::vec3> light;  // linear radiance of the cells in the eye's box; 0 where no surface is
+    std::size_t covered = 0;       // number of covered cells
+    double sum = 0;                // sum over all cells of the mean of the three channels
 };
 
-// Draws levels one after the other, in the same memory. `finishes` has one finish for each primitive of the mesh.
+// Renders several levels in succession and reuses its memory. `finishes` has one finish per primitive of the mesh.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);
@@ -59,13 +61,13 @@ private:
     const Pyramid& pyramid_;
     const Eye& eye_;
     std::span<const Finish> finishes_;
-    std::vector<glm::vec3> places_;  // of the level's vertices
-    // What is nearest to the eye at the middle of each cell of its box.
-    LargeVector<float> depths_;          // z, or −∞
-    LargeVector<std::uint32_t> firsts_;  // of the triangle's three indices, among the pyramid's
+    std::vector<glm::vec3> places_;  // projected vertices of the level
+    // The surface nearest to the eye at the centre of each cell of the box.
+    LargeVector<float> depths_;          // z; −∞ for empty cells
+    LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 
-// Draws level `number`.
+// Renders level `number`.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// The light that cells of a picture show. Private to picture.cpp. The shading is that of shaders/include/shading.glsl,
-// which says where it is from.
+// Shading of picture cells. Private to picture.cpp. The model is that of shaders/include/shading.glsl, which names the
+// sources.
 
 #include <algorithm>
 #include <array>
@@ -20,14 +20,14 @@
 
 namespace defocus::engine {
 
-inline constexpr float skyRadiance = 0.5f;  // about the mean of the default sky
+inline constexpr float skyRadiance = 0.5f;  // approximate mean of the default sky
 
-// The weights of a triangle's second and third corner: linear in the place.
+// Barycentric weights of a triangle's second and third corner, as linear functions of the position.
 struct Weights {
-    glm::vec2 origin{0};  // where both are 0
+    glm::vec2 origin{0};  // position where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
-    bool flat = false;  // without area
-    bool back = false;  // it looks away
+    bool flat = false;  // the triangle has no area
+    bool back = false;  // the triangle is back-facing
 
     Weights() = default;
     Weights(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r) : origin(p) {
@@ -41,7 +41,7 @@ struct Weights {
         stepC = inverse * glm::vec2(-ab.y, ab.x);
     }
 
-    // At the middles of cells, of which `x` and `y` are one number or four.
+    // Returns the weights at cell centres. `x` and `y` are cell numbers; `x` may be a SIMD vector of four.
     template <typename X>
     [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
         const X dx = x + 0.5f - origin.x;
@@ -59,13 +59,13 @@ struct SurfacePoint {
 
 struct DistantLight {
     glm::vec3 toLight{0};
-    glm::vec3 illuminance{0};  // over π
-    // Of the light and the eye alone: the cosine between their directions, the square of their sum's length, half that
-    // length, and how much of the reflectance is that of grazing light.
+    glm::vec3 illuminance{0};  // divided by π
+    // Terms that depend only on light and eye. lv: cosine of the angle between both directions. sum2: squared length of
+    // their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
-// They stand as seen from the eye.
+// Returns the default lights, oriented relative to the eye.
 inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     std::vector<DistantLight> lights;
     for (const StudioLight& light : studioLights()) {
@@ -82,11 +82,11 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// How the normals are seen that one stands for.
+// Visible part of the distribution of normals that one normal stands for.
 struct SeenNormals {
     float spread = 0;              // normalSpread()
-    float shown = 0;               // the mean of their cosines to the eye, where these are positive
-    float along = 1, towards = 0;  // their mean is along · normal + towards · toEye: seenNormal()
+    float shown = 0;               // mean cosine to the eye over the visible normals
+    float along = 1, towards = 0;  // the visible mean is along · normal + towards · toEye: seenNormal()
 };
 
 inline SeenNormals seenNormals(float nv, float agreement) {
@@ -101,11 +101,11 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// What of a shiny point all lights share.
+// Terms of a glossy point that are independent of the light.
 struct Gloss {
     float nv = 0;
     float width = 0, alpha2 = 0;
-    float share = 0;  // of the distribution of what the normal's spread makes of it
+    float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
     float shownV = 0;
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
@@ -116,7 +116,7 @@ struct Gloss {
         shownV = std::max(glm::mix(nv, seen.shown, share), 0.0f);
     }
 
-    // What it reflects of a light that it meets at this cosine, over its reflectance.
+    // Returns the specular reflection of a light, divided by the reflectance. `cosine` is the cosine of incidence.
     [[nodiscard]] float reflected(const DistantLight& light, float cosine) const {
         const float shownL = std::max(glm::mix(cosine, light.vh, share), 0.0f);
         if (!(shownV > 0 && shownL > 0)) return 0;
@@ -124,7 +124,7 @@ struct Gloss {
         const float cosines2 = cosines * cosines;
         const float sum2 = light.sum2;
         const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
-        float shape = alpha2 / (base * base);  // GGX's
+        float shape = alpha2 / (base * base);  // GGX
         if (share > 0) {
             const float away = std::max(cosines2, 1e-4f * sum2);
             const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
@@ -144,7 +144,7 @@ inline glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point,
                                 reflectance * gloss.reflected(light, cosine));
 }
 
-// The share of a white sky's light that the specular part throws back.
+// Returns the share of a uniform white sky that the specular lobe reflects.
 inline glm::vec3 specularAlbedo(const SurfacePoint& point, float nv) {
     const glm::vec4 r =
         point.roughness * glm::vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + glm::vec4(1.0f, 0.0425f, 1.04f, -0.04f);
@@ -161,15 +161,15 @@ inline glm::vec3 mapped(const FinishMap& map, const glm::vec2& uv0, const glm::v
     return map.image ? map.at(uv0, uv1) : glm::vec3(1);
 }
 
-// A triangle of which some cells show something.
+// A triangle that is visible in some cells.
 struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
     Weights weights;
-    std::array<float, 3> lengths{};  // of the corners' normals
+    std::array<float, 3> lengths{};  // lengths of the normals at the corners
 };
 
-// Cells of a row that are lit as matt, which is done for all at once.
+// Collects the matt cells of a row and shades them together.
 class MattCells {
 public:
     MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int max)
@@ -179,10 +179,10 @@ public:
         shares_.assign(lights_.size(), agreement_);
     }
 
-    // The normal may have any length.
+    // Adds a cell. The normal may have any length.
     void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
              float agreement) {
-        // Value by value: a copy of a whole cell waits for its values.
+        // Assign each value separately: copying a complete Cell would stall until all values are available.
         Cell& cell = cells_[count_];
         cell.number = number;
         for (glm::length_t c = 0; c < 3; ++c) {
@@ -194,7 +194,7 @@ public:
         ++count_;
     }
 
-    // Calls put(number, light) for each, and forgets them.
+    // Calls put(number, light) for each cell and then removes all cells.
     template <typename Put>
     void shade(const Put& put) {
         normalise();
@@ -209,7 +209,7 @@ public:
     }
 
 private:
-    // Plain loops over few arrays, of which compilers compute four numbers at once.
+    // Simple loops over few arrays, which compilers vectorise.
     void normalise() {
         float* const x = normal_[0].data();
         float* const y = normal_[1].data();
@@ -256,16 +256,16 @@ private:
     glm::vec3 toEye_;
     std::size_t count_ = 0;
     std::vector<Cell> cells_;
-    std::array<std::vector<float>, 3> normal_;  // of each cell, coordinate by coordinate
+    std::array<std::vector<float>, 3> normal_;  // of each cell, one array per coordinate
     std::vector<float> agreement_;
     std::vector<float> spread_, along_, towards_;  // see SeenNormals
-    std::vector<std::vector<float>> shares_;       // of each light, that each cell gets
+    std::vector<std::vector<float>> shares_;       // of each light: the share that each cell receives
 };
 
-// The light that is seen of what was hit. What has no finish is matt: it reflects nothing.
+// Computes the visible radiance of surface points. Surfaces without a finish are matt, without specular reflection.
 class Shading {
 public:
-    // Writes into `cells`.
+    // Writes the radiance into `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
@@ -280,7 +280,7 @@ public:
         return result;
     }
 
-    // Shades the cell with this number, unless that is left to the row's end.
+    // Shades the cell with this index. Matt cells are deferred to endRow().
     void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
         const Finish& finish = *triangle.finish;
         const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
@@ -324,8 +324,8 @@ public:
         matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
-    double sum = 0;           // of the light's mean channels
-    std::size_t covered = 0;  // cells
+    double sum = 0;           // sum of the mean channels of all cells
+    std::size_t covered = 0;  // number of shaded cells
 
 private:
     void put(std::size_t cell, const glm::vec3& light) {

@@ -27,16 +27,17 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minEdgeGrowth = 1.05;   // from level to level
-constexpr double minEdgeToError = 2;     // a level can't be as fine as its edges say where its error outgrew them
-constexpr double minErrorGrowth = 1.25;  // from level to level, from level 1 on
-constexpr double errorFloor = 1e-6;      // of the box's diagonal
-// Points on each of two surfaces at which a level's distance to level 0 is measured: as many as the mesh has triangles,
-// within these bounds, so that it stays cheap beside the simplification.
+constexpr double minEdgeGrowth = 1.05;   // min ratio between consecutive levels
+constexpr double minEdgeToError = 2;     // a level is no finer than its error, however short its edges are
+constexpr double minErrorGrowth = 1.25;  // min ratio between consecutive levels, from level 1 on
+constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
+// Number of points on each of two surfaces for measuring the distance between a level and level 0. It equals the number
+// of triangles of the surface, within these bounds. The cost is therefore small compared with simplification.
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-constexpr std::size_t maxPossibleLevels = 128;  // each leaves three quarters of at most 2³² triangles
+// Sufficient for 2³² triangles, because each level has at most three quarters of the triangles of the level before.
+constexpr std::size_t maxPossibleLevels = 128;
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
     TriangleSet<MeshVertexNumber> level;
@@ -68,19 +69,20 @@ bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::
     return true;
 }
 
-// So few equal vertices that a copy without them would take more than they do.
+// Returns whether so few vertices are duplicates that a copy without them would need more memory than the duplicates
+// do.
 bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
-// Numbers vertices as the file does. Triangles still use the first of equal ones, and none the others.
+// Restores the vertex numbers of the file. Triangles use only the first of equal vertices.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
     for (const MeshVertexNumber v : unique.first.numbers()) unique.first[v] = {v.value};
 }
 
-// Mean and greatest length of all faces' edges.
+// Computes the mean and max edge length over all faces.
 void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     double sum = 0;
     double longest = 0;
@@ -96,7 +98,7 @@ void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     level.longestEdge = std::isfinite(longest) ? longest : 0;
 }
 
-// Appends a level's ranges and indices.
+// Appends a level's index ranges and indices.
 PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& triangles,
                          std::vector<Cluster> clusters, const SurvivalOrder& order) {
     PyramidLevel level;
@@ -113,16 +115,16 @@ PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& 
     return level;
 }
 
-// How many of `count` distances are larger than, or as large as, the value that the 99th percentile of what they were
-// drawn from does not exceed, but for the bad luck of two standard deviations of the number of points beyond it.
+// Returns the rank k for a conservative estimate: the k-th largest of `count` random samples is at least the true 99th
+// percentile. The margin is two standard deviations of the number of samples beyond the percentile.
 std::size_t percentileRank(std::size_t count) {
     const auto number = static_cast<double>(count);
     const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * number);
     return count - static_cast<std::size_t>(std::min(errorPercentile * number + 2 * deviation, number - 1));
 }
 
-// Of the level's surface from the mesh's, whichever way it is larger; at most the box's diagonal, where the level has
-// no area left.
+// Returns the distance between the two surfaces: the larger of both directions, at most the bounding box's diagonal.
+// The distance is infinite without this limit if the level has no area left.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
@@ -130,7 +132,7 @@ double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     return std::min(largeDistance(level, mesh, points, rank, oneWay), diagonal);
 }
 
-// Strictly growing, so that a level can be found for any target.
+// Raises errors and mean edges so that both grow strictly with the level. Every target then selects a unique level.
 void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
         levels[l].error = std::max({levels[l].error, minErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
@@ -139,10 +141,10 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     }
 }
 
-// A level until its vertices are in their final order.
+// A level before the final vertex order is known.
 struct FittedLevel {
-    TriangleSet<LevelVertexNumber> own;                     // until they are clustered
-    TriangleSet<MeshVertexNumber> triangles;                // from then on
+    TriangleSet<LevelVertexNumber> own;                     // triangles before clustering
+    TriangleSet<MeshVertexNumber> triangles;                // triangles after clustering
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // see SimplifiedLevel
     LevelFit fit;
     std::vector<Cluster> clusters;
@@ -160,7 +162,8 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     return result;
 }
 
-// The level with the values that its vertices have in the mesh. Of twins both have the same.
+// Returns the level with the original attributes of its vertices. Both vertices of a twin pair have the same
+// attributes.
 FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     FittedLevel result;
     const auto own = [&]<typename T>(const std::vector<T>& values, Numbered<LevelVertexNumber, T>& kept) {
@@ -179,7 +182,7 @@ FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     return result;
 }
 
-// Of the box around the triangles, without what is no number.
+// Returns the diagonal of the triangles' bounding box; vertices with NaN or infinity are ignored.
 double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles) {
     Bounds bounds;
     for (const MeshVertexNumber v : triangles.indices)
@@ -187,7 +190,8 @@ double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>&
     return bounds.empty() ? 0 : glm::length(bounds.size());
 }
 
-// At least as far as any point of what the level lacks is from what it has, and as large as what it lacks.
+// Returns an upper bound on the distance from the removed components to the level. It is also at least the size of
+// every removed component.
 double removedError(const std::vector<Ball>& removed, const Surface& level) {
     double error = 0;
     for (const Ball& ball : removed)
@@ -195,7 +199,7 @@ double removedError(const std::vector<Ball>& removed, const Surface& level) {
     return error;
 }
 
-// How far the level is from the mesh.
+// Measures the level's distance from the mesh.
 void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     const Surface surface = prepareSurface(level.fit.positions, level.own);
     level.error =
@@ -203,7 +207,7 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Orders the level's triangles by clusters; `positions` are the mesh's, twins included.
+// Reorders the level's triangles into clusters. `positions` are those of the mesh, including twins.
 void cluster(FittedLevel& level, const WeldedPositions& positions) {
     Numbered<LevelVertexNumber, PositionNumber> places;
     places.reserve(level.numbers.size());
@@ -215,7 +219,8 @@ void cluster(FittedLevel& level, const WeldedPositions& positions) {
     level.own = {};
 }
 
-// Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
+// Returns values for the first `count` vertices in the order of `sources`: the fitted value if the level has one, else
+// the original.
 template <typename T>
 std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumber, T>& fitted,
                        const Numbered<PyramidVertexNumber, LevelVertexNumber>& fittedAt,
@@ -228,7 +233,7 @@ std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumb
     return result;
 }
 
-// One a primitive; none without a scene.
+// Returns one finish per primitive; empty without a scene.
 std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) {
     std::vector<Finish> finishes;
     if (options.finishes == nullptr) return finishes;
@@ -236,18 +241,18 @@ std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) 
     return finishes;
 }
 
-// Of the levels behind the mesh itself; empty where each has half the triangles of the one before.
+// Returns the fractions of vertices of the levels after level 0; empty if each level halves the triangles.
 std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
 
-// Of the work, about: on one core collapses take half of it.
+// Approximate progress after each stage; on one core, collapsing takes half of the time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
-// All but what is measured of the finished levels.
+// Builds the pyramid except for the measurements on finished levels (blurred errors and deformation bounds).
 Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
                   const std::function<void(double)>& reach) {
-    // Join equal vertices; weld the positions of the rest.
+    // Merge equal vertices; weld the positions of the others.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);
@@ -260,7 +265,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         leaveApart(unique, levels[0].triangles, mesh.vertices.count());
     }
     unique.id = {};
-    Vertices joined;  // unless the mesh has them as they are, or with a few equal ones that no triangle uses
+    // Not used if the vertices of the mesh can be used directly, possibly with a few unused duplicates.
+    Vertices joined;
     const bool asTheyAre = hasNormals && isIdentity(unique.first, mesh.vertices.count());
     if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
     if (!asTheyAre && joined.normals.empty())
@@ -268,14 +274,15 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     const Vertices& vertices = asTheyAre ? mesh.vertices : joined;
     WeldedPositions positions = weldPositions(vertices.positions);
 
-    // Simplify, and fit every level while the next ones are made.
+    // Simplify; fit finished levels on other threads in the meantime.
     Pyramid pyramid;
     Simplification simplification;
     double diagonal = 0;
     const bool fits = options.vertices == LevelVertices::fitted;
     if (options.maxLevels > 1) {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
-        std::optional<FitSource> source;  // once the first level is there: collapsing the whole mesh takes most memory
+        // Created only when level 0's successor is complete: memory use peaks while the complete mesh collapses.
+        std::optional<FitSource> source;
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
         std::vector<FittedLevel> coarser(
@@ -299,11 +306,11 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     pyramid.repairedFaces = simplification.repairedFaces;
     pyramid.end = simplification.end;
 
-    // Twins are vertices like others from here on; no corner of level 0 uses them.
+    // From here on, twins are ordinary vertices; no corner of level 0 uses them.
     const std::size_t ownCount = vertices.count();
     for (const MeshVertexNumber v : simplification.twins) positions.id.push_back(positions.id[v]);
 
-    // Measure them, then cluster them; each gives back what it takes before the next begins.
+    // Measure the levels, then cluster them; each step frees its memory before the next one starts.
     if (levels.size() > 1) {
         const Surface surface = prepareSurface(vertices.positions, levels[0].triangles);
         Tasks tasks(helpers);
@@ -323,7 +330,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
 
     reach(shareUntilClustered);
 
-    // Order vertices by survival.
+    // Sort vertices by survival.
     std::vector<TriangleSet<MeshVertexNumber>> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
@@ -337,7 +344,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     for (const MeshVertexNumber v : sources) pyramid.source.push_back(unique.first[v].value);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
-    // Describe each level.
+    // Fill in each level's data.
     Numbered<MeshVertexNumber, LevelVertexNumber> fittedAt(ownCount + simplification.twins.size());
     Numbered<PyramidVertexNumber, LevelVertexNumber> inPrefix;
     std::size_t indexCount = 0;
@@ -394,7 +401,7 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
             const glm::vec3& position = level.positions[v];
             extend(position, vertices.joints[v], vertices.weights[v]);
             if (!vertices.joints1.empty()) extend(position, vertices.joints1[v], vertices.weights1[v]);
-            // A vertex that no joint moves follows the first.
+            // A vertex without joint weights follows the first joint.
             const bool moved = glm::any(glm::greaterThan(vertices.weights[v], glm::vec4(0)));
             if (!moved) extendJoint(0, position);
         }
@@ -454,7 +461,7 @@ std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
                                    const Progress& progress) {
-    // The largest first, so that no core is left with a large one at the end.
+    // Largest mesh first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -1,11 +1,13 @@
 #pragma once
-// Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
+// Pyramid: a mesh and its simplified levels. Level 0 is the mesh; each further level has about half the triangles of
+// the level before it.
 //
-// All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of
-// the surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
-// (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too. With LevelVertices::quarters
-// there are three levels, of all, three quarters and half of the vertices.
+// All levels index one shared vertex buffer, sorted by the coarsest level that uses each vertex. Vertices at the same
+// position are adjacent. Level l therefore uses the prefix [0, vertexCount[l]). Joints, weights, tangents and morph
+// targets are copied from the surviving vertices of the mesh. Positions, normals, colours and texture coordinates are
+// stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving they are copied from the
+// surviving vertices, too. With LevelVertices::quarters there are three levels, with 100 %, 75 % and 50 % of the
+// vertices.
 
 #include <array>
 #include <cstddef>
@@ -27,98 +29,107 @@ namespace defocus::engine {
 class Finishes;
 
 struct IndexRange {
-    std::uint32_t first = 0;  // into Pyramid::indices
+    std::uint32_t first = 0;  // offset into Pyramid::indices
     std::uint32_t count = 0;  // a multiple of 3
 };
 
-// A cluster is a run of a level's triangles that lie near each other and face about the same way, so that a frame can
-// leave out a whole run at once when no lens sample shows any of it (plan/visibility.h).
-// Object units, as the level has its vertices. Rounded so that all of it holds for the triangles' exact planes.
+// A cluster is a run of triangles of one level that are close together and face similar directions. A frame skips the
+// complete run if no lens sample shows any of its triangles (plan/visibility.h). All lengths are in object units,
+// measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the
+// triangles.
 struct Cluster {
     IndexRange indices;       // within one primitive
-    glm::vec3 centre{0};      // of a ball around the vertices
-    float radius = 0;         // of the ball
-    glm::vec3 axis{0, 0, 1};  // unit length, about which the triangles' unit normals n lie
-    float minCosine = -1;     // of the angle between an n and the axis
-    float planes = 0;         // n·(p − centre) is at least this, p on the plane of n's triangle
-    float minAltitude = 0;    // of the triangles; those of which corners coincide draw nothing and don't count
+    glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
+    float radius = 0;         // radius of the bounding sphere
+    glm::vec3 axis{0, 0, 1};  // unit axis of the cone that contains the unit normals n of the triangles
+    float minCosine = -1;     // min cosine of the angle between a normal n and the axis
+    float planes = 0;         // min of n·(p − centre), with p on the plane of the triangle with normal n
+    // Min altitude of the triangles. Triangles with coinciding corners are ignored, because they draw nothing.
+    float minAltitude = 0;
 };
 
 inline constexpr std::uint32_t maxClusterTriangles = 64;
 
-// What a blur leaves of a difference: its root mean square once it is averaged over patches of growing size.
-// [0]: over no patch, point by point. [i], i ≥ 1: over square patches of side 2^(i − 1) · Pyramid::smallestPatch. Light
-// is in units of the mesh's own mean, so that 1 is all of it.
+// RMS of a difference after averaging over square patches of growing size.
+// Entry 0: per point, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Light is
+// relative to the mean light of the mesh, so that 1 means as much as the mean.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
 struct PyramidLevel {
-    std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
-    std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
+    std::vector<IndexRange> primitives;  // one range per primitive of the mesh, in mesh order
+    std::uint32_t vertexCount = 0;       // length of the vertex-buffer prefix that the level uses
     std::uint32_t triangleCount = 0;
-    std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
-    // These are fitted to level 0 (there, and of vertices that survive: the mesh's own) and lie inside its bounds;
-    // vertices at one position stay at one. Fitted normals have a length of at most 1: the shorter one is, the more the
-    // normals that it stands for differ, and the less light a matt surface throws back.
-    std::vector<glm::vec3> positions;  // vertexCount
-    std::vector<glm::vec3> normals;    // vertexCount
-    std::vector<glm::vec4> colors;     // vertexCount; empty without colours. A fitted one may lie outside [0, 1].
-    std::vector<glm::vec2> uv0, uv1;   // vertexCount; empty without texture coordinates
+    std::vector<Cluster> clusters;  // sorted by index range; together they cover the ranges of all primitives
+    // Vertex attributes of the level, fitted to level 0; level 0 and LevelVertices::surviving have the values of the
+    // mesh. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same position.
+    // Fitted normals have length ≤ 1. A shorter normal stands for normals that differ more, and a matt surface reflects
+    // less light there.
+    std::vector<glm::vec3> positions;  // vertexCount entries
+    std::vector<glm::vec3> normals;    // vertexCount entries
+    std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
+    std::vector<glm::vec2> uv0, uv1;   // vertexCount entries; empty without texture coordinates
 
-    // Object units. The mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it
-    // grows by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew
-    // them.
+    // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:
+    // it grows by at least 5 % per level and is at least 2·error. The second bound holds because a level with a large
+    // error is no finer than that error, however short its edges are.
     double meanEdge = 0;
     double longestEdge = 0;  // object units
 
-    // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
-    // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so that
-    // e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. If the level
-    // lacks whole parts, the error is at least as large as they are and as far as any of their points is from the level
-    // (up to the box's diagonal).
+    // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
+    // over the area in both directions. It is estimated conservatively from 256 to 1,024 points per direction
+    // (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding
+    // box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their size. It is also
+    // at least the distance from any of their points to the level, up to the diagonal of the bounding box.
     double error = 0;
 
-    BlurTable blurredError{};  // see blurred_error.h; 0 of level 0
+    BlurTable blurredError{};  // see blurred_error.h; 0 for level 0
 };
 
 struct Pyramid {
-    // The vertices of level 0, sorted by survival, with equal ones joined; `normals` are level 0's. A few are there
-    // twice, for coarser levels that need two normals at one place.
+    // The vertices of level 0, sorted by survival; identical vertices are merged. `normals` are the normals of level 0.
+    // A few vertices are stored twice, for coarser levels that need two normals at one position.
     Vertices vertices;
-    std::vector<std::uint32_t> source;   // for each vertex, which one of Mesh::vertices it is (morph targets follow it)
+    std::vector<std::uint32_t> source;   // for each vertex, its index in Mesh::vertices; morph targets use it
     std::vector<std::uint32_t> indices;  // of all levels
     std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level
-    Bounds bounds;                       // object units; of level 0's triangles
-    std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
-    std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
-    double smallestPatch = 0;            // object units; of blur tables, 0 without a second level
-    BlurTable contrast{};  // of level 0: the standard deviation of its light within patches; see blurred_error.h
-    std::uint32_t repairedFaces = 0;  // faces that half-edges can't hold as they are; see manifold.h
+    Bounds bounds;                       // bounding box of level 0's triangles, in object units
+    // For each joint, the bounding box of the vertices that it moves at any level, in object units; empty without
+    // joints.
+    std::vector<Bounds> jointBounds;
+    // For each morph target, the bounding box of its displacements and the origin, in object units.
+    std::vector<Bounds> morphBounds;
+    double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
+    // Standard deviation of level 0's light within patches; see blurred_error.h.
+    BlurTable contrast{};
+    std::uint32_t repairedFaces = 0;  // faces that had to be repaired for the half-edge structure; see manifold.h
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 struct PyramidOptions {
-    std::uint32_t minTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
-    int maxLevels = 24;               // level 0 included
+    // Halving ends at this number of triangles; the last collapse may remove one triangle more.
+    std::uint32_t minTriangles = 64;
+    int maxLevels = 24;  // including level 0
     LevelVertices vertices = LevelVertices::fitted;
-    const Finishes* finishes = nullptr;  // of the scene that the meshes belong to; null: white and matt
+    const Finishes* finishes = nullptr;  // materials of the scene that owns the meshes; null: white and matt
 };
 
-const char* levelVerticesName(LevelVertices vertices);  // as the command line has it
+const char* levelVerticesName(LevelVertices vertices);  // name on the command line
 
-// Builds a mesh's pyramid. Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the
-// mesh. Levels end where a further one would save less than a quarter of the triangles. Throws Error for an index
-// beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing. `step`
-// gets the share of the work that is done, [0, 1], in steps of a hundredth or so, on the caller's thread.
+// Builds a mesh's pyramid. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every triangle of the
+// mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws Error if an
+// index is out of range. `helpers` is the number of threads that fit and measure levels while the calling thread
+// collapses edges. `step` receives the completed fraction of the work, in [0, 1], in steps of about 0.01. It is called
+// on the calling thread.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
                      const std::function<void(double)>& step = {});
 
-// Sums up how far several pyramids are, by their triangles, and reports it; from any thread.
+// Combines the progress of several pyramids, weighted by triangle count, and reports it. Thread-safe.
 class PyramidProgress {
 public:
-    // Both must outlive it.
+    // Keeps references to both arguments, which must outlive this object.
     PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress);
-    // Of mesh `mesh` this share is done, [0, 1].
+    // Records that the fraction `share` of the pyramid of mesh `mesh` is built, in [0, 1].
     void reached(std::size_t mesh, double share);
 
 private:
@@ -127,25 +138,25 @@ private:
     std::mutex mutex_;
     std::vector<double> shares_;
     std::size_t finished_ = 0;
-    double total_ = 0;    // triangles, and one a mesh
-    double reached_ = 0;  // of these
+    double total_ = 0;    // triangles of all meshes, plus one per mesh
+    double reached_ = 0;  // finished part of `total_`
 };
 
-// Returns how many triangles the meshes have together.
+// Returns the total number of triangles of the meshes.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 
-// Returns how many helpers a mesh gets if it is built at once with others that have `all` triangles together: its share
-// of the cores.
+// Returns the number of helper threads for a mesh that is built in parallel with other meshes: its share of the cores.
+// `all` is the total number of triangles of these meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
-// Builds one pyramid a mesh, on all cores.
+// Builds one pyramid per mesh, on all cores.
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
 
-// Fills jointBounds and morphBounds from the rest of the pyramid and the mesh that it was made from.
+// Computes jointBounds and morphBounds from the pyramid's levels and its source mesh.
 void measureDeformations(Pyramid& pyramid, const Mesh& mesh);
 
-// Builds level 0 alone, for renders that use no other; vertex and index order are optimised all the same.
+// Builds a pyramid with level 0 only, for renders without levels of detail. Vertex and index order are still optimised.
 Pyramid fullDetail(const Mesh& mesh);
 
 }  // namespace defocus::engine

@@ -22,12 +22,12 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxTrianglesPerLeaf = 4;
-constexpr std::size_t arity = 4;  // of the tree
-// What single precision may be off by at a coordinate, as a share of the largest of both sides.
+constexpr std::size_t arity = 4;  // children per node
+// Relative rounding error of a coordinate in single precision, relative to the largest coordinate of both sides.
 constexpr float rounding = 2.5e-7f;
-constexpr double mortonCells = 1023;  // an axis: 10 bits each
+constexpr double mortonCells = 1023;  // per axis: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// 1/g and 1/g², g³ = g + 1.
+// 1/g and 1/g², where g³ = g + 1 (R2 sequence).
 constexpr double stepU = 0.7548776662466927;
 constexpr double stepV = 0.5698402909980532;
 
@@ -51,7 +51,7 @@ Box boxOf(const Triangle& t) {
     return {glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))};
 }
 
-// The low 10 bits, two zeros between each and the next.
+// Inserts two zero bits between consecutive bits of the low 10 bits.
 std::uint32_t spread(std::uint32_t bits) {
     bits = (bits | bits << 16) & 0x030000ffu;
     bits = (bits | bits << 8) & 0x0300f00fu;
@@ -59,7 +59,7 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
-// By what stands above the numbers, which are in order: digit after digit, the lowest first.
+// Radix sort by the Morton code in the upper 32 bits. The triangle numbers in the lower 32 bits are already sorted.
 void sortByCode(LargeVector<std::uint64_t>& keys) {
     constexpr std::uint64_t digits = 1024;
     LargeVector<std::uint64_t> sorted(keys.size());
@@ -73,10 +73,10 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Those of the `count` triangles that have a place and an area.
+// Returns the triangles with finite corners and positive area, among `count` triangles.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
-    LargeVector<std::uint64_t> keys;  // Morton codes above numbers
+    LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
     keys.reserve(count);
     Box whole;
     for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +102,7 @@ LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangl
     return sorted;
 }
 
-// The first triangle of a leaf; the leaf after the last gives the end.
+// Returns the first triangle of a leaf. For the number after the last leaf, returns the number of triangles.
 std::size_t leafStart(const Surface& surface, std::size_t leaf) {
     return leaf * surface.triangles.size() >> surface.leafBits;
 }
@@ -116,7 +116,7 @@ void buildNodes(Surface& surface) {
     }
     surface.leafBits = std::countr_zero(leaves);
     surface.nodes.resize(inner);
-    LargeVector<Box> boxes(inner + leaves);  // of the nodes, then of the leaves
+    LargeVector<Box> boxes(inner + leaves);  // of the inner nodes, then of the leaves
     for (std::size_t leaf = 0; leaf < leaves; ++leaf)
         for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
             boxes[inner + leaf] = around(boxes[inner + leaf], boxOf(surface.triangles[t]));
@@ -133,7 +133,7 @@ void buildNodes(Surface& surface) {
     surface.extent = std::max({extent.x, extent.y, extent.z});
 }
 
-// To the four boxes, squared; no more than it is. `slack` is what coordinates may be off by.
+// Returns lower bounds of the squared distances to the four boxes. `slack` is the max rounding error of a coordinate.
 Four squaredDistances(const BoxNode& node, const glm::vec3& p, float slack) {
     const Four zero{};
     Four sums{};
@@ -157,19 +157,20 @@ struct Nearest {
     std::size_t triangle = 0;
 };
 
-// `guess`: a triangle that is likely near. Any triangle whose squared distance is at most `enough` will do.
+// `guess` is a triangle that is probably close. The search stops at the first triangle with a squared distance of at
+// most `enough`.
 Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess, double enough) {
     struct Entry {
         float squaredDistance;
         std::size_t node;
     };
-    std::array<Entry, 3 * 32 + arity> stack;  // three for each level of the tree, at most 32, and what is on top
+    std::array<Entry, 3 * 32 + arity> stack;  // three per tree level (max 32), plus the children of the current node
     std::size_t size = 0;
     Nearest nearest{squaredDistance(surface.triangles[guess], p), guess};
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
     const glm::vec3 place(p);
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-    // A little more than it is, as sums of squares in single precision may be off too.
+    // Slightly enlarged, because squared distances in single precision are rounded, too.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
     float max = bound();
     stack[size++] = {0, 0};
@@ -186,7 +187,7 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
             max = bound();
             continue;
         }
-        // The nearest child on top.
+        // Push the children in order of decreasing distance, so that the nearest is on top.
         const Four squared = squaredDistances(surface.nodes[entry.node], place, slack);
         const std::size_t first = size;
         for (std::size_t k = 0; k < arity; ++k) {
@@ -199,13 +200,13 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     return nearest;
 }
 
-// Uniform over the triangle for (u, v) uniform in the unit square (Osada et al. 2002).
+// Maps (u, v), uniform in the unit square, to a uniform point on the triangle (Osada et al. 2002).
 glm::dvec3 pointOf(const Triangle& t, double u, double v) {
     const double root = std::sqrt(u);
     return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
 }
 
-// The points that sampleDistances speaks of.
+// Visits the sample points of sampleDistances.
 template <typename Visit>
 void forEachSample(const Surface& surface, std::size_t count, const Visit& visit) {
     std::size_t triangle = 0;
@@ -268,7 +269,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     if (to.empty()) return std::vector<double>(count, infinity);
     std::vector<double> distances;
     distances.reserve(count);
-    std::size_t nearest = 0;  // of the point before, which lies close by
+    std::size_t nearest = 0;  // result for the previous point, which is close
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, 0);
         nearest = found.triangle;
@@ -280,8 +281,8 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared, a heap with the least of them first
-    std::size_t nearest = 0;                       // of the point before, which lies close by
+    std::vector<double> largest(rank, min * min);  // squared; a min-heap
+    std::size_t nearest = 0;                       // result for the previous point, which is close
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());
         nearest = found.triangle;

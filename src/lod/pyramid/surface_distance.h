@@ -1,11 +1,11 @@
 #pragma once
-// Measures how far two triangle surfaces are apart, as Cignoni, Rocchini and Scopigno do (1998, Metro: Measuring Error
-// on Simplified Surfaces): from points spread evenly over the area of one surface to the closest points of the other,
-// which a tree of boxes finds.
+// Measures the distance between two triangle surfaces (Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on
+// Simplified Surfaces). Points are distributed evenly over the area of one surface. The closest point of the other
+// surface is found with a bounding volume hierarchy.
 //
-// Lengths are object units. A triangle without area, or with a corner that isn't finite, is no part of a surface. A
-// surface may be empty: nothing is measured from it, and everything is infinitely far from it. Deterministic; equal
-// surfaces scaled by a power of two give distances scaled by it, bit for bit.
+// Lengths are in object units. Triangles without area and triangles with NaN or infinite corners are ignored. A surface
+// may be empty: it yields no sample points, and every distance to it is infinite. Deterministic. Scaling both surfaces
+// by a power of two scales the distances by exactly the same factor.
 
 #include <array>
 #include <cstddef>
@@ -20,56 +20,59 @@
 
 namespace defocus::engine {
 
-// Boxes around the four children of a node.
+// The bounding boxes of the four children of a node.
 struct BoxNode {
     Four minimum[3];  // x, y, z
     Four maximum[3];
 };
 
-// prepareSurface makes one; from then on it is only read, by any number of threads.
+// A surface with its bounding volume hierarchy, made by prepareSurface. It is immutable and may be read by several
+// threads.
 struct Surface {
-    LargeVector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
-    LargeVector<double> areas;                        // of the triangles up to and with each one
-    // A complete tree, root at 0, children of i at 4i + 1 … 4i + 4; those beyond the last node are leaves, of up to 4
-    // triangles, which share the triangles evenly in their order.
+    LargeVector<std::array<glm::vec3, 3>> triangles;  // in Morton order: neighbours in memory are close in space
+    LargeVector<double> areas;                        // cumulative areas, each including its own triangle
+    // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child numbers beyond the
+    // last node denote leaves. The leaves divide the triangles evenly in their order, with up to 4 triangles each.
     LargeVector<BoxNode> nodes;
-    int leafBits = 0;  // of the number of leaves, a power of two
-    float extent = 0;  // the largest absolute coordinate
+    int leafBits = 0;  // log2 of the number of leaves
+    float extent = 0;  // largest absolute coordinate
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
 };
 
-// `indices` are three a triangle (a rest of one or two is passed over), all below positions.size().
+// Builds the hierarchy. Three indices form a triangle; one or two remaining indices are ignored. All are below
+// positions.size().
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 template <typename Vertex>
 Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<Vertex>& triangles);
 
-// The distance from `point` (finite) to the closest point of the surface; infinite for an empty surface.
+// Returns the distance from `point` (finite) to the closest point of the surface; infinity for an empty surface.
 double distanceTo(const Surface& surface, const glm::dvec3& point);
 
-// The distances to `to` from `count` points of `from`, each of which stands for an equal share of its area: there is
-// one point in each stratum of the running area, placed within its triangle by the R2 sequence. None where `from` is
-// empty.
+// Returns the distances from `count` points of `from` to the surface `to`. Each point represents an equal share of the
+// area of `from`: the area is divided into strata, with one point each. The R2 sequence places the point within its
+// triangle. Returns nothing if `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// Returns the `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger or there
-// are fewer. It is faster, because it stops looking for the closest point once it has found one that is near enough.
+// Returns the `rank`-th largest (from 1) distance of sampleDistances, but at least `min`. Returns `min` if there are
+// fewer distances. Faster than sampleDistances: the search for a closest point stops as soon as it cannot affect the
+// result.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min);
 
 struct Distances {
     double mean = 0;
-    double percentile99 = 0;  // nearest rank
+    double percentile99 = 0;  // by the nearest-rank method
     double maximum = 0;
 };
 
 struct SurfaceDistance {
-    Distances forward;   // from points of the first to the second
-    Distances backward;  // from points of the second to the first
-    Distances both;      // the larger of the two, figure by figure, as the two-sided Hausdorff distance is
+    Distances forward;   // from the first surface to the second
+    Distances backward;  // from the second surface to the first
+    Distances both;      // max of both directions, value by value, like the two-sided Hausdorff distance
 };
 
-// Measures from `count` points on each surface. The mean's error falls with about 1 / count; the maximum is of these
-// points only, a lower bound of the Hausdorff distance.
+// Measures from `count` points on each surface. The error of the mean falls approximately as 1 / count. The maximum
+// covers only these points, so that it is a lower bound of the Hausdorff distance.
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
 
 }  // namespace defocus::engine

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // of numbers, in square roots of the vertices' count
+constexpr double maxSpread = 2;  // max distance between vertex numbers, in units of the square root of the vertex count
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
     std::size_t first = 0;
-    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // the triangle, after the place that it is sorted by
+    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, then the triangle
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         MeshVertexNumber* const indices = triangles.indices.data() + first;
         sorted.clear();
@@ -60,7 +60,7 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
 
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions) {
-    // The vertices of each position, in a list that starts at `head`; only those that a level uses.
+    // Linked lists of the used vertices at each position; `head` holds their first elements.
     const std::size_t vertexCount = positions.id.size();
     Numbered<MeshVertexNumber, std::uint8_t> used(vertexCount, 0);
     for (const TriangleSet<MeshVertexNumber>& level : levels)
@@ -73,7 +73,7 @@ SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& l
         head[positions.id[v]] = v;
     }
 
-    // From the coarsest level to the finest: each adds the positions that no coarser one uses.
+    // From the coarsest level to the finest, append the positions that no coarser level uses.
     SurvivalOrder order;
     order.vertexCounts.resize(levels.size());
     order.numbers.resize(vertexCount);

@@ -1,6 +1,6 @@
 #pragma once
-// Sorts vertices and triangles in memory. For the simplifier, what is near in space becomes near in memory. In the end
-// vertices are sorted by how long they survive, so that a level uses a prefix of them.
+// Sorts vertices and triangles in memory. Before simplification, vertices that are close in space are placed close in
+// memory. Afterwards, vertices are sorted by the coarsest level that uses them, so that each level uses a prefix.
 
 #include <cstdint>
 #include <vector>
@@ -10,22 +10,22 @@
 
 namespace defocus::engine {
 
-// Returns whether triangles that follow each other, and their corners, have numbers so far apart that caches are of
-// little help. (On a grid in rows they are √n apart.)
+// Returns whether vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
+// little. For comparison, neighbours on a grid stored in rows are √n apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
-// Numbers vertices anew, so that what is near in space is so in memory. `positions` are of the file's vertices.
+// Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the file's vertices.
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions);
-// Sorts the triangles of each primitive by the smallest of their vertices.
+// Sorts the triangles of each primitive by their smallest vertex number.
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);
 
 struct SurvivalOrder {
-    Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // those that a level uses
-    Numbered<MeshVertexNumber, PyramidVertexNumber> numbers;   // back; none for those that no level uses
-    std::vector<std::uint32_t> vertexCounts;                   // of each level: the prefix that it uses
+    Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // the vertices that any level uses
+    Numbered<MeshVertexNumber, PyramidVertexNumber> numbers;   // inverse of `vertices`; invalid for unused vertices
+    std::vector<std::uint32_t> vertexCounts;                   // for each level, the length of the prefix that it uses
 };
 
-// Sorts vertices by the coarsest level that uses their position, and within by first use in that level; vertices at one
-// position stay together. `levels` has the finest first.
+// Sorts vertices by the coarsest level that uses their position, then by first use in that level. Vertices at the same
+// position stay adjacent. `levels` starts with the finest.
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions);
 

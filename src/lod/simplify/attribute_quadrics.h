@@ -1,5 +1,5 @@
 #pragma once
-// The attribute quadrics of all wedges of a mesh, in one of two forms with the same functions.
+// Attribute quadrics of all wedges of a mesh: a dense and a sparse representation with the same interface.
 
 #include <array>
 #include <cstddef>
@@ -26,12 +26,12 @@ public:
     [[nodiscard]] float costInPlace(WedgeNumber w) const { return all_[w.value].squares.c; }
     // Adds the quadric of a face at the wedge.
     void addFace(WedgeNumber w, const AttributeQuadric<n>& face) { all_[w.value].addFaces(face); }
-    // Moves what `from` has to `to`, to which `step` and `change` lead.
+    // Moves the quadric of `from` to `to`. `step` and `change` lead from `from` to `to` in position and attributes.
     void move(WedgeNumber from, WedgeNumber to, const glm::vec3& step, const AttributeRow<n>& change) {
         all_[to.value].add(all_[from.value], step, change);
         all_[from.value] = {};
     }
-    // Keeps those that are named, in this order (ascending).
+    // Keeps only the wedges in `order` (ascending) and renumbers them.
     void keep(std::span<const WedgeNumber> order) {
         for (std::size_t i = 0; i < order.size(); ++i) all_[i] = all_[order[i].value];
         all_.resize(order.size());
@@ -47,14 +47,14 @@ private:
     LargeVector<AttributeQuadric<n>> all_;
 };
 
-// For meshes most of whose faces have the same attributes all over, as flat-shaded ones do. The quadrics of such faces
-// don't depend on the place: they need a quarter of the memory of others, and so do their sums.
+// For meshes with mostly constant attributes per face, such as flat-shaded meshes. The quadric of such a face does not
+// depend on position. It and sums of such quadrics need a quarter of the memory.
 template <std::size_t n>
 class SparseQuadrics {
 public:
     static constexpr std::size_t attributes = n;
 
-    // `changing`: of each wedge, whether it is on a face over which attributes change.
+    // `changing`: for each wedge, whether attributes vary over any of its faces.
     explicit SparseQuadrics(const std::vector<bool>& changing) : even_(changing.size()) {
         changesOf_.reserve(changing.size());
         std::uint32_t count = 0;
@@ -114,7 +114,7 @@ public:
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    struct Even {  // what doesn't depend on the place
+    struct Even {  // the part that does not depend on position
         float c = 0;
         float weight = 0;
         AttributeRow<n> offset{};
@@ -130,7 +130,7 @@ private:
     }
 
     LargeVector<Even> even_;
-    LargeVector<std::uint32_t> changesOf_;  // into changes_; none: it is zero
+    LargeVector<std::uint32_t> changesOf_;  // index into changes_; `none`: the varying part is zero
     LargeVector<Changes> changes_;
 };
 

@@ -1,4 +1,4 @@
-// What a collapse does to faces, wedges and quadrics; applying it, and clearing away what collapses leave.
+// Judges the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
 
 #include "lod/simplify/collapse.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double minTurnCosine = 0.2588;  // 75°
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// How the face with the corners a, b and c takes a moving to `target`.
+// Judges the face with corners a, b and c when a moves to `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);
@@ -29,19 +29,18 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     const auto edges = [&](const glm::dvec3& p) {
         return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
     };
-    // Quality is an area over squared edges; all sides squared, as roots are dear.
+    // Quality is area divided by squared edges. Compare squares to avoid square roots.
     const double edgesAfter = edges(target);
     if (!(squareAfter < sliverQuality * sliverQuality * edgesAfter * edgesAfter)) return Fit::good;
     const double edgesBefore = edges(a);
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// Texture space may be this much denser than on the mesh's average before a step through it counts as a jump over a
-// seam.
+// A step through texture space is a jump over a seam if it is longer than this multiple of the mesh's average texture
+// scale.
 constexpr double longestUvStep = 4;
 
-// One side of the edge that collapses: its face (or none) and the wedges of the vertex that goes and the one that
-// stays.
+// One side of the collapsing edge: its face (if any), and the wedges of the removed and of the surviving vertex.
 struct EdgeSide {
     FaceHandle face = FaceHandle();
     WedgeNumber from;
@@ -51,7 +50,7 @@ struct EdgeSide {
 struct Sides {
     const SurfaceMesh& mesh;
     VertexHandle survivor;
-    double longestStep = 0;  // in texture space, squared; more is a jump
+    double longestStep = 0;  // squared, in texture space; longer steps are jumps
     EdgeSide both[2];
 
     [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {
@@ -71,8 +70,8 @@ Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
     return sides;
 }
 
-// The wedge of the survivor that is most like `wedge`, among those that `admitted(face, wedge)` lets in; none if there
-// is none.
+// Returns the survivor's wedge that is most similar to `wedge`, among those for which admitted(face, wedge) is true;
+// else invalid.
 template <typename Admitted>
 WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
     WedgeNumber nearest;
@@ -98,11 +97,11 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // The survivor's wedges across the edge in the corner's chart. `exact` is on the same side of every crease as well.
+    // The survivor's wedge across the edge in the corner's chart. `exact` is also on the same side of every crease.
     WedgeNumber across;
     WedgeNumber exact;
-    bool torn = false;     // a seam lies across the edge at the survivor
-    bool creased = false;  // a crease does
+    bool torn = false;     // a seam crosses the edge at the survivor
+    bool creased = false;  // a crease crosses the edge at the survivor
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
         if (!wedges.sameChart(side.from, wedge)) continue;
@@ -120,8 +119,8 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
         return {nearestWedge(sides, wedge, inChart), Fit::good};
     }
 
-    // A seam ends here (it lies across the edge) or begins (the corner's chart isn't at the edge): take what is most
-    // similar, if it is near enough in texture.
+    // A seam ends at the survivor or starts at the removed vertex. Use the most similar wedge if it is near enough in
+    // texture space.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);
@@ -132,17 +131,17 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     return {nearestWedge(sides, wedge, [](FaceHandle, WedgeNumber) { return true; }), Fit::bad};
 }
 
-// Squared edge length that weighs as much as a squared distance: decides on flat ground, where it favours even
-// triangles.
+// Weight of the squared edge length relative to squared distances. It decides on flat regions, where it favours
+// well-shaped triangles.
 constexpr float edgeWeight = 1e-4f;
 
-// OpenMesh's collapse walks around all four vertices of the edge's faces in search of a border. Around the middle of a
-// fan that would take the square of its faces.
+// Max number of spokes around the edge. OpenMesh's collapse searches for borders around all four vertices of the edge's
+// faces. For the hub of a fan, this would take time quadratic in the number of faces.
 constexpr std::size_t maxSpokes = 8192;
 
-// Whether the half-edge is one of three around a hole. OpenMesh allows a collapse along it where two corners of the
-// hole are joined by a second edge, but it would close the hole and leave a half-edge without a wedge, or a face with
-// two corners.
+// Returns whether the half-edge borders a triangular hole. OpenMesh allows a collapse along it if a second edge joins
+// two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face with two
+// corners.
 bool isAtHoleOfThree(const SurfaceMesh& surface, HalfedgeHandle e) {
     const HalfedgeHandle second = surface.next_halfedge_handle(e);
     return surface.is_boundary(e) && surface.next_halfedge_handle(surface.next_halfedge_handle(second)) == e;
@@ -193,7 +192,7 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
         if (surface.to_vertex_handle(spoke) == to) ++edgesBetween;
     });
     if (edgesBetween != 1) return false;
-    // A tetrahedron, or a tip like one's.
+    // Reject the collapse of a tetrahedron, or of a tip that consists of three faces like one of a tetrahedron.
     const bool inside = !surface.is_boundary(from) && !surface.is_boundary(to);
     return !(inside && valence == 3 && surface.valence(to) == 3);
 }
@@ -209,7 +208,7 @@ Fit ShapeModule::judge(HalfedgeHandle along) {
     const glm::dvec3 target = surface.place(surface.to_vertex_handle(along));
     forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
         const FaceHandle face = surface.face_handle(spoke);
-        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // it is priced anew after a collapse
+        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // its candidate is updated next
         if (worst == Fit::bad || !face.is_valid()) return;
         if (face == surface.face_handle(along) || face == surface.face_handle(back)) return;
         const glm::dvec3 b = surface.place(surface.to_vertex_handle(spoke));
@@ -257,7 +256,7 @@ Fit WedgeModule::judge(HalfedgeHandle along) {
     const Sides sides = sidesOf(surface, along);
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid()) continue;
-        surface.wedges.prefetch(side.from);  // the collapse that may follow adds them up
+        surface.wedges.prefetch(side.from);  // needed by moveQuadric() if the collapse is performed
         surface.wedges.prefetch(side.to);
     }
     Fit worst = Fit::good;
@@ -302,7 +301,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
     if (!(sum < max)) return sum;
 
-    // Attributes on either side of the edge, once where they are the same.
+    // Attribute costs on both sides of the edge; equal pairs of wedges count once.
     WedgeNumber leftFrom, leftTo;
     if (!surface.is_boundary(along)) {
         leftFrom = surface.wedge(along);
@@ -317,7 +316,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
 }
 
 Candidate QuadricModule::cheapest(VertexHandle v) {
-    // Ask for everything before the first is needed: collapses come from all over the mesh.
+    // Prefetch all data first, because successive collapses are scattered over the mesh.
     const SurfaceMesh& surface = mesh();
     spokes_.clear();
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {

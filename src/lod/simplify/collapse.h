@@ -1,6 +1,6 @@
 #pragma once
-// Judges one collapse along a half-edge: whether the surface allows it, what becomes of its wedges, and what it costs.
-// Each of the three is a module of OpenMesh's decimater.
+// Evaluates a half-edge collapse: its effect on the surface, its effect on the wedges, and its cost. Each of the three
+// is a module of OpenMesh's decimater.
 
 #include <span>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace defocus::engine {
 
-// Says which collapses the surface allows, and what they do to the faces around. The link condition is that of Dey,
-// Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction (OpenMesh's is_collapse_ok). As a
-// decimater module, it lets collapses through that are neither impossible nor bad.
+// Decides which collapses the surface allows, and judges their effect on surrounding faces. The link condition is
+// OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
+// decimater module, it accepts good and poor collapses.
 class ShapeModule final : public CollapseModule {
 public:
     explicit ShapeModule(SurfaceMesh& surface);
@@ -20,73 +20,73 @@ public:
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
 
-    // Returns whether the collapse keeps the topology: OpenMesh's conditions hold, no second edge joins the two
-    // vertices, and no two faces are left back to back.
+    // Returns whether the collapse preserves the topology: OpenMesh's conditions hold, only one edge joins the two
+    // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
-    // Judges what the collapse does to the faces that stay, and doesn't look at the topology. Poor: it makes a sliver,
-    // or draws the surface away from its border. Bad: it turns a face's normal by more than 75°, or leaves a face no
-    // area. Impossible: one of the vertices around the edge has more than 8,192 spokes.
+    // Judges the effect of the collapse on the remaining faces, without the topology. Poor: it makes a sliver, or pulls
+    // the surface away from its border. Bad: it turns a face's normal by more than 75° or makes a face degenerate.
+    // Impossible: one of the vertices around the edge has more than 8,192 spokes.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
 
 private:
     [[nodiscard]] bool besideHub(HalfedgeHandle along);
 
-    std::vector<VertexHandle> hubs_;  // with so many spokes that no edge of their faces collapses
+    std::vector<VertexHandle> hubs_;  // vertices with too many spokes; no edge of their faces may collapse
 };
 
-// A corner of a face that stays, and the wedge of the survivor that it takes over.
+// A corner of a remaining face, and the survivor's wedge that it receives.
 struct Handover {
     HalfedgeHandle corner;
     WedgeNumber wedge;
 };
 
-// How a half-edge collapse hands wedges over (Hoppe 1998, Efficient Implementation of Progressive Meshes): each corner
-// of the vertex that goes takes over a wedge of the survivor. As a decimater module, it lets collapses through that
-// aren't bad.
+// Transfers wedges in a half-edge collapse (Hoppe 1998, Efficient Implementation of Progressive Meshes). Each remaining
+// corner of the removed vertex receives a wedge of the survivor. As a decimater module, it accepts good and poor
+// collapses.
 class WedgeModule final : public CollapseModule {
 public:
     explicit WedgeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {}
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Gives each corner its new wedge, and the new wedges what the quadrics of the old ones hold.
+    // Assigns each corner its new wedge, and adds the quadrics of the old wedges to those of the new ones.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // In the face beyond an edge that went, a half-edge of the removed face takes the place of the one that went. It
-    // gets that one's wedge.
+    // OpenMesh replaces a half-edge beside the removed face by a half-edge of that face. Copies the wedge to the
+    // replacement.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Picks a wedge of the survivor for every corner of the vertex that goes whose face stays: the one across the edge
-    // on the same side of any seam, else the most similar of its primitive.
-    //   poor: its texture would be stretched (a seam would be left); bad: it belongs to another primitive.
+    // Selects a survivor's wedge for every remaining corner of the removed vertex. Preferred is the wedge across the
+    // edge on the same side of any seam, then the most similar wedge of the same primitive.
+    //   poor: the texture would be stretched across a seam; bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
-    // Returns the wedges picked by the last judge(); empty once they have been handed over.
+    // Returns the wedges selected by the last judge(); empty after the collapse.
     [[nodiscard]] std::span<const Handover> handovers() const { return handovers_; }
 
 private:
     std::vector<Handover> handovers_;
-    HalfedgeHandle judged_;  // the half-edge that `handovers_` belong to
+    HalfedgeHandle judged_;  // the half-edge that `handovers_` belongs to
 };
 
-// Computes what a collapse costs: the quadric errors that both vertices have at the survivor, of places (Garland and
-// Heckbert 1997) and of attributes (Hoppe 1999), plus a little for the length of the edge. As a decimater module, it
-// has the cost as priority.
+// Computes the cost of a collapse: the quadric errors of both vertices at the survivor, plus a small term for edge
+// length. They consist of position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As a decimater
+// module, it returns the cost as priority.
 class QuadricModule final : public CollapseModule {
 public:
     explicit QuadricModule(SurfaceMesh& surface) : CollapseModule(surface, false) {}
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Adds the place quadric of the vertex that is gone to the survivor's. The wedges' go with WedgeModule.
+    // Adds the position quadric of the removed vertex to that of the survivor. WedgeModule moves the wedges' quadrics.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Returns the cost of collapsing along a half-edge, ≥ 0. If the cost is `most` or more, the result may be any value
-    // from `most` to the cost.
+    // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, any value from `max` to the cost
+    // may be returned.
     [[nodiscard]] float cost(HalfedgeHandle along, float max);
-    // Returns the vertex's cheapest collapse, whether it is allowed or not; of equally cheap ones, the first.
+    // Returns the vertex's cheapest collapse, allowed or not; the first in case of a tie.
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:
-    std::vector<HalfedgeHandle> spokes_;  // scratch of cheapest()
+    std::vector<HalfedgeHandle> spokes_;  // temporary storage of cheapest()
 };
 
 // The modules that judge and price each collapse of a surface, and update its wedges and quadrics.

@@ -1,7 +1,7 @@
 #pragma once
-// The vertices that wait for their collapse, the best first: no bad one before the others, then by cost, then by
-// number. A heap of four children a node in which every vertex has at most one place (Johnson 1975, Priority Queues
-// with Update and Finding Minimum Spanning Trees).
+// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by number. A 4-ary heap with
+// update, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum
+// Spanning Trees).
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 class CollapseQueue {
 public:
-    // Empties the queue, for vertices whose numbers are below `vertexCount`.
+    // Empties the queue and prepares it for vertex numbers below `vertexCount`.
     void reset(std::size_t vertexCount) {
         heap_.clear();
         places_.assign(vertexCount, absent);
@@ -22,7 +22,7 @@ public:
 
     [[nodiscard]] bool empty() const { return heap_.empty(); }
 
-    // Makes the vertex wait with this cost (≥ 0), whether it did before or not.
+    // Inserts the vertex with this cost (≥ 0), or updates its cost.
     void put(VertexHandle vertex, float cost, bool bad) {
         const std::uint64_t bits = std::bit_cast<std::uint32_t>(std::max(0.0f, cost));
         const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | numberOf(vertex);
@@ -38,7 +38,7 @@ public:
         }
     }
 
-    // Makes the vertex wait no more, if it did.
+    // Removes the vertex, if present.
     void take(VertexHandle vertex) {
         const std::uint32_t place = places_[numberOf(vertex)];
         if (place == absent) return;
@@ -52,7 +52,7 @@ public:
             sink(place, last);
     }
 
-    // The vertex whose turn is next; the queue must not be empty.
+    // Returns the vertex with the lowest cost; the queue must not be empty.
     [[nodiscard]] VertexHandle best() const { return VertexHandle(static_cast<int>(heap_.front() & 0xffffffffu)); }
     VertexHandle takeBest() {
         const VertexHandle vertex = best();
@@ -96,8 +96,9 @@ private:
         set(place, key);
     }
 
-    std::vector<std::uint64_t> heap_;    // bad (1 bit), bits of the cost (31; they are ordered as it is), vertex
-    std::vector<std::uint32_t> places_;  // of each vertex in the heap
+    // Key: bad (1 bit), cost as float bits (31, which sort like the cost), vertex number (32).
+    std::vector<std::uint64_t> heap_;
+    std::vector<std::uint32_t> places_;  // position of each vertex in the heap
 };
 
 }  // namespace defocus::engine

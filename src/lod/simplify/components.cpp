@@ -1,6 +1,7 @@
-// Parts of a mesh that touch nothing else: stones of a heap, leaves of a tree. Each can become no smaller than a
-// tetrahedron or a triangle; from there on whole ones go, the smallest first, and their neighbours grow so that as much
-// surface is seen as before (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of Aggregate Detail).
+// Components of a mesh that touch no other part, such as stones of a heap or leaves of a tree. Collapses cannot
+// simplify a component beyond a tetrahedron or a triangle. Then complete components are removed, the smallest first.
+// Their neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of
+// Aggregate Detail).
 
 #include <algorithm>
 #include <array>
@@ -18,12 +19,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double largestRatio = 1.2;      // of sizes that count as equal when the smallest go first
-constexpr double maxEnlargement = 4;      // a neighbour this many times as large stands in for nothing: it would swell
-constexpr double manyShare = 0.25;        // of the faces
-constexpr std::uint32_t fewestFaces = 4;  // of what collapses can't make smaller: a tetrahedron
+constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
+constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
+constexpr double manyShare = 0.25;        // fraction of the faces
+constexpr std::uint32_t fewestFaces = 4;  // min faces that collapses can reach: a tetrahedron
 
-// Which vertices hang together: a forest of their numbers (union-find).
+// Disjoint sets of vertices (union-find).
 class Forest {
 public:
     explicit Forest(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
@@ -59,11 +60,11 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
     return forest;
 }
 
-// Joined by faces, collapses or an equal position.
+// Joins vertices that are connected by faces, by collapses or by an equal position.
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
-    // Cuts of the manifold leave several vertices at one position.
+    // Cutting non-manifold edges creates several vertices at one position.
     const Numbered<SurfaceVertexNumber, PositionNumber>& places = s.origin->places;
     const std::size_t placeCount = places.empty() ? 0 : 1 + indexOf(*std::max_element(places.begin(), places.end()));
     Numbered<PositionNumber, VertexHandle> seen(placeCount);
@@ -81,7 +82,7 @@ double areaOf(const Vertices& vertices, std::span<const MeshVertexNumber, 3> cor
     return std::isfinite(area) ? area : 0;
 }
 
-// Measures all that the mesh had of the components, whatever is left.
+// Measures the components in the original mesh, regardless of collapses.
 void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles) {
     const Vertices& vertices = s.origin->vertices;
     const Numbered<MeshVertexNumber, SurfaceVertexNumber>& firstVertex = s.origin->firstVertex;
@@ -105,7 +106,7 @@ void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& trian
     for (const Component& component : s.components) s.area += component.area;
 }
 
-// Counts what lives of the components.
+// Counts the remaining faces and collapses of the components.
 void countComponents(Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     forEachFace(mesh, [&](FaceHandle face) { ++s.componentAt(firstVertexOf(mesh, face)).faces; });
@@ -117,14 +118,14 @@ void countComponents(Simplifier& s) {
     });
 }
 
-// A component that may go.
+// A component that may be removed.
 struct Removable {
     ComponentNumber component;
-    std::size_t size = 0;  // class; grows
+    std::size_t size = 0;  // size class, in ascending order
     std::vector<FaceHandle> faces;
 };
 
-// The components that may go, smallest first: all but the largest and those that collapses can still make smaller.
+// Returns the removable components, smallest first: all except the largest and those that collapses can still simplify.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());
@@ -151,7 +152,7 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
-        // Spread equal sizes over the mesh, whatever order they come in.
+        // Shuffle components of equal size, so that removals are spread over the mesh independent of their order.
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
             return lowbias32(a.component.value) < lowbias32(b.component.value);
         });
@@ -162,12 +163,12 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     return removable;
 }
 
-// The vertex across the half-edge from its face; invalid at a border.
+// Returns the vertex opposite to the half-edge in the adjacent face; invalid at a border.
 VertexHandle vertexBeyond(const SurfaceMesh& mesh, HalfedgeHandle halfedge) {
     return mesh.opposite_he_opposite_vh(halfedge);
 }
 
-// Is the face a triangle of its own, or one of a tetrahedron?
+// Returns whether the face is an isolated triangle or belongs to a tetrahedron.
 bool isSmallest(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corners = cornersOf(mesh, face);
     const VertexHandle apex = vertexBeyond(mesh, corners.at[0]);
@@ -195,18 +196,18 @@ void removeComponent(Simplifier& s, const Removable& removable) {
     component.removed = true;
 }
 
-// The centres of components, to find the nearest of those that serve. nanoflann's k-d tree takes two thirds of the time
-// that a tree of our own (the middle of each range parts it) took for 50,000 of them.
+// k-d tree of component centres for nearest-neighbour queries with a condition. For 50,000 centres, nanoflann takes two
+// thirds of the time of a simple median-split tree.
 class CentreTree {
 public:
-    // Holds the components that are not removed now. Keeps a reference to `components`.
+    // Contains the components that are not removed at construction. Keeps a reference to `components`.
     explicit CentreTree(const Numbered<ComponentNumber, Component>& components)
         : centres_(components), tree_(3, centres_) {}
     CentreTree(const CentreTree&) = delete;
     CentreTree& operator=(const CentreTree&) = delete;
 
-    // The nearest component that counts(component), or an invalid number; `point` in the units of the centres. The
-    // search gives up after mostVisits, so that it may miss one among many that don't count.
+    // Returns the nearest component for which counts(component) is true; else invalid. `point` is in object units. The
+    // search ends after maxVisits, so that it may miss a component if many others fail the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -217,7 +218,7 @@ public:
 private:
     static constexpr std::uint32_t maxVisits = 4096;
 
-    // The points, as nanoflann reads them.
+    // Adapter that gives nanoflann access to the points.
     struct Centres {
         const Numbered<ComponentNumber, Component>& components;
         std::vector<ComponentNumber> numbers;
@@ -232,11 +233,11 @@ private:
         }
         template <typename Box>
         bool kdtree_get_bbox(Box&) const {
-            return false;  // nanoflann finds it
+            return false;  // nanoflann computes the bounding box
         }
     };
 
-    // What nanoflann hands the points that are nearer than the best to.
+    // Result set of a nanoflann search: receives the points that are closer than the best one.
     template <typename Counts>
     struct Search {
         const std::vector<ComponentNumber>& numbers;
@@ -249,7 +250,7 @@ private:
             : numbers(numbered), counts(counted) {}
         [[nodiscard]] double worstDist() const { return minSquared; }
         [[nodiscard]] bool full() const { return best.isValid(); }
-        // False ends the search.
+        // Returns false to end the search.
         bool addPoint(double squared, std::size_t i) {
             if (squared < minSquared && counts(numbers[i])) {
                 minSquared = squared;
@@ -287,7 +288,7 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());  // of the roots
+    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());  // of the root vertices
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];
         if (number.isValid()) return;
@@ -324,8 +325,8 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // A class of sizes after the other. What has taken another's place stays until all of its class have had their
-    // turn, so that they thin out evenly.
+    // Process one size class after another. A component that has replaced another stays until every component of its
+    // class has been considered. Removals are therefore spread evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

@@ -11,10 +11,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // of the box's diagonal; levels may stand out a little
+constexpr double gridMargin = 1.04;  // relative to the box's diagonal; levels may protrude slightly
 
-// The first cell whose middle lies at or after `place`, of cells whose middles are 0, 1, …; at most `end`; 0 if
-// `place` is no number.
+// Returns the first cell whose centre is at or after `place`, at most `end`, where cell centres are 0, 1, …. Returns 0
+// for NaN.
 template <typename T>
 int firstAt(T place, int end) {
     const T bounded = std::min(std::max(T{0}, place), static_cast<T>(end));
@@ -22,7 +22,7 @@ int firstAt(T place, int end) {
     return whole + (static_cast<T>(whole) < bounded ? 1 : 0);
 }
 
-// Bits from `low` up to, but not including, `high`.
+// Returns a mask of the bits [low, high).
 std::uint64_t bitsBetween(int low, int high) {
     return (~std::uint64_t{0} >> (wordBits - (high - low))) << low;
 }
@@ -35,7 +35,7 @@ std::int64_t fixedPoint(double value) {
     return static_cast<std::int64_t>(std::clamp(value, -farthest, farthest) * static_cast<double>(almostOne + 1));
 }
 
-// Where a line crosses rows; the same for both triangles at an edge.
+// Intersections of a triangle side with rows. Both triangles at an edge compute exactly the same intersections.
 struct Side {
     float x, y, slope;
 
@@ -75,7 +75,7 @@ double CoverGrid::area() const {
 
 void CoverGrid::add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     if (resolution_ == 0) return;
-    std::vector<glm::vec2> cells;  // as if their middles were 0, 1, …
+    std::vector<glm::vec2> cells;  // cell centres at 0, 1, …
     cells.reserve(positions.size());
     for (const glm::vec3& position : positions) cells.emplace_back(cellsOf(position) - 0.5);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
@@ -95,7 +95,7 @@ void CoverGrid::mark(int row, int first, int end) {
     }
 }
 
-// Of a few columns only: false where they are in more than one word.
+// Returns whether all these cells are marked. Returns false if the columns span more than one word.
 bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
     const int word = first / wordBits;
     if ((end - 1) / wordBits != word) return false;
@@ -106,7 +106,7 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Most triangles of a fine mesh lie between the middles, or on what is covered.
+    // Most triangles of a fine mesh lie between cell centres or on cells that are already covered.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;
@@ -149,7 +149,7 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
-    // Fixed point, as it goes on by the same step from row to row.
+    // Fixed point, so that repeated addition of the same step causes no drift.
     const double slope = (high.x - low.x) / (high.y - low.y);
     std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
     const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;

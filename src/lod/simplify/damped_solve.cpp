@@ -8,7 +8,7 @@ std::vector<double> dampedSolution(std::span<const double> matrix, std::span<con
     const auto n = static_cast<Eigen::Index>(b.size());
     std::vector<double> x(b.begin(), b.end());
     Eigen::Map<Eigen::VectorXd> solution(x.data(), n);
-    // Rows from below the diagonal are Eigen's columns from above it.
+    // The lower triangle in row-major order is the upper triangle in Eigen's column-major order.
     Eigen::MatrixXd damped = Eigen::Map<const Eigen::MatrixXd>(matrix.data(), n, n);
     const double trace = damped.trace();
     damped.diagonal().array() += damping * trace / static_cast<double>(n);

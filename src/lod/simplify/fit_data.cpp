@@ -12,11 +12,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Bounds of a vertex's area, in means of all: they keep the equations well conditioned.
+// Bounds of a vertex's area relative to the mean. They keep the equations well-conditioned.
 constexpr double minArea = 1e-3;
 constexpr double largestArea = 1e3;
 
-// Groups of those of `count` vertices that have the same key, below `keyCount`, and the same values.
+// Groups the vertices 0 … `count` − 1 with equal keys and equal values. Keys are below `keyCount`.
 template <typename Key, typename KeyOf, typename ValuesOf>
 VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& keyOf, const ValuesOf& valuesOf) {
     struct Member {
@@ -37,7 +37,7 @@ VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& k
             member.vertex = v;
             const std::array<float, 4> values = valuesOf(v);
             for (std::size_t i = 0; i < 4; ++i)
-                member.values[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // −0 is 0
+                member.values[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // −0 becomes 0
         }
         std::sort(members.begin(), members.end());
         for (std::size_t i = 1; i < members.size(); ++i)
@@ -46,7 +46,7 @@ VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& k
     return groups;
 }
 
-// Within the smoothing groups, vertices of one colour.
+// Splits the smoothing groups by colour.
 VertexGroups colorGroups(const VertexGroups& smoothing, const std::vector<glm::vec4>& colors) {
     if (colors.empty()) return {};
     return equalGroups<MeshVertexNumber>(
@@ -57,7 +57,7 @@ VertexGroups colorGroups(const VertexGroups& smoothing, const std::vector<glm::v
         });
 }
 
-// Vertices at one position with the same texture coordinates.
+// Groups vertices with the same position and the same texture coordinates.
 VertexGroups chartGroups(const Vertices& vertices, const WeldedPositions& positions) {
     if (vertices.uv0.empty() && vertices.uv1.empty()) return {};
     return equalGroups<PositionNumber>(
@@ -97,9 +97,9 @@ Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& posi
     return relative;
 }
 
-// A vertex whose normal stands square to its triangle's counts this much of its area.
+// Effective share of the area of a vertex whose normal is perpendicular to the normal of its anchor's triangle.
 constexpr float minForeshortening = 0.02f;
-// Normals of vertices that share an anchor and differ by more than 60° stand on two sides of an edge.
+// Vertices that share an anchor are on different sides of an edge if their normals differ by more than 60°.
 constexpr float minSharedCosine = 0.5f;
 
 }  // namespace

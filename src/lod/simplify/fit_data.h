@@ -1,6 +1,6 @@
 #pragma once
-// What the fits of a level share: what each anchor stands for, and the equations of the groups of vertices that are
-// fitted as one. Private to level_fit.cpp and texture_fit.cpp.
+// Data shared by the fits of a level: the area and normal per anchor, and the least-squares equations for groups of
+// vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// Both sets of texture coordinates; a set that the vertices don't have is 0.
+// Both sets of texture coordinates; zero for a set that the mesh lacks.
 struct Coordinates {
     glm::vec2 uv0{0};
     glm::vec2 uv1{0};
@@ -23,36 +23,36 @@ struct Coordinates {
 
 Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 
-// The vertices that an anchor stands for: its own, and those that share it.
+// Sums over the vertices that an anchor represents: the vertex that owns the anchor and the vertices that share it.
 struct Anchored {
     float area = 0;
-    glm::vec3 normal{0};  // the mean over the area
+    glm::vec3 normal{0};  // area-weighted mean
 };
 
-// One for each vertex. It means nothing for a vertex without an anchor of its own.
+// Values per vertex; undefined for a vertex without an anchor of its own.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
-    Numbered<MeshVertexNumber, glm::vec4> colors;  // their means over the area; empty without colours
+    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted means; empty without colours
 };
 
 AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors);
 
-// Returns the unit normals of a level's triangles, with their corners at `positions`, which are those of level 0's
-// vertices. A triangle without area gets zero.
+// Returns the unit normals of a level's triangles. `positions` are the positions of level 0's vertices. The normal of a
+// triangle without area is zero.
 Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
 
-// Returns how much of `area` counts: what its projection onto the anchor's triangle covers, but at least a fiftieth.
-// `normal` is the normal of the area and `face` the unit normal of the triangle. All of it counts if the anchor lies at
-// a corner or the triangle has no area.
+// Returns the effective area of an anchor: the projection of `area` onto the anchor's triangle, but at least 2 % of
+// `area`. `normal` is the normal of the area; `face` is the unit normal of the triangle. Returns the full area if the
+// anchor lies at a corner or the triangle has no area.
 float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
-// The level's vertices in groups that share a value.
+// Groups of the level's vertices that share one value.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
-    Numbered<UnknownNumber, MeshVertexNumber> sources;  // whose value each group starts from
+    Numbered<UnknownNumber, MeshVertexNumber> sources;  // for each group, the mesh vertex with its initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
-    // For each group the sum of value(vertex), from `zero` on.
+    // Returns for each group the sum of value(vertex), starting from `zero`.
     template <typename T, typename Value>
     [[nodiscard]] Numbered<UnknownNumber, T> summed(const T& zero, const Value& value) const {
         Numbered<UnknownNumber, T> sums(count(), zero);
@@ -68,8 +68,8 @@ private:
     }
 };
 
-// `leaderOf` says which of the `count` mesh vertices leads another's group. With `sidesApart`, vertices that stand
-// apart have groups of their own.
+// Groups the level's vertices by leaderOf(mesh vertex), the vertex that represents a group. `count` is the number of
+// mesh vertices. With `sidesApart`, vertices with LevelMesh::apart set form separate groups.
 template <typename LeaderOf>
 Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
     Numbered<MeshVertexNumber, UnknownNumber> numbers(count);
@@ -87,8 +87,8 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// The equations with every unknown's sums; solutions start at zero. `weight` and `value` give the sums of each of the
-// level's vertices.
+// Returns least-squares equations for the groups; the solution is initialised to zero. `weight` and `value` return the
+// sums of each vertex of the level.
 template <std::size_t channels, typename Weight, typename Value>
 LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> triangles, const Grouping& groups,
                        const Weight& weight, const Value& value) {
@@ -107,7 +107,7 @@ LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> tri
     return result;
 }
 
-// Starts each unknown from the mean of what it stands for, or from own(group, channel) if it stands for nothing.
+// Initialises each unknown to the weighted mean of its targets, or to own(group, channel) if it has none.
 template <std::size_t channels, typename Own>
 void startFromMeans(LeastSquares& fit, const Own& own) {
     for (const UnknownNumber g : fit.weights.numbers())
@@ -115,7 +115,7 @@ void startFromMeans(LeastSquares& fit, const Own& own) {
             fit.solution[g][c] = fit.weights[g] > 0 ? fit.sums[g][c] / fit.weights[g] : own(g, c);
 }
 
-// texture_fit.cpp: fills uv0 and uv1 of `fit`, if the mesh has them.
+// texture_fit.cpp: fits uv0 and uv1 of `fit`, if the mesh has them.
 void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbered<MeshVertexNumber, Anchor>& anchors,
                     LevelFit& fit);
 

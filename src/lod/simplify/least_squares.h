@@ -1,9 +1,10 @@
 #pragma once
-// Values at the corners of triangles, fitted to targets at points of them: minimises
+// Least-squares fit of values at triangle corners to targets at points on the triangles. Minimises
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
-// by conjugate gradients with Jacobi's preconditioner (Hestenes and Stiefel 1952). The normal equations are kept as one
-// matrix a triangle, so that an iteration costs what the triangles do, however many points there are. Eigen's
-// ConjugateGradient takes five times as long, which is 4 % of building the pyramids of the school of fish.
+// by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). The normal equations are stored as one
+// 3 × 3 matrix per triangle. An iteration therefore costs time per triangle, independent of the number of points.
+// Eigen's ConjugateGradient takes five times as long. This would add 4 % to building the pyramids of the school of
+// fish.
 
 #include <algorithm>
 #include <array>
@@ -22,23 +23,24 @@ using UnknownNumber = Number<struct UnknownKind>;
 using TriangleSums = std::array<float, 6>;
 
 struct LeastSquares {
-    // Up to four values at each corner, with which GCC and Clang compute at once; those not needed are 0.
+    // Up to four channels per corner, processed as one SIMD vector; unused channels are 0.
     using Row = float __attribute__((vector_size(16)));
     using Rows = Numbered<UnknownNumber, Row>;
     static constexpr std::size_t channels = 4;
 
     std::span<const TriangleSums> triangles;
     Numbered<TriangleCorner, UnknownNumber> corners;
-    Numbered<UnknownNumber, float> weights;      // Σ share·weight; 0: it keeps its start
+    Numbered<UnknownNumber, float> weights;      // Σ share·weight; 0: the unknown keeps its initial value
     Rows sums;                                   // Σ share·weight·target
-    Rows solution;                               // start, and prior; then the solution
-    Numbered<UnknownNumber, std::uint8_t> held;  // 1: it keeps its start; empty: none does
+    Rows solution;                               // input: initial value and prior; output: solution
+    Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
 
-    static constexpr int iterations = 4;  // more change nothing that can be seen
-    // Pull towards the prior, as a share of an unknown's weight: keeps those with few points from overshooting.
+    static constexpr int iterations = 4;  // further iterations cause no visible change
+    // Strength of the pull towards the prior, relative to an unknown's weight. Prevents overshoot of unknowns with few
+    // points.
     static constexpr float pull = 0.01f;
 
-    // `sums` is spent on it.
+    // Solves the system; overwrites `sums`.
     void solve() {
         inverseDiagonal_.resize(weights.size());
         for (const UnknownNumber g : weights.numbers()) inverseDiagonal_[g] = pull * weights[g];
@@ -77,7 +79,7 @@ struct LeastSquares {
 private:
     [[nodiscard]] const UnknownNumber* cornersOf(std::size_t triangle) const { return &corners.data()[3 * triangle]; }
 
-    // The normal equations' matrix times `x`.
+    // Multiplies the matrix of the normal equations by `x`.
     void apply(const Rows& x, Rows& result) const {
         for (const UnknownNumber g : x.numbers()) result[g] = pull * weights[g] * x[g];
         for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -101,7 +103,7 @@ private:
         return result;
     }
 
-    Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 for 0
+    Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 where the diagonal is 0
 };
 
 }  // namespace defocus::engine

@@ -15,16 +15,16 @@ namespace defocus::engine {
 
 namespace {
 
-// Normals that agree less have none that could stand for them.
+// Lower bound of the agreement: normals that differ more have no meaningful mean.
 constexpr float minAgreement = 0.125f;
 
-// What the anchors give the vertices of the level: sums of share · weight, and of that times their own values.
+// Sums over the anchors at each level vertex: share · weight, and share · weight · value.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // from the point of the level to the vertex that lies there
+    Numbered<LevelVertexNumber, Three> gaps;  // from the anchor's point on the level to the original vertex
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>
@@ -57,8 +57,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
         const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
 
-        // Displacements are fitted rather than positions: they are small, so that single precision does far from the
-        // origin too.
+        // Fit displacements instead of positions. They are small, so that single precision suffices far from the
+        // origin.
         glm::dvec3 onLevel(0);
         for (std::size_t k = 0; k < 3; ++k)
             onLevel += double{w[k]} * glm::dvec3(vertices.positions[level.sources[corner[k]].value]);
@@ -81,7 +81,7 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Spends the gaps.
+// Returns fitted positions; clears the gaps in `sums`.
 Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level, AnchorSums& sums) {
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
@@ -108,7 +108,7 @@ Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, con
     return positions;
 }
 
-// Of the triangles around each group, weighed by their areas; zero where there are none.
+// Returns the area-weighted sum of triangle normals around each group; zero if there are no triangles.
 Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber, glm::vec3>& positions,
                                                 const LevelMesh& level, const Grouping& groups) {
     Numbered<UnknownNumber, glm::dvec3> sums(groups.count(), glm::dvec3(0));
@@ -120,8 +120,8 @@ Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber
     return sums;
 }
 
-// For each group, the mean cosine between the mesh's normals and what the level interpolates from `normals`. Curvature
-// that the level still has costs nothing, only what it has lost does.
+// Returns for each group the mean cosine between the normals of the mesh and the interpolated `normals`. Only detail
+// that the level has lost lowers it; curvature that the level still shows does not.
 Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMesh& level,
                                           const Numbered<MeshVertexNumber, Anchor>& anchors, const Grouping& groups,
                                           const Numbered<UnknownNumber, glm::vec3>& normals) {
@@ -147,13 +147,13 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     }
     Numbered<UnknownNumber, float> result(groups.count(), 1);
     for (const UnknownNumber g : result.numbers()) {
-        const double mean = cosines[g] / weights[g];  // no number where nothing counts
+        const double mean = cosines[g] / weights[g];  // NaN for groups without weight
         if (std::isfinite(mean)) result[g] = std::clamp(static_cast<float>(mean), minAgreement, 1.0f);
     }
     return result;
 }
 
-// As vectors: their means are shorter than 1 where normals differ. Spends the sums of normals.
+// Fits normals as vectors, so that their means are shorter than 1 where normals differ. Clears the normals in `sums`.
 LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, const Grouping& groups,
                                AnchorSums& sums) {
     const std::vector<glm::vec3>& own = source.vertices.normals;
@@ -165,8 +165,8 @@ LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, 
     return std::move(fit.solution);
 }
 
-// A fit that is no normal of the triangles around it, with their corners at `positions`, is replaced by theirs, of
-// length 1.
+// Fits normals. A fitted normal that contradicts the surrounding triangles at `positions` is replaced by their unit
+// normal.
 Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
                                                   const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
                                                   const Numbered<LevelVertexNumber, glm::vec3>& positions) {
@@ -217,12 +217,12 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     return fitted;
 }
 
-// A component of a level and how it is scaled.
+// A component of a level and its scaling.
 struct Grown {
     double area = 0;
     Bounds box;
     double factor = 1;
-    glm::dvec3 shift{0};  // back into level 0's box
+    glm::dvec3 shift{0};  // moves it back into level 0's bounding box
 
     [[nodiscard]] glm::dvec3 place(const glm::dvec3& p, const glm::dvec3& centre) const {
         return centre + factor * (p - centre) + shift;
@@ -240,8 +240,7 @@ void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
                   glm::min(glm::dvec3(0), limits.maximum - grown.place(grown.box.maximum, growth.centre));
 }
 
-// Scales those of the level's components that have less area than they are to stand for. The result stays within
-// `limits`.
+// Enlarges the components with less area than required by LevelMesh::growths. The result stays inside `limits`.
 void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const LevelMesh& level, const Bounds& limits) {
     if (level.growthsOf.empty()) return;
     Numbered<ComponentNumber, Grown> grown(level.growths.size());
@@ -262,7 +261,7 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
-// Levels of more triangles cover what level 0 does, and are as bright, without help.
+// Max triangle count for which outline and light are corrected. Finer levels match level 0 without correction.
 constexpr std::size_t maxConservedTriangles = 16'384;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {

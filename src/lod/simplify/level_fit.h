@@ -1,9 +1,9 @@
 #pragma once
-// Fits positions, normals, colours and texture coordinates for a coarser level. The values that its vertices happen to
-// have pick up single spots of a pattern and single bumps of a relief, and a level whose vertices all lie on a bulging
-// surface is too small for it. Instead what the level interpolates linearly is fitted to all vertices of level 0, in
-// the sense of least squares (as Hoppe et al. 1993, Mesh Optimization, fit positions; Jacobi-preconditioned conjugate
-// gradients, Hestenes and Stiefel 1952).
+// Fits positions, normals, colours and texture coordinates of a coarser level. The original values of the remaining
+// vertices would preserve single spots of a pattern and single bumps of a relief. A level with vertices on a convex
+// surface would also be too small. Therefore, the linear interpolation over the level is fitted to all vertices of
+// level 0 by least squares. Positions are fitted in this way by Hoppe et al. 1993, Mesh Optimization. Solved with
+// Jacobi-preconditioned conjugate gradients (Hestenes and Stiefel 1952).
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,44 +19,47 @@
 
 namespace defocus::engine {
 
-// What all levels of a mesh are fitted to: its vertices, what they share with each other, and what the levels keep of
-// the whole surface.
+// Data of level 0 that all levels are fitted to: vertices, groups of vertices with common values, and properties to
+// conserve.
 struct FitSource {
     const Vertices& vertices;
     const WeldedPositions& positions;
-    const VertexGroups& smoothing;                   // vertices of one group share a normal
-    VertexGroups shades;                             // those of one group share a colour; empty without colours
-    VertexGroups charts;                             // those of one group share texture coordinates; empty without
-    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other coordinates; empty without
-    Numbered<MeshVertexNumber, float> areas;  // the share of level 0's surface that each vertex stands for, mean 1
-    Bounds bounds;                            // of level 0's triangles
-    // Level 0's values of what the levels keep; see conserve().
+    const VertexGroups& smoothing;  // vertices in one group share a normal
+    VertexGroups shades;            // vertices in one group share a colour; empty without colours
+    // Vertices in one group share texture coordinates; empty without texture coordinates.
+    VertexGroups charts;
+    // 1: another vertex at the same position has different texture coordinates; empty without texture coordinates.
+    Numbered<MeshVertexNumber, std::uint8_t> seams;
+    Numbered<MeshVertexNumber, float> areas;  // share of level 0's area that each vertex represents; mean 1
+    Bounds bounds;                            // bounding box of level 0's triangles
+    // Values of level 0 that conserve() preserves.
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
     LightMeans light{};
 };
 
-// Prepares the fit; `triangles` are level 0's. It keeps references to the other three.
+// Prepares the fit. `triangles` are those of level 0. Keeps references to the other arguments.
 FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
-// Where a vertex of level 0 lies on a coarser level: a point of one of its triangles, as a weighted mean of the
-// corners. Weights of 0 leave the vertex out of the fit.
+// Position of a level 0 vertex on a coarser level: a point of a triangle, in barycentric coordinates. If all weights
+// are 0, the vertex has no anchor of its own.
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
-    // Of a vertex that has no anchor of its own: its area, colour and normal count at the anchor of `near`.
+    // Returns the anchor of a vertex without its own anchor. Its area, colour and normal are added to the anchor of
+    // `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
-    // The vertex whose anchor this one shares; invalid if there is none.
+    // Returns the vertex whose anchor is shared; invalid if there is none.
     [[nodiscard]] MeshVertexNumber shared() const {
         return isUnused() ? MeshVertexNumber{triangle.value} : MeshVertexNumber{};
     }
 };
 
-// Says how a component of a level grows once it is fitted. It is scaled about `centre` until it has `area`, which is
-// what the mesh had of it and of those that it stands in for. It never shrinks, and grows by `mostFactor` at most.
+// Growth of a component after fitting. The component is scaled about `centre` until it has `area`. This is its original
+// area plus that of the components that it replaces. The scale is in [1, `maxFactor`].
 struct Growth {
     glm::dvec3 centre{0};  // object units
     double area = 0;       // object units squared
@@ -65,34 +68,34 @@ struct Growth {
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // the vertex whose values each one has; never a twin
-    // 1: the vertex lies on the other side of a thin sheet than the others at its place. It shares its normal and
-    // colour only with others that are apart.
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a twin
+    // 1: the vertex belongs to the back of a thin sheet, where the other vertices at its position belong to the front.
+    // It shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
-    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // empty without any
+    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if there are no growths
 };
 
-// The values of each vertex of a LevelMesh.
+// Fitted attributes of each vertex of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
     Numbered<LevelVertexNumber, glm::vec3>
-        normals;  // of length ≤ 1: the shorter, the more the normals that it stands for differ
+        normals;  // length ≤ 1; the shorter a normal is, the more the normals that it stands for differ
     Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// Fits a level. Each vertex of the mesh counts by its area, foreshortened on its anchor's
-// triangle; vertices that no anchor names keep the values they have from the mesh. The fit turns no triangle by more
-// than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
-// agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
+// Fits a level. Each mesh vertex is weighted by its area, foreshortened on the triangle of its anchor. Level vertices
+// without any anchor on their triangles keep their original values. No triangle turns by more than 60°, and all stay
+// inside level 0's bounding box. Vertices at the same position stay together. Vertices whose normals agree within one
+// degree share a normal; if their colours are equal, they share a colour. This prevents gaps and visible seams.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
-// Corrects a fitted level until it keeps what a wide blur would show of level 0:
-// - the area that it covers, where it is so coarse that it may lose any: what lies at its outlines moves (outline.h);
-// - the mean colour over its area, alpha included: all colours are shifted alike;
-// - the light that it throws back if it is matt, from any direction: its normals turn a little (light.h).
-// What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
+// Corrects a fitted level so that it preserves the properties of level 0 that a wide blur shows:
+// - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
+// - the mean colour over the area, including alpha: all colours are shifted by the same amount;
+// - the light that a matt surface reflects, from any direction: normals are turned slightly (light.h).
+// The guarantees of fitLevel still hold, except that a triangle may turn by up to 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 
 }  // namespace defocus::engine

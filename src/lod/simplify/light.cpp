@@ -16,7 +16,7 @@ namespace {
 
 using LightRow = std::array<float, lightCount>;
 
-// The lights' directions, coordinate by coordinate, which compilers compute with several at once.
+// Directions of the lights, one array per coordinate, so that compilers vectorise loops over them.
 struct Lights {
     LightRow x, y, z;
 };
@@ -33,14 +33,14 @@ Lights lights() {
 }
 
 struct LitPoint {
-    glm::vec3 weights{0};  // of the triangle's corners
-    glm::vec3 normal{0};   // unit length, or 0
+    glm::vec3 weights{0};  // barycentric
+    glm::vec3 normal{0};   // unit length, or zero
     float agreement = 1;
     float area = 0;
-    float light = 0;  // area times colour
+    float light = 0;  // area · colour
 };
 
-// Visits points of the surface as visit(corners, point); its area.
+// Calls visit(corners, point) for sample points of the surface. Returns the area of the surface.
 template <typename Visit>
 double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const Visit& visit) {
     const std::size_t triangles = surface.indices.size() / 3;
@@ -78,18 +78,18 @@ double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const V
     return areas;
 }
 
-constexpr std::size_t pairCount = lightCount / 2;  // of opposite lights
+constexpr std::size_t pairCount = lightCount / 2;  // pairs of opposite lights
 using PairRow = std::array<float, pairCount>;
 
-// What each light's mean gains for a change of a normal along x, y and z.
+// Derivative of each light's mean with respect to x, y and z of a normal.
 struct LightSlopes {
     LightRow x, y, z;
 };
 
-// The same for the normal of a group, in parts: one that changes its sign with the light's direction d and is `odd` ·
-// d, and one that opposite lights share.
+// Derivatives for the normal of a group, split into two parts. For a light direction d, the part `odd` · d changes sign
+// with d. The other part is the same for opposite lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // odd
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the symmetric matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {
@@ -118,10 +118,10 @@ struct GroupSlopes {
     }
 };
 
-// Of meanCosine(), for a point's normal that turns: those along its own direction are 0. `values` are what it throws
-// back.
+// Returns the derivatives of meanCosine() for a point whose normal turns. Derivatives along the normal are 0. `values`
+// receives the reflected light.
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float minRoot = 0.02f;  // the slope jumps where light grazes a normal that stands for itself
+    constexpr float minRoot = 0.02f;  // limits the derivative where light grazes a surface with uniform normals
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
@@ -146,14 +146,14 @@ GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
     return slopes;
 }
 
-// The means, and how they follow the normals of groups.
+// The mean light, and its derivatives with respect to the normals of groups.
 struct FollowingMeans {
     LightMeans means{};
-    std::vector<float> areas;  // of each group; the whole surface has 1
+    std::vector<float> areas;  // area of each group, as a fraction of the surface
     LargeVector<GroupSlopes> slopes;
 };
 
-// Into `result`, which may be large: it isn't made anew.
+// Computes the means and derivatives. Reuses the memory of `result`, which may be large.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -180,8 +180,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the means by `wanted`, about. It is the smaller, the
-// larger `damping` is, in units of the equations' mean diagonal: hardly nine of the lights are independent.
+// Returns the smallest change of the groups' normals that changes the means by approximately `wanted`. A larger
+// `damping` gives a smaller change. It is relative to the mean diagonal of the equations. Damping is needed because
+// only about nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -206,7 +207,7 @@ std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans
     return change;
 }
 
-// Normals after a change of their groups', as long as before.
+// Adds a change to the normals of each group; lengths are preserved.
 void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> groups, std::span<const glm::vec3> change,
           std::span<glm::vec3> after) {
     for (std::size_t v = 0; v < before.size(); ++v) {
@@ -217,7 +218,7 @@ void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> grou
     }
 }
 
-// The root of the mean square, over the area, of how far the groups' normals were turned.
+// Returns the area-weighted RMS of the change of the groups' normals.
 double turned(std::span<const glm::vec3> before, std::span<const glm::vec3> after,
               std::span<const std::uint32_t> groups, const FollowingMeans& at) {
     double sum = 0;
@@ -265,8 +266,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // A turn changes the shading of each point, of which less blur leaves more than of the mean: no further than so
-    // many times what it gains.
+    // Turning normals changes the shading at each point, which a narrow blur still shows. The RMS change is therefore
+    // limited to this multiple of the improvement of the means.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;
@@ -275,7 +276,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
     double leastSquares = std::numeric_limits<double>::infinity();
-    // Strong at first, so that normals turn no further than the lights ask for, and highlights keep their place.
+    // Strong at first, so that normals turn no further than necessary and highlights keep their positions.
     double damping = 1;
     for (int round = 0; round < maxRounds; ++round) {
         followNormals();
@@ -300,7 +301,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             followNormals();
             damping *= 10;
         } else {
-            return;  // no numbers
+            return;  // NaN
         }
         turn(best, groups, smallestChange(at, wanted, damping), normals);
     }

@@ -17,33 +17,33 @@ namespace defocus::engine {
 
 namespace {
 
-// Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
+// Limit for pairing faces at one edge. Beyond it, all faces are separated, in linear time.
 constexpr std::size_t maxFacesToPair = 32;
 
-// What a face was repaired by.
+// Flags for the repairs of a face.
 constexpr std::uint8_t turnedRepair = 1;
 constexpr std::uint8_t cutRepair = 2;
 constexpr std::uint8_t splitRepair = 4;
 
-// What is known while the surface is put together; its faces are those that were kept.
+// Surface under construction. Its faces are the kept input triangles.
 struct PairedSurface {
     const Numbered<PositionNumber, glm::dvec3>& points;
     Numbered<SurfaceCorner, PositionNumber> at;
     Numbered<SurfaceFaceNumber, PrimitiveNumber> primitives;
     Numbered<SurfaceFaceNumber, std::uint8_t> turned;
-    Numbered<SurfaceFaceNumber, std::uint8_t> repaired;  // turnedRepair, cutRepair, splitRepair
+    Numbered<SurfaceFaceNumber, std::uint8_t> repaired;  // flags turnedRepair, cutRepair, splitRepair
     Numbered<SurfaceCorner, SurfaceCorner> twins;
 
     [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
     [[nodiscard]] PositionNumber start(SurfaceCorner edge) const { return at[edge]; }
     [[nodiscard]] PositionNumber end(SurfaceCorner edge) const { return at[nextCorner(edge)]; }
-    // Which way the edge is run through once its face has been turned or not.
+    // Returns the direction of the edge, after the face has been reversed if marked as turned.
     [[nodiscard]] bool forward(SurfaceCorner edge) const {
         return (start(edge) < end(edge)) != (turned[faceOf(edge)] != 0);
     }
 };
 
-// The triangles that are neither degenerate nor repetitions, in input order.
+// Returns the triangles that are neither degenerate nor duplicates, in input order.
 Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<PositionNumber>& triangles,
                                                         const Numbered<TriangleNumber, PrimitiveNumber>& primitives,
                                                         std::size_t positionCount) {
@@ -55,9 +55,9 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
                                                               return std::min({p[0], p[1], p[2]});
                                                           });
 
-    // Equal faces share their smallest position; few have any one.
+    // Equal faces have the same smallest position; few faces share any one position.
     struct Key {
-        PositionNumber next, previous;  // the other two in winding order
+        PositionNumber next, previous;  // the other two corners in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 
@@ -84,8 +84,7 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
     return faces;
 }
 
-// The half-edges grouped by the pair of positions that they join: group g is order[starts[g]] … order[starts[g + 1] −
-// 1].
+// Half-edges grouped by the pair of positions that they join. Group g is order[starts[g]] … order[starts[g + 1] − 1].
 struct EdgeGroups {
     std::vector<SurfaceCorner> order;
     std::vector<std::uint32_t> starts;
@@ -101,12 +100,12 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
-    // Bucket by the lower position, then sort the few edges of each bucket by the higher one.
+    // Group by the lower position, then sort the few edges of each group by the higher one.
     Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
     std::uint32_t seen = 0;
-    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // higher positions before half-edges
+    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // higher position, half-edge
     for (const PositionNumber p : byLow.keys()) {
         keys.clear();
         const std::span<SurfaceCorner> edges = byLow[p];
@@ -123,8 +122,8 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     return groups;
 }
 
-// Turns the minority of each component's faces so that neighbours across edges of two faces agree, where they can (a
-// Möbius band stays cut at one edge).
+// Reverses the minority of faces in each component, so that neighbours at edges of two faces have consistent
+// orientation. A Möbius band cannot be consistent; it stays cut at one edge.
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
     Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
     for (std::size_t g = 0; g < groups.count(); ++g) {
@@ -132,7 +131,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const SurfaceCorner a = groups[g][0];
         const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
-        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // once more in another primitive
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face in another primitive
         across[a] = b;
         across[b] = a;
     }
@@ -173,8 +172,8 @@ glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-// Pairs the half-edges at one edge: same primitive before flatter before earlier. A face and its reverse (a sheet with
-// two faces) only close onto each other where nothing else continues them.
+// Pairs the half-edges at one edge. Criteria in this order: same primitive, flat angle, input order. A face and its
+// reverse form a two-sided sheet. They are paired only if no other face continues either.
 void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;
@@ -217,7 +216,8 @@ void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
     }
 }
 
-// Numbers the fans: corners that are joined by paired edges are one vertex. Union-find, the smaller corner is the root.
+// Assigns vertices to fans: corners connected by paired edges share one vertex. Union-find with the smallest corner as
+// root.
 void numberVertices(PairedSurface& surface, Manifold& manifold) {
     Numbered<SurfaceCorner, SurfaceCorner> parent(surface.at.size());
     for (const SurfaceCorner corner : parent.numbers()) parent[corner] = corner;
@@ -237,8 +237,8 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
     }
 
     manifold.corners.resize(surface.at.size());
-    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // has a vertex already
-    Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // not the first of its position
+    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // the position has a vertex
+    Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // not the first vertex at its position
     for (const SurfaceCorner corner : surface.at.numbers()) {
         const SurfaceCorner fan = root(corner);
         if (fan == corner) {
@@ -301,7 +301,7 @@ Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
         surface.primitives.push_back(primitives[triangle]);
     }
 
-    // Make neighbours agree, join them edge by edge, and give each fan its vertex.
+    // Orient faces consistently, pair edges, and create one vertex per fan.
     const EdgeGroups groups = groupEdges(surface);
     orient(surface, groups);
     pairAllEdges(surface, groups);

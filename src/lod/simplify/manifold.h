@@ -1,11 +1,11 @@
 #pragma once
-// Makes an oriented manifold with boundary of any set of triangles, because half-edges can hold nothing else: every
-// edge has at most one face on either side, and the faces around a vertex form a single fan.
+// Converts any set of triangles to an oriented manifold with boundary, the only surface that half-edges can represent.
+// Every edge has at most one face on each side. The faces around a vertex form a single fan.
 //
-// Only what has no place in any surface is dropped: degenerate faces (two corners at one position) and exact
-// repetitions of a face of the same primitive. Faces wound against their neighbours are turned (and say so). An edge of
-// more than two faces keeps the pairs that continue each other best and is cut open between the others; a vertex where
-// several fans meet becomes one vertex a fan.
+// Only two kinds of faces are removed. Degenerate faces have two corners at the same position. Duplicates repeat a face
+// of the same primitive exactly. Faces with a winding opposite to their neighbours are reversed and marked as turned.
+// At an edge of more than two faces, the best-matching pairs stay connected; the edge is cut between the pairs. A
+// vertex where several fans meet is split into one vertex per fan.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,39 +16,39 @@
 
 namespace defocus::engine {
 
-// Counts the faces that have no place in a manifold as they are. A face may count as several kinds. Such faces are
-// drawn unchanged at level 0; coarser levels are made of the repaired surface.
+// Numbers of faces that had to be repaired. A face may count in several categories. Level 0 draws these faces
+// unchanged; coarser levels are made from the repaired surface.
 struct Repairs {
-    std::uint32_t faces = 0;    // in all
-    std::uint32_t dropped = 0;  // degenerate, or repetitions
-    std::uint32_t turned = 0;   // wound against their neighbours
-    std::uint32_t cut = 0;      // cut off at an edge of more than two faces, or of two that can't agree
-    std::uint32_t split = 0;    // split off at a vertex where several fans meet
+    std::uint32_t faces = 0;    // total number of repaired faces
+    std::uint32_t dropped = 0;  // degenerate or duplicate
+    std::uint32_t turned = 0;   // reversed, because the winding was opposite to the neighbours
+    std::uint32_t cut = 0;      // cut at an edge of more than two faces, or of two faces with conflicting orientation
+    std::uint32_t split = 0;    // separated at a vertex where several fans meet
 };
 
-// Half-edges have the numbers of the corners that they leave, in the order that the input has a face's corners.
+// A half-edge has the number of the corner where it starts. Corners are numbered in the order of the input.
 using SurfaceCorner = CornerNumber<SurfaceFaceNumber>;
 
 struct Manifold {
     Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
     Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
-    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the surface's orientation runs against the corner order
-    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the half-edge on each one's other side, or none
+    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the surface runs opposite to the corner order
+    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge, or invalid
     Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;
 };
 
-// Returns the triangles with the welded positions of their corners; `points` are those positions. A triangle with a
-// corner that isn't finite becomes degenerate.
+// Returns the triangles with welded positions as corners. `points` are the coordinates of the positions. A triangle
+// with a NaN or infinite corner becomes degenerate.
 TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>& triangles,
                                             const WeldedPositions& positions,
                                             const Numbered<PositionNumber, glm::dvec3>& points);
 
-// `points` are the positions of the triangles' corners.
+// Builds the manifold. `points` are the coordinates of the positions.
 Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
                        const Numbered<PositionNumber, glm::dvec3>& points);
 
-// Counts what buildManifold would repair of the mesh.
+// Counts the faces of the mesh that buildManifold would repair.
 Repairs repairsOf(const Mesh& mesh);
 
 }  // namespace defocus::engine

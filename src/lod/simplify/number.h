@@ -1,7 +1,6 @@
 #pragma once
-// Numbers that count different things and so must not be mixed up, and arrays that open to one kind of number only.
-// Vertices, half-edges and faces of the surface that collapses have OpenMesh's handles (surface_mesh.h), which open
-// arrays just as well.
+// Strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
+// collapsing surface use OpenMesh's handles (surface_mesh.h), which also work as index types.
 
 #include <compare>
 #include <concepts>
@@ -19,7 +18,7 @@
 
 namespace defocus::engine {
 
-// A number of one kind of thing, from 0 on; by default it names none.
+// Index of an element of the type `Kind`, from 0; invalid by default.
 template <typename Kind>
 struct Number {
     static constexpr std::uint32_t none = 0xffffffffu;
@@ -30,17 +29,17 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // into Mesh::vertices
-// Of the mesh that is simplified, whose triangles use one of equal vertices. Twins (see Simplification) come after its
-// own.
+// Vertex of the mesh to simplify; equal file vertices share one number. Twins (see Simplification) follow the mesh's
+// own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
-using PositionNumber = Number<struct PositionKind>;            // of a place, which several vertices may share
-using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // of the manifold, before any collapse
-using SurfaceFaceNumber = Number<struct SurfaceFaceKind>;      // of the same
+using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
+using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
+using SurfaceFaceNumber = Number<struct SurfaceFaceKind>;      // face of the manifold before any collapse
 using WedgeNumber = Number<struct WedgeKind>;                  // into WedgeTable
 using ComponentNumber = Number<struct ComponentKind>;          // into Simplifier::components
-using PrimitiveNumber = Number<struct PrimitiveKind>;          // of the mesh's primitives
-using TriangleNumber = Number<struct TriangleKind>;            // of a TriangleSet
-using LevelVertexNumber = Number<struct LevelVertexKind>;      // of the vertices that one level uses, by first use
+using PrimitiveNumber = Number<struct PrimitiveKind>;          // into Mesh::primitives
+using TriangleNumber = Number<struct TriangleKind>;            // into a TriangleSet
+using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
 using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // into Pyramid::vertices
 
 // Corner 3·f + i is corner i of face f.
@@ -59,7 +58,7 @@ template <typename Face>
 constexpr CornerNumber<Face> cornerAt(Face face, std::uint32_t i) {
     return {3 * face.value + i};
 }
-// The corner after this one and the one before it in the same face.
+// Return the next and the previous corner in the same face.
 template <typename Face>
 constexpr Number<CornerOf<Face>> nextCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 2 ? corner.value - 2 : corner.value + 1};
@@ -69,13 +68,13 @@ constexpr Number<CornerOf<Face>> previousCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 0 ? corner.value + 2 : corner.value - 1};
 }
 
-// The place of a number, or of an OpenMesh handle, in arrays that hold one value an item; and back.
+// Convert a number or an OpenMesh handle to an array index, and an array index to a number or handle.
 template <typename Key>
 constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })
         return item.value;
     else if constexpr (std::unsigned_integral<Key>)
-        return item;  // a number of what leaves or enters the simplifier
+        return item;  // plain index at the interface of the simplifier
     else
         return static_cast<std::size_t>(item.idx());
 }
@@ -87,13 +86,13 @@ constexpr Key itemAt(std::size_t index) {
         return Key(static_cast<int>(index));
 }
 
-// The numbers 0 … count − 1.
+// Returns the range of numbers 0 … count − 1.
 template <typename Key>
 auto numbersBelow(std::size_t count) {
     return std::views::iota(std::size_t{0}, count) | std::views::transform(itemAt<Key>);
 }
 
-// A LargeVector with one value an item, found by the item's number.
+// A LargeVector that is indexed by a typed number.
 template <typename Key, typename T>
 class Numbered : LargeVector<T> {
     using Values = LargeVector<T>;
@@ -124,15 +123,15 @@ public:
     bool operator==(const Numbered&) const = default;
 
     [[nodiscard]] auto numbers() const { return numbersBelow<Key>(size()); }
-    // The number of a value that is added at the end next.
+    // Returns the number that the next appended value will have.
     [[nodiscard]] Key next() const { return itemAt<Key>(size()); }
 };
 
-// Items by key: those of one key lie one after the other, in the order they came.
+// Items grouped by key. Items with the same key are contiguous and keep their order.
 template <typename Key, typename Item>
 class Buckets {
 public:
-    // Holds those of the items 0 … itemCount − 1 that have a valid key; keyOf(item) is below keyCount.
+    // Groups the items 0 … itemCount − 1. Items with an invalid key are left out; valid keys are below keyCount.
     template <typename KeyOf>
     Buckets(std::size_t keyCount, std::size_t itemCount, const KeyOf& keyOf) : first_(keyCount + 1, 0) {
         const auto items = numbersBelow<Item>(itemCount);
@@ -151,7 +150,7 @@ public:
     [[nodiscard]] std::span<Item> operator[](Key key) { return std::span(items_).subspan(at(key), count(key)); }
     [[nodiscard]] auto keys() const { return numbersBelow<Key>(first_.size() - 1); }
     [[nodiscard]] std::size_t itemCount() const { return items_.size(); }
-    // Gives the items away, in the order of their keys.
+    // Moves the items out, sorted by key.
     std::vector<Item> takeItems() { return std::move(items_); }
 
 private:

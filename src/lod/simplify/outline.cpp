@@ -19,38 +19,40 @@ namespace {
 
 constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
-constexpr double cellsPerEdge = 16;  // about, of an even mesh
+constexpr double cellsPerEdge = 16;  // approximate value, for evenly sized triangles
 
-constexpr double maxUnseen = 5e-3;   // relative difference of areas up to which nothing moves
-constexpr int localRounds = 2;       // each edge of an outline follows level 0's
-constexpr int maxGlobalRounds = 12;  // the covered area of each direction becomes level 0's
-// Relative differences of areas. Levels of many triangles take time, and mostly cover enough.
+constexpr double maxUnseen = 5e-3;   // relative area difference up to which nothing is moved
+constexpr int localRounds = 2;       // rounds in which each outline edge follows level 0's outline
+constexpr int maxGlobalRounds = 12;  // rounds that match the covered area in each direction
+// Accepted relative area differences. Levels with many triangles are slow to fit and mostly cover enough area, so that
+// the looser value applies to them.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr int maxVainRounds = 4;  // after which areas aren't expected to come nearer
-constexpr double maxWay = 48;     // cells between an edge and level 0's outline, beyond which it is another part's
+constexpr int maxVainRounds = 4;  // rounds without improvement before the search ends
+constexpr double maxWay = 48;     // max distance in cells to level 0's outline; beyond is another part's
 constexpr int maxEdgePoints = 24;
-constexpr double stiffness = 0.1;      // of a vertex against moves that few outlines ask for, as a share of all
-constexpr double maxMoveShare = 0.25;  // of the mean length of the edges at a vertex, a round
+constexpr double stiffness = 0.1;      // damping of vertices with few outline points, relative to all points
+constexpr double maxMoveShare = 0.25;  // max move per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
 // An edge with one or two of its faces.
 struct Edge {
-    std::uint32_t a = 0, b = 0;  // places, a < b
-    std::uint32_t third = 0;     // of the first face
+    std::uint32_t a = 0, b = 0;  // vertex groups, a < b
+    std::uint32_t third = 0;     // third vertex group of the first face
     std::uint32_t face[2] = {0, 0};
-    std::int8_t way[2] = {0, 0};  // 1 of a face that goes from a to b, −1 of one that goes from b to a; 0 without one
-    bool closed = false;          // it has two faces; one of more counts as an open one
+    // Direction of each face along the edge. 1: from a to b; −1: from b to a; 0: no face.
+    std::int8_t way[2] = {0, 0};
+    bool closed = false;  // it has exactly two faces here; further faces are separate open edges
 };
 
 struct Edges {
-    std::vector<Edge> all;   // one for each pair of places
-    std::vector<Edge> more;  // one for each face beyond an edge's second
+    std::vector<Edge> all;   // one for each pair of vertex groups
+    std::vector<Edge> more;  // one for each face after the second at an edge
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
-    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // of each place's edges to places with larger numbers
+    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // start of each group's edges to groups with larger numbers
     const auto forEachEdge = [&](const auto& visit) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -94,16 +96,16 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
     return edges;
 }
 
-// A part of a level's outline, as seen from one direction.
+// A sample point of a level's outline, seen from one direction.
 struct OutlinePoint {
-    std::uint32_t a = 0, b = 0;  // places of the edge that it lies on
-    double share = 0;            // of b in the point
-    double length = 0;           // object units of the outline
-    glm::dvec2 start{0};         // the point, in cells
-    glm::dvec2 across{0};        // out of the level, unit length
+    std::uint32_t a = 0, b = 0;  // groups at the ends of its edge
+    double share = 0;            // weight of b
+    double length = 0;           // length of the outline that the point represents, object units
+    glm::dvec2 start{0};         // position in cells
+    glm::dvec2 across{0};        // outward unit normal of the outline
 };
 
-// Cells from `start` along `outward` to where level 0 begins or ends to be covered; NaN if that is far.
+// Returns the signed distance in cells from `start` along `outward` to level 0's outline; NaN if it is too far.
 double wayToOutline(const CoverGrid& level0, const glm::dvec2& start, const glm::dvec2& outward) {
     const bool inside = level0.covers(start);
     const double sign = inside ? 1 : -1;
@@ -136,7 +138,7 @@ public:
             if (counts[v] > 0) maxMove_[v] *= maxMoveShare / counts[v];
     }
 
-    // The largest relative difference of a covered area.
+    // Returns the largest relative area difference over all directions.
     double worstArea() {
         double worst = 0;
         for (std::size_t d = 0; d < outlines_.size(); ++d) {
@@ -171,8 +173,8 @@ public:
         move(moves);
     }
 
-    // The smallest moves after which each direction has its area, to first order. False where all have it already, to
-    // within `enough`, or where that leads nowhere.
+    // Applies the smallest moves that match the area in each direction to first order. Returns false if all areas agree
+    // within `enough` or recent rounds brought no improvement.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
         gradients_.assign(count * places_.size(), glm::vec3(0));
@@ -207,13 +209,14 @@ public:
         return true;
     }
 
-    // The last ones, unless the rounds have led away from better ones.
+    // Returns the current positions, or the best ones if later rounds were worse.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Their largest relative difference of an area.
+    // Returns the largest relative area difference of these positions.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
-    // Marks what the level covers; its area. Keeps where the places lie, and the edges that may be at its outline.
+    // Marks the cells that the level covers and returns the area. Stores the projected positions and potential outline
+    // edges.
     double cover(CoverGrid& own) {
         cells_.clear();
         for (const glm::vec3& place : places_) cells_.push_back(own.cellsOf(place));
@@ -238,7 +241,7 @@ private:
         return own.cell() * own.cell() * static_cast<double>(fill_.fill(own));
     }
 
-    // Visits points of the level's outline; the area that the level covers.
+    // Visits sample points of the level's outline. Returns the covered area.
     template <typename Visit>
     double forEachPoint(const CoverGrid& level0, const Visit& visit) {
         CoverGrid own = level0.emptied();
@@ -262,7 +265,8 @@ private:
         return area;
     }
 
-    // The least factors x with (G Gᵀ) x = b, slightly damped. Most places lie at no outline, or at few.
+    // Returns the smallest factors x with (G Gᵀ) x = b, slightly damped. Exploits that most vertices are on few
+    // outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -296,20 +300,20 @@ private:
     std::vector<glm::vec3> original_;
     std::vector<std::uint32_t> corners_;
     Edges edges_;
-    std::vector<double> maxMove_;  // of each place
+    std::vector<double> maxMove_;  // per vertex group
     std::span<const CoverGrid> outlines_;
-    std::vector<double> areas_;  // of the outlines
+    std::vector<double> areas_;  // areas of `outlines_`
     const Bounds& box_;
-    std::vector<glm::vec3> best_;                                 // places whose areas were nearest to the outlines'
-    double minMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
+    std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
+    double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
-    int vainRounds_ = 0;                // since then
-    std::vector<glm::vec3> gradients_;  // of each place, one a direction
-    // As last seen from some direction.
+    int vainRounds_ = 0;                // rounds since `best_`
+    std::vector<glm::vec3> gradients_;  // for each vertex group, one per direction
+    // State for the direction of the last cover().
     EdgeFill fill_;
-    std::vector<glm::dvec2> cells_;   // of each place
-    std::vector<std::int8_t> turns_;  // of each face: 1 counterclockwise, −1 clockwise, 0 seen from its edge
-    std::vector<const Edge*> rim_;    // all but those between two faces that turn the same way
+    std::vector<glm::dvec2> cells_;   // projected position of each vertex group
+    std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
+    std::vector<const Edge*> rim_;    // edges except those between two faces with the same turn
 };
 
 }  // namespace
@@ -349,7 +353,8 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     };
     matchAreas(fit);
     std::vector<glm::vec3> best = fit.places();
-    // Edges that follow level 0's outline one by one move farther, and may follow another part's: only where it helps.
+    // Following level 0's outline edge by edge moves vertices farther and may follow another part. Use it only if it
+    // helps.
     if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();

@@ -1,7 +1,7 @@
 #pragma once
-// Measures and fits the area that a surface covers, seen from afar. A coarse level whose vertices lie on a bulging
-// surface covers too little of it, and a thin fin shrinks at its rim; no blur hides either. So the outlines of coarse
-// levels are fitted to those of level 0, on grids of points along some directions.
+// Measures and fits the area that a surface covers in parallel projection. A coarse level with vertices on a convex
+// surface covers too little area. A thin fin shrinks at its rim. Blur hides neither error. The outlines of coarse
+// levels are therefore fitted to those of level 0, on grids of sample points for several directions.
 
 #include <array>
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace defocus::engine {
 
-// Half of the directions to the 26 neighbours in a cube, because a surface covers the same area from the opposite side.
-// Unit length.
+// Returns unit vectors to half of the 26 neighbours in a 3 × 3 × 3 cube. The other half is redundant, because a surface
+// covers the same area from the opposite side.
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 
-// Returns the grids of level 0, one for each direction.
+// Returns the coverage grids of level 0, one per direction.
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box);
 
-// Moves vertices along the outlines of a level until it covers about what `outlines` do, within `box`, unless it
-// already does to within half a per cent from each direction. Moves are as small as that allows. Vertices with
-// equal numbers in `places` (below positions.size()) stay together. It turns no triangle by more than 60°.
+// Moves vertices along the outlines of a level until its covered area is about that of `outlines`. Does nothing if the
+// areas already agree within 0.5 % in every direction. Displacements are as small as possible and stay within `box`.
+// Vertices with the same number in `places` (below positions.size()) stay together. No triangle turns by more than 60°.
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 

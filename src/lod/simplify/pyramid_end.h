@@ -1,17 +1,17 @@
 #pragma once
-// Why a pyramid has no further level.
+// The reason why a pyramid has no further level.
 
 #include <cstdint>
 
 namespace defocus::engine {
 
 enum class PyramidEnd : std::uint32_t {
-    minTriangles,  // the last level is as small as levels get
-    smallSaving,   // one of the least triangles would save less than a quarter
-    topology,      // collapses come no further: handles, cuts and borders need the triangles that are left
-    largestParts,  // only parts with much of the area could still be made smaller
-    noSurface,     // no triangle has corners apart from each other
-    maxLevels,     // there are as many as asked for
+    minTriangles,  // the last level has reached the min triangle count
+    smallSaving,   // even the smallest possible level would save less than a quarter of the triangles
+    topology,      // no topology-preserving collapse is left: handles, cuts and borders need all triangles
+    largestParts,  // only components with a large part of the area could be simplified further
+    noSurface,     // all triangles are degenerate
+    maxLevels,     // the max number of levels is reached
 };
 constexpr PyramidEnd lastPyramidEnd = PyramidEnd::maxLevels;
 

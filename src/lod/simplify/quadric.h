@@ -1,15 +1,14 @@
 #pragma once
-// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics: the weighted sum of squared distances
-// to a set of planes, dᵀAd + 2bᵀd + c.
+// Position quadrics: the weighted sum of squared distances to a set of planes, dᵀAd + 2bᵀd + c. Source: Garland and
+// Heckbert 1997, Surface Simplification Using Quadric Error Metrics.
+// d is the offset from the vertex that owns the quadric. Quadrics are evaluated only near their vertex, so that single
+// precision suffices.
 //
-// Places d are steps from the vertex that the quadric belongs to. All places that it is asked for lie near by, so that
-// single precision serves.
-//
-// Hoppe 1999, New Quadric Metric for Simplifying Meshes with Appearance Attributes: the squared distance between the
-// attributes at a place and what faces interpolate linearly there, weighed by the faces' areas.
-//
-// Attributes are steps from those of that vertex as well. `n` is the number of attributes, so that a mesh pays only for
-// those that it has.
+// Attribute quadrics: the squared difference between the attributes of a vertex and the linear interpolation of the
+// faces' attributes at the same position, weighted by face area. Source: Hoppe 1999, New Quadric Metric for Simplifying
+// Meshes with Appearance Attributes.
+// Attributes, too, are relative to those of the owning vertex. `n` is the number of attributes, so that memory is used
+// only for attributes that the mesh has.
 
 #include <algorithm>
 #include <array>
@@ -21,18 +20,18 @@
 namespace defocus::engine {
 
 struct Quadric {
-    float c = 0;       // the sum at the vertex itself
-    float weight = 0;  // of all planes together
+    float c = 0;       // value of the sum at the vertex itself
+    float weight = 0;  // total weight of the planes
     glm::vec3 b{0};
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the symmetric matrix A
 
-    // Adds the plane through the vertex with the unit normal `normal`.
+    // Adds a plane through the vertex with the unit normal `normal`.
     void addPlane(const glm::vec3& normal, float planeWeight) {
         addSquare(normal, planeWeight);
         weight += planeWeight;
     }
 
-    // Adds squareWeight · (gᵀd)², which doesn't count towards `weight`.
+    // Adds squareWeight · (gᵀd)²; `weight` is unchanged.
     void addSquare(const glm::vec3& g, float squareWeight) {
         const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
@@ -43,7 +42,7 @@ struct Quadric {
         zz += weighted.z * g.z;
     }
 
-    // Adds the quadric of another vertex, from which `step` leads to this one's.
+    // Adds the quadric of another vertex. `step` is the vector from the other vertex to this one.
     void add(const Quadric& other, const glm::vec3& step) {
         b += other.b + other.timesA(step);
         c += other.at(step);
@@ -60,14 +59,14 @@ struct Quadric {
         return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z, xz * d.x + yz * d.y + zz * d.z};
     }
 
-    // The sum at d; never negative.
+    // Returns the sum at offset d; never negative.
     [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
 };
 
 template <std::size_t n>
 using AttributeRow = std::array<float, n>;
 
-// How each attribute changes over a face, per unit of length along each axis.
+// Gradient of each attribute over a face, per unit of length along each axis.
 template <std::size_t n>
 struct AttributeGradients {
     AttributeRow<n> x, y, z;
@@ -75,7 +74,7 @@ struct AttributeGradients {
     [[nodiscard]] glm::vec3 of(std::size_t attribute) const { return {x[attribute], y[attribute], z[attribute]}; }
 };
 
-// The gradients over the face with the corners `p` (not on one line) and their attributes.
+// Returns the gradients over the face with the corners `p` (not collinear) and the attributes `s` at the corners.
 template <std::size_t n>
 AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const AttributeRow<n>* const* s) {
     const glm::dvec3 e1 = *p[1] - *p[0];
@@ -97,13 +96,14 @@ AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const Attri
 
 template <std::size_t n>
 struct AttributeQuadric {
-    // Σ w·(g·d + e − s)² over faces and attributes, where e is what a face is off by at the vertex. `squares` holds the
-    // part without s (its weight is Σ w); the other two hold Σ w·g and Σ w·e of each attribute.
+    // Σ w·(g·d + e − s)² over faces and attributes. g is the gradient, e the face's deviation at the vertex, and s the
+    // attribute. `squares` holds the terms without s, and its weight is Σ w. The other members hold Σ w·g and Σ w·e per
+    // attribute.
     Quadric squares;
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face around the vertex, which the face meets there.
+    // Adds a face that contains the vertex, with the vertex's own attributes at that corner.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {
@@ -114,7 +114,7 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds another quadric of this vertex, of faces that have not been collapsed.
+    // Adds a quadric of the same vertex that consists only of original faces, so that its offset is zero.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {
@@ -124,7 +124,8 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds the quadric of another vertex, from which `step` and `change` lead to this one's place and attributes.
+    // Adds the quadric of another vertex. `step` and `change` lead from its position and attributes to those of this
+    // vertex.
     void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow<n>& change) {
         const float cost = other.at(step, change);
         const AttributeGradients<n>& g = other.gradients;
@@ -143,7 +144,7 @@ struct AttributeQuadric {
         squares.c = c + cost;
     }
 
-    // The quadric at the place and the attributes that are so far away; never negative.
+    // Returns the quadric at the position offset `step` and the attribute offset `change`; never negative.
     [[nodiscard]] float at(const glm::vec3& step, const AttributeRow<n>& change) const {
         AttributeRow<std::bit_ceil(n)> terms{};
         for (std::size_t j = 0; j < n; ++j) {

@@ -1,4 +1,4 @@
-// The surface at unit size with its quadrics: boundary constraints after Garland and Heckbert 1997.
+// Builds the surface at unit size with its quadrics. Boundary constraints follow Garland and Heckbert 1997.
 
 #include <algorithm>
 #include <array>
@@ -13,11 +13,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Constraint planes through an edge, upright on its face, weighed by the edge's squared length (a face weighs its
-// area).
-constexpr double borderWeight = 10;  // open and material borders
-constexpr double seamWeight = 0.5;   // jumps of uv or colour
-constexpr double rimWeight = 1;      // where the surface folds back on itself; less for smaller angles
+// Weights of constraint planes through an edge, perpendicular to its face. The weight is multiplied by the squared edge
+// length. (The plane of a face is weighted by the face's area.)
+constexpr double borderWeight = 10;  // open borders and material borders
+constexpr double seamWeight = 0.5;   // discontinuities of uv or colour
+constexpr double rimWeight = 1;      // where the surface folds back onto itself; lower for smaller angles
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -26,21 +26,22 @@ glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
                       mesh.place(mesh.from_vertex_handle(corner.at[2])) - a);
 }
 
-// Twice the area of each face, along its normal.
+// Normal of each face with the length of twice its area.
 using Crosses = LargeVector<glm::dvec3>;
 
 const glm::dvec3& crossOf(const Crosses& crosses, FaceHandle face) {
     return crosses[indexOf(face)];
 }
 
-// Whether the surface ends at a half-edge, beyond which `beyond` lies; a face without area is no surface.
+// Returns whether the surface ends at a half-edge. `beyond` is the face on the other side; a face without area counts
+// as missing.
 bool endsAt(const Crosses& crosses, FaceHandle beyond) {
     if (!beyond.is_valid()) return true;
     const glm::dvec3& cross = crossOf(crosses, beyond);
     return !(glm::dot(cross, cross) > 0);
 }
 
-// The weight of the constraint that a seam or border at half-edge `e` puts on its face's side.
+// Returns the weight of the constraint at half-edge `e`, on the side of its face, due to a seam or border.
 double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     const HalfedgeHandle twin = mesh.opposite_halfedge_handle(e);
     if (mesh.is_boundary(twin) || mesh.primitive(mesh.face_handle(e)) != mesh.primitive(mesh.face_handle(twin)))
@@ -53,8 +54,8 @@ double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     return torn(e, mesh.next_halfedge_handle(twin)) || torn(mesh.next_halfedge_handle(e), twin) ? seamWeight : 0;
 }
 
-// The same for an edge where the surface turns by more than 60°: without it the rim of a thin sheet, whose own area is
-// next to nothing, would cost nothing to cut back.
+// Returns the weight of the constraint at an edge where the surface turns by more than 60°. Without it, the rim of a
+// thin sheet could be cut back at no cost, because the faces of the rim have almost no area.
 double rimConstraint(const Crosses& crosses, FaceHandle face, FaceHandle beyond) {
     const glm::dvec3& mine = crossOf(crosses, face);
     const glm::dvec3& theirs = crossOf(crosses, beyond);
@@ -108,8 +109,8 @@ void buildQuadrics(SurfaceMesh& mesh) {
             const glm::dvec3 upright = glm::cross(mesh.step(a, b), normal);
             const double length = glm::length(upright);
             if (!(length > 0)) continue;
-            // A border of short edges before long faces, the end of a strip, weighs as much as those faces: by its
-            // edges alone it would cost less to shorten than the strip's inside costs to thin out.
+            // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. Weighted
+            // by its length only, shortening the strip would be cheaper than thinning out its interior.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
             const glm::vec3 constraint(upright / length);
             mesh.data(a).quadric.addPlane(constraint, static_cast<float>(weight * area));
@@ -129,7 +130,7 @@ Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& tri
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// uv in lengths of the unit frame: the ratio that keeps the mesh's whole area.
+// Returns the scale from uv to lengths in the unit frame: it preserves the total area of the mesh.
 float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;
@@ -147,7 +148,7 @@ float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& t
     return std::isfinite(ratio) ? static_cast<float>(ratio) : 0.0f;
 }
 
-// Notes which vertex of the surface each mesh vertex is, and of which primitive: by the first corner that draws it.
+// Records the surface vertex and the primitive of each mesh vertex, taken from the first corner that uses it.
 void rememberCorners(Origin& origin, const SurfaceMesh& mesh) {
     origin.firstVertex.resize(origin.vertices.count());
     origin.firstPrimitive.resize(origin.vertices.count());
@@ -173,7 +174,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     mesh.frame = origin->frame;
     if (!(origin->frame.inverse > 0)) return;
 
-    // Make a manifold of the mesh.
+    // Convert the mesh to a manifold.
     {
         Numbered<PositionNumber, glm::dvec3> points(positions.first.size());
         for (const PositionNumber p : points.numbers())
@@ -184,13 +185,13 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
         linkFaces(mesh, manifold, triangles);
         origin->places = std::move(manifold.positions);
     }
-    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // before what takes the most
+    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // before the largest allocations
     for (const SurfaceVertexNumber v : origin->places.numbers()) {
         const glm::vec3& p = vertices.positions[positions.first[origin->places[v]].value];
         mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});
     }
 
-    // Describe it: wedges and quadrics.
+    // Add wedges and quadrics.
     mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles, origin->frame));
     rememberCorners(*origin, mesh);
     buildQuadrics(mesh);
@@ -198,7 +199,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.survivors.reserve(mesh.n_vertices());
     for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
     s.current.assign(s.survivors.begin(), s.survivors.end());
-    s.modules.emplace(mesh);  // of the whole mesh
+    s.modules.emplace(mesh);  // of the complete mesh
 }
 
 }  // namespace defocus::engine

@@ -1,6 +1,7 @@
-// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. Each vertex waits for its cheapest
-// collapse by cost alone, and whether it is allowed is only looked at when it comes up: while faces are many, in sweeps
-// over memory that allow for more and more cost; then by a priority queue. What is gone is cleared away at each level.
+// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. The candidate of each vertex is its
+// cheapest collapse. Whether it is allowed is tested only when its turn comes. For meshes with many faces, sweeps over
+// memory perform the collapses below an increasing cost limit. Later, a priority queue orders them. Deleted elements
+// are removed at each level.
 
 #include "lod/simplify/simplify.h"
 
@@ -15,23 +16,24 @@ namespace defocus::engine {
 
 namespace {
 
-// A poor collapse is made when good ones cost this much more.
+// Factor on the cost of poor collapses.
 constexpr float poorPenalty = 10;
-constexpr std::size_t minFacesToReport = 1000;  // fewer are gone before anyone looks
-// Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
+constexpr std::size_t minFacesToReport = 1000;  // for smaller meshes, progress reports are not worthwhile
+// Up to this number of faces, the costs of all candidates are always up to date, because coarse levels show errors
+// most.
 constexpr std::size_t maxFacesToFollow = 8192;
-// Down to this many faces collapses are made in sweeps.
+// While at least this number of faces must remain, collapses are made in sweeps.
 constexpr std::size_t minFacesToSweep = 16'384;
-constexpr std::size_t sweepsPerLevel = 8;   // each allows for one in so many of the collapses that are still wanted …
-constexpr std::size_t minSweepShare = 128;  // … or of the faces, if that is more
-constexpr std::size_t costSample = 8192;    // vertices whose costs tell those of all
-// A further level must save a quarter of the triangles …
+constexpr std::size_t sweepsPerLevel = 8;   // a sweep covers this fraction (1/8) of the remaining collapses
+constexpr std::size_t minSweepShare = 128;  // but at least this fraction (1/128) of the faces
+constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
+// A further level must save a quarter of the triangles.
 constexpr double largestShare = 0.75;
-// … but leave this share of those that can still go: where many components are as small as they get, halving all would
-// be at the cost of the few large ones.
+// Min fraction of the reducible faces that a level keeps. If many components are as small as possible, halving the
+// total would otherwise take too many faces from the few large ones.
 constexpr double minShareOfMovable = 0.25;
-// What is kept for components that can still go while others have most of the faces: so much of the share that their
-// area has in the mesh's, less where the level would otherwise lack whole components.
+// Components that can still be simplified keep a fraction of the faces that their share of the mesh's area deserves.
+// `keptShare` is the preferred fraction. `minKeptShare` applies if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -47,7 +49,7 @@ void setCandidate(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         spend(s, v);
 }
 
-// Sets what the vertex waits for, in the queue once there is one.
+// Sets the candidate of a vertex, and updates the queue if it is in use.
 void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
     setCandidate(s, v, candidate);
     if (!s.queued) return;
@@ -57,12 +59,12 @@ void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         s.queue.take(v);
 }
 
-// Puts the vertex's cheapest collapse into the queue, unseen whether it is a good one.
+// Sets the vertex's candidate to its cheapest collapse, without testing whether it is allowed.
 void enqueueCheapest(Simplifier& s, VertexHandle v) {
     enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
 
-// Puts the vertex's best collapse of those that are allowed into the queue; nothing if none is possible.
+// Sets the vertex's candidate to its best allowed collapse; to none if no collapse is possible.
 void enqueueBest(Simplifier& s, VertexHandle v) {
     Candidate best;
     best.fit = Fit::impossible;
@@ -84,16 +86,17 @@ void fillQueue(Simplifier& s) {
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueueCheapest(s, v); });
 }
 
-// From here on vertices wait in the queue for what they have waited for before.
+// Fills the queue with the current candidates of all vertices.
 void startQueue(Simplifier& s) {
     s.queued = true;
     s.queue.reset(s.mesh->n_vertices());
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueue(s, v, Candidate(s.mesh->data(v).candidate)); });
 }
 
-// The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
-// their best anew. While faces are many, they do so when their turn comes: what they wait for has only become dearer,
-// but for the few to which the survivor is nearer than what is gone.
+// Updates candidates after a collapse: those of the survivor and of neighbours whose candidate is affected. Affected
+// candidates led to the survivor or to the removed vertex, or did not exist. With many faces, candidates are only
+// marked as outdated. Their costs have mostly risen, except for the few vertices that are closer to the survivor than
+// to the removed vertex.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;
@@ -108,7 +111,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
         const VertexHandle v = mesh.to_vertex_handle(spoke);
         const Candidate& candidate = mesh.data(v).candidate;
-        // Half-edges that led to what is gone lead to the survivor now.
+        // Half-edges to the removed vertex lead to the survivor after the collapse.
         const bool known =
             candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
@@ -133,7 +136,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Applies the collapse that was judged last.
+// Performs the collapse that was judged last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);
@@ -145,13 +148,13 @@ void collapse(Simplifier& s, HalfedgeHandle along) {
     requeueAround(s, to);
 }
 
-// Collapses in order of fit and cost until `floor` faces are left or nothing more is possible. `target` and `share`:
-// see isKept.
+// Collapses in order of class and cost until `floor` faces are left or no collapse is possible. See isKept for `target`
+// and `share`.
 void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double share) {
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse may become possible by one two rings away, which nobody is told of: look once more everywhere.
+            // A collapse two rings away can make a collapse possible, without an update here. Retry all vertices once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
@@ -174,7 +177,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// The cost that `rank` of the collapses that are not bad are cheaper than, about.
+// Returns approximately the cost of the `rank`-th cheapest collapse among good and poor ones.
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
@@ -187,15 +190,15 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     return *place;
 }
 
-// Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
-// Says whether there were any.
+// Performs good and poor collapses with a cost of at most `max`, in vertex order, until `target` faces are left.
+// Returns whether there were any.
 bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most are too dear
+        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most are too expensive
         if (i == count) break;
         const VertexHandle v(i);
         const Candidate& candidate = vertices[i].candidate;
@@ -215,8 +218,8 @@ bool sweep(Simplifier& s, std::size_t target, float max) {
     return collapsed;
 }
 
-// The same as collapseTo, but for the order: while faces are many, vertices take turns as they lie in memory, sweep
-// after sweep with a higher cost allowed. False if that leads no further.
+// Like collapseTo, but for many faces: sweeps visit the vertices in memory order, with an increasing cost limit.
+// Returns false if no further collapse is possible.
 bool sweepTo(Simplifier& s, std::size_t target) {
     while (s.liveFaces > target) {
         const std::size_t wanted = (s.liveFaces - target) / 2;
@@ -226,23 +229,23 @@ bool sweepTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-// Whether `least` is too near to so many faces for a level of its own.
+// Returns whether `faces` exceeds `min` by too little for a separate level at `min`.
 bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
-// How many faces the next level should have: half, or the least at once where half would come so near to it that no
-// level fits between.
+// Returns the target number of faces of the next level: half. If half is so close to the min that no further level fits
+// between, returns the min.
 std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;
 }
 
-// How many faces collapses should leave at least, of a level that should have `target`; `share`: see isKept.
+// Returns the min number of faces that collapses should leave for a level with `target` faces. See isKept for `share`.
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
-    std::size_t stuck = 0;  // faces of whose vertices none can go: of tetrahedra, single triangles and the like
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // has others
+    std::size_t stuck = 0;  // faces without any collapsible vertex, such as those of tetrahedra or isolated triangles
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: the component has other faces
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {
@@ -263,8 +266,8 @@ std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share)
     return std::max(target, stuck + static_cast<std::size_t>(kept));
 }
 
-// Collapses until `target` faces are left, or somewhat more, up to `enough`, where the rest would be at the cost of the
-// components that can still go.
+// Collapses until `target` faces are left. Stops earlier, at `enough` faces or fewer, if `target` would take too many
+// faces from the components that can still be simplified.
 void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     const std::size_t floor = collapseFloor(s, target, keptShare);
     s.queued = false;
@@ -277,7 +280,7 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     collapseTo(s, enough, target, minKeptShare);
 }
 
-// Why no level is tried from so many faces.
+// Returns why no further level is made from this number of faces.
 PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
     return faces <= options.minTriangles ? PyramidEnd::minTriangles : PyramidEnd::smallSaving;
@@ -289,8 +292,8 @@ std::size_t vertexCount(const SurfaceMesh& mesh) {
     return count;
 }
 
-// Collapses until `wanted` vertices are left or nothing more is possible. A collapse takes one vertex, and one face or
-// two.
+// Collapses until `wanted` vertices are left or no collapse is possible. A collapse removes one vertex and one or two
+// faces.
 void collapseToVertices(Simplifier& s, std::size_t wanted) {
     while (true) {
         const std::size_t vertices = vertexCount(*s.mesh);
@@ -329,7 +332,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
         tasks.add([origin = s.origin, picture, take, anchors = options.anchors, l = result.levelCount++] {
             SimplifiedLevel level = described(*origin, *picture, anchors);
-            *picture = {};  // before what takes the most memory
+            *picture = {};  // free memory before the largest allocations
             take(l, std::move(level));
         });
     };
@@ -349,7 +352,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         return result;
     }
 
-    // Collapse, and take a picture whenever half of the triangles are gone.
+    // Collapse, and copy the level whenever half of the triangles are removed.
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.maxLevels))) {
         const std::size_t target = nextTarget(s, options.minTriangles);
         const auto max = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
@@ -358,7 +361,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             break;
         }
 
-        // Where parts that can be no smaller leave too little to the others, whole ones go; then collapses.
+        // If components of min size leave too few faces to the others, remove complete components before collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);
@@ -367,7 +370,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         }
         if (collapseFloor(s, target, minKeptShare) <= max) collapseToLevel(s, target, max);
 
-        // Where those came no further, whole parts go; where that isn't enough either, this is the end.
+        // If collapses did not reach the target, remove complete components; if this does not suffice, end the pyramid.
         const bool tooMany = s.liveFaces > max || isJustAbove(s.liveFaces, options.minTriangles);
         if (tooMany || manyAreSmallest(s)) {
             findComponents(s, triangles);

@@ -1,19 +1,23 @@
 #pragma once
-// Makes a sequence of ever coarser meshes from a mesh by half-edge collapses with quadrics. Their vertices are among
-// the mesh's.
+// Simplifies a mesh into a sequence of coarser meshes by half-edge collapses with quadric error metrics. Their vertices
+// are a subset of the mesh's vertices.
 //
-// The surface is joined by position over all primitives, so that seams and material borders stay shut; see manifold.h
-// for what becomes of surfaces that aren't manifold and wedges.h for the attributes. A collapse is
+// The surface is connected by position across all primitives, so that seams and material borders stay closed. See
+// manifold.h for non-manifold surfaces and wedges.h for attributes. Each collapse belongs to one of these classes:
 //   good:  nothing speaks against it;
-//   poor:  it leaves a seam or an open border, or makes a sliver: it costs ten times as much;
-//   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive: it is made only when no
-//          other is left anywhere.
-// The cost of a collapse is the quadric error of places (Garland and Heckbert 1997), with constraints along borders,
-// seams and the rims of thin sheets, plus that of attributes (Hoppe 1999). The topology never changes (link condition):
-// a closed surface is closed at every level, and a component ends as a tetrahedron or its like; one of many handles
-// ends far above that. Where most faces are of components that good and poor collapses make no smaller, the others keep
-// a part of their share by area, and no component makes bad ones below its share. Where collapses come no further,
-// whole components go, the smallest first and never the largest; one near each grows in its place.
+//   poor:  it pulls the surface away from a seam or an open border, or makes a sliver; its cost is multiplied by ten;
+//   bad:   it turns a face's normal by more than 75° or assigns a vertex of another primitive to a face.
+// A bad collapse is made only when no good or poor collapse is left in the mesh.
+// The cost of a collapse is the sum of two quadric errors. The position error (Garland and Heckbert 1997) includes
+// constraints along borders, seams and the rims of thin sheets. The attribute error follows Hoppe 1999.
+//
+// The topology never changes (link condition). A closed surface is closed at every level, and a component without
+// handles can shrink to a tetrahedron. A component with many handles keeps far more triangles.
+//
+// A component is spent when it has no good or poor collapse left. If spent components own most of the faces, the other
+// components keep part of the share of faces that their area deserves. No bad collapse reduces a component below that
+// share. If collapses cannot reach the target, complete components are removed, the smallest first and never the
+// largest. A nearby component grows to replace each removed one.
 
 #include <cstdint>
 #include <functional>
@@ -28,16 +32,19 @@
 
 namespace defocus::engine {
 
-constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose freed memory is worth giving back
+// Min triangle count from which freed memory is returned to the operating system.
+constexpr std::size_t fewestToGiveBack = 16'384;
 
 struct SimplifyOptions {
-    std::uint32_t minTriangles = 64;  // halving ends here
-    int maxLevels = 23;               // without level 0
-    bool anchors = true;              // whether levels get them; a level without anchors can't be fitted
-    // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are
-    // one.
+    std::uint32_t minTriangles = 64;  // halving ends at this number of triangles
+    int maxLevels = 23;               // excluding level 0
+    // Whether anchors are computed for the levels; a level without anchors cannot be fitted.
+    bool anchors = true;
+    // If not empty, replaces halving: the fraction of the mesh's positions that each level keeps, in decreasing order.
+    // Vertices at the same position count once.
     std::vector<double> vertexShares = {};
-    // Gets the share of the triangles that are gone, [0, 1], again and again, on the thread of the call; may be empty.
+    // Receives the fraction of the triangles removed so far, in [0, 1]. Called repeatedly on the calling thread; may be
+    // empty.
     std::function<void(double)> lost = {};
 };
 
@@ -48,25 +55,24 @@ struct Ball {
 
 struct SimplifiedLevel {
     LevelMesh mesh;
-    // For each vertex of `mesh`, its number in the mesh that is simplified, or vertexCount + i if it is twin i.
+    // For each vertex of `mesh`, its number in the original mesh, or vertexCount + i for twin i (see Simplification).
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;
     Numbered<MeshVertexNumber, Anchor> anchors;
-    std::vector<Ball> removed;  // around each component that the level lacks
+    std::vector<Ball> removed;  // bounding sphere of each component that was removed from the level
 };
 
 struct Simplification {
-    // A twin is a second vertex beside twins[i] of the mesh, for the other side of a thin sheet whose rim has
-    // collapsed.
+    // Twin i is a copy of mesh vertex twins[i]. It belongs to the other side of a thin sheet whose rim has collapsed.
     std::vector<MeshVertexNumber> twins;
-    std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
+    std::uint32_t levelCount = 0;  // number of simplified levels, excluding the mesh itself; may be 0
     std::uint32_t repairedFaces = 0;
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
-// Makes levels of half the triangles each, until less than a quarter can be saved, or levels of the given shares of the
-// vertices. Calls take(l, level) once for each
-// level l = 0 … levelCount − 1, on the thread of `tasks` that has made its anchors. The caller must call tasks.wait()
-// to have them all, and must keep `smoothing` and `vertices` until then.
+// Makes levels with half the triangles each, or with the fractions of vertices in `options.vertexShares`. Ends where
+// the next level would save less than a quarter of the triangles. Calls take(l, level) once for each level l = 0 …
+// levelCount − 1, on the thread of `tasks` that computed its anchors. The last calls may come after the function
+// returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

@@ -1,4 +1,4 @@
-// A level as the collapses have left it: which mesh vertices its corners draw, and where the mesh's vertices lie on it.
+// Copies a level between collapses: the mesh vertices at its corners, and the position of each mesh vertex on it.
 
 #include <algorithm>
 #include <array>
@@ -18,18 +18,18 @@ namespace {
 
 // ---- creases
 
-// Where the two sides of a thin sheet meet after their rim has collapsed, one normal cannot serve both: it would point
-// sideways and darken either side. Such a wedge is split, as Hoppe 1998 allows at any corner. At a seam of the texture
-// each side may have a wedge of its own already; as they shared a normal before, they are looked at together.
+// When the rim of a thin sheet has collapsed, its two sides meet at one wedge. A single normal would point sideways and
+// darken both sides. Such a wedge is split, as Hoppe 1998 allows at any corner. At a texture seam, each side may
+// already have its own wedge. The wedges of one smoothing group are therefore examined together.
 
-// Resultant of the unit normals around a wedge, as a share of their number (by angle), below which it is split: a cone
-// of 60° at its tip is kept.
+// Min length of the mean of the unit normals around a wedge, weighted by corner angle. Below it, the wedge is split.
+// The tip of a cone of 60° is not split.
 constexpr double minResultant = 0.5;
-constexpr int rounds = 3;  // of two means
+constexpr int rounds = 3;  // iterations of k-means with two clusters
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Of the face as the mesh winds it; as long as twice its area, then as long as the corner's angle.
+    // Face normal in mesh winding. Its length is first twice the face's area, then the corner's angle.
     glm::dvec3 normal;
 };
 
@@ -37,7 +37,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Where all faces look within 60° of the first, their resultant is long enough whatever the angles are.
+// Returns true if all face normals are within 60° of the first; the mean is then long enough for any corner angles.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -47,7 +47,7 @@ bool surelyAgree(std::span<const CornerNormal> corners) {
     });
 }
 
-// The places of a corner and of the two beside it, as the mesh winds the face.
+// Positions of a corner, its next and its previous corner, in mesh winding.
 struct CornerPlaces {
     glm::dvec3 own, next, previous;
 };
@@ -68,7 +68,8 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
+// Moves the corners of the back side to the end and returns its start. Returns the number of corners if no split is
+// needed.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -78,7 +79,8 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     }
     if (glm::length(sum) >= minResultant * angles) return corners.size();
 
-    // Two means, from the corner of the largest angle and the one that looks away from it most.
+    // k-means with two clusters, started from the corner with the largest angle and the corner that faces away from it
+    // most.
     const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
         return glm::dot(a.normal, a.normal) < glm::dot(b.normal, b.normal);
     };
@@ -97,13 +99,13 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
         front = nextFront;
         back = nextBack;
     }
-    // The side that the vertex's own normal agrees with better keeps it.
+    // The side that agrees better with the vertex's own normal keeps this normal.
     if (glm::dot(front, own) * glm::length(back) < glm::dot(back, own) * glm::length(front)) std::swap(front, back);
     const auto border = std::stable_partition(corners.begin(), corners.end(), isFront);
     return static_cast<std::size_t>(border - corners.begin());
 }
 
-// Wedges whose vertices are of one smoothing group, as far as there are corners of it; numbered by first use.
+// Corners grouped by the smoothing group of their wedge's vertex; groups are numbered by first use.
 using NormalGroup = Number<struct NormalGroupKind>;
 using CornersByNormal = Buckets<NormalGroup, TriangleCorner>;
 
@@ -121,11 +123,11 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// Finds the mesh vertices that all corners draw. Where the faces around those that share a normal look
-// opposite ways, the faces of one side lie behind the others, and a mesh vertex that is on both sides is split.
+// The mesh vertex at each corner. If faces with a common normal face opposite ways, the faces of one side form the
+// back. A mesh vertex on both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
-    std::vector<MeshVertexNumber> behind;  // those of `drawn` of which all corners lie behind; sorted
+    std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
 };
 
 Creases creases(Simplifier& s, const Corners& corners) {
@@ -152,7 +154,7 @@ Creases creases(Simplifier& s, const Corners& corners) {
         for (const CornerNormal& c : std::span(around).subspan(kept)) {
             const MeshVertexNumber v = drawn[c.corner];
             if (std::find(inFront.begin(), inFront.end(), v) == inFront.end()) {
-                result.behind.push_back(v);  // all of it: at a seam, each side has a wedge of its own
+                result.behind.push_back(v);  // no split needed: at a seam, each side has its own wedge
                 continue;
             }
             const auto [twin, isNew] =
@@ -167,21 +169,22 @@ Creases creases(Simplifier& s, const Corners& corners) {
 
 // ---- anchors
 
-// Where do the mesh's vertices lie on what is left of it? Every vertex that is gone has a survivor, near which the
-// level's closest face is looked for.
+// Finds the positions of the mesh's vertices on the simplified surface. Each removed vertex has a survivor; the search
+// for the closest face starts there.
 
-constexpr std::size_t maxSteps = 12;          // vertices whose faces are looked at, on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // faces of a vertex on that way; files may have millions at one
-constexpr double noDistance = 1e-24;          // squared, where the mesh is about 1 wide: rounding
-constexpr double minUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
-// Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
+constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
+constexpr std::size_t maxFacesAround = 1024;  // vertices with more faces are skipped on that way
+constexpr double noDistance = 1e-24;          // squared; distances below it are rounding errors for a mesh of unit size
+constexpr double minUpright = 0.99;  // squared cosine of the angle between a face's normal and the offset to the point
+// Min number of anchors searched per surviving vertex. If more vertices collapsed onto it, only every second, fourth, …
+// is searched.
 constexpr std::uint32_t enoughAnchors = 16;
 
-// The level's faces, and whose corners lie at each vertex.
+// The level's faces, and the corners at each vertex.
 struct FaceRings {
     const Snapshot& level;
-    Numbered<VertexHandle, glm::dvec3> points;     // in the frame
-    Numbered<TriangleNumber, glm::dvec3> normals;  // as long as twice the area
+    Numbered<VertexHandle, glm::dvec3> points;     // in units of the frame
+    Numbered<TriangleNumber, glm::dvec3> normals;  // length: twice the area
     Buckets<VertexHandle, TriangleCorner> around;
 
     [[nodiscard]] const glm::dvec3& point(VertexHandle v) const { return points[v]; }
@@ -204,11 +207,11 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 
 struct Closest {
     double squaredDistance = 0;
-    TriangleCorner corner;  // of the face; none: the vertex itself is the closest point
-    glm::dvec2 along{0};    // see closestCoordinates; from the corner to the next and the previous one
+    TriangleCorner corner;  // corner of the closest face; invalid: the vertex itself is the closest point
+    glm::dvec2 along{0};    // closestCoordinates() along the edges to the next and to the previous corner
 };
 
-// The corner of `face` nearest to `p` that isn't among `seen` and hasn't more faces than pay; invalid if there is none.
+// Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; else invalid.
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;
@@ -225,8 +228,8 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
     return nearest;
 }
 
-// Does the face lie straight below a point that is `offset` away from its point `along`? The coordinates alone don't
-// tell: those of a sliver are mostly rounding.
+// Returns whether the closest point of a face is its perpendicular foot. `along` are its coordinates and `offset` leads
+// to the query point. `along` alone is unreliable for slivers because of rounding.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -234,9 +237,10 @@ bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& al
     return height * height >= minUpright * glm::dot(offset, offset) * glm::dot(normal, normal);
 }
 
-// The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
-// around the corners of the closest, as long as that leads closer and no face lies straight below.
-// Only faces that look to `side` count: a thin fin has two sides in one place.
+// Returns the point of the level's surface closest to `p`, starting near the vertex `start`. The search moves from the
+// faces around one vertex to the faces around the corners of the closest face. It stops when the distance no longer
+// decreases or the perpendicular foot lies in a face. Only faces oriented towards `side` count, because both sides of a
+// thin fin are at nearly the same position.
 Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle start, const glm::dvec3& side) {
     Closest result;
     VertexHandle nearest = start;
@@ -258,7 +262,7 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
             const glm::dvec2 along = closestCoordinates(p, a, b, c);
             const glm::dvec3 offset = fromA - along.x * (b - a) - along.y * (c - a);
             const double distance = glm::dot(offset, offset);
-            if (!(distance < min)) continue;  // NaN of a degenerate face is passed over
+            if (!(distance < min)) continue;  // also skips NaN of degenerate faces
             min = distance;
             result.along = along;
             result.corner = corner;
@@ -272,7 +276,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// For each vertex of the level, of how many mesh vertices that have collapsed onto it one is enough.
+// Returns a stride for each vertex of the level: of the mesh vertices that collapsed onto it, one per stride gets its
+// own anchor.
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)
@@ -281,8 +286,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// The closest points to all mesh vertices, as far as they lie on faces of their own primitive and
-// component.
+// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Other
+// vertices have no anchor.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());
@@ -292,7 +297,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // that was looked for
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // vertex with the last searched anchor
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];
         if (!v.isValid()) continue;
@@ -324,7 +329,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     return result;
 }
 
-// Notes what is known of components once many are as small as they get.
+// Records removed and growing components, if any components grow.
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);

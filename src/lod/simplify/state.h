@@ -1,5 +1,5 @@
 #pragma once
-// The state of simplify() while it collapses edges. Private to this folder.
+// State of simplify() during edge collapses. Private to this folder.
 
 #include <cstdint>
 #include <functional>
@@ -16,41 +16,46 @@
 
 namespace defocus::engine {
 
-// What is needed later of the surface before any collapse. The caller keeps `vertices` and `smoothing` alive.
+// Data of the original surface, before any collapse. Keeps references to `vertices` and `smoothing`, which must outlive
+// it.
 struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // of its first corner; invalid if it has no face
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // of the same corner
+    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // surface vertex of its first corner, or invalid
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // primitive of the same corner
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
-// A part of the mesh that shares no position with the rest; see components.cpp.
+// A part of the mesh that shares no position with other parts; see components.cpp.
 struct Component {
-    Ball ball;                  // around all that the mesh had of it
-    double area = 0;            // object units squared; of what the mesh had of it, and of all that it stands in for
-    PrimitiveNumber primitive;  // of one of its faces
-    std::size_t faces = 0;      // that live
-    std::size_t harmless = 0;   // vertices that have a collapse that isn't bad, as far as they have been looked at
-    bool spent = false;         // it had no such vertex once
-    bool standsIn = false;      // for others that were removed
+    Ball ball;  // bounding sphere of the component in the original mesh
+    // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
+    // replaces.
+    double area = 0;
+    PrimitiveNumber primitive;  // primitive of one of its faces
+    std::size_t faces = 0;      // number of remaining faces
+    // Number of vertices with a good or poor collapse, according to the tests made so far.
+    std::size_t harmless = 0;
+    bool spent = false;     // `harmless` has been 0 once
+    bool standsIn = false;  // it replaces removed components
     bool removed = false;
 };
 
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
-    std::unique_ptr<SurfaceMesh> mesh;       // after compact() it holds what lives and nothing else
-    std::optional<CollapseModules> modules;  // of `mesh`
-    // For each vertex the one that it collapsed onto; itself while it lives; invalid if it was taken out with its
-    // component.
+    std::unique_ptr<SurfaceMesh> mesh;       // after compact(), it has no deleted elements
+    std::optional<CollapseModules> modules;  // operate on `mesh`
+    // For each vertex, the vertex that it collapsed onto, or itself if it is not deleted. Invalid if its component was
+    // removed.
     Numbered<VertexHandle, VertexHandle> survivors;
-    // For each vertex of the surface before any collapse, the one that it had become when the mesh was last compact.
+    // For each vertex of the original surface, its survivor at the last compact().
     Numbered<SurfaceVertexNumber, VertexHandle> current;
     CollapseQueue queue;
-    bool queued = false;  // vertices wait in it
+    bool queued = false;  // `queue` is in use
     std::size_t liveFaces = 0;
-    std::size_t firstFaces = 0;  // of which `lost` gets the share that is lost, in steps of a hundredth
+    // Initial number of faces. `lost` receives the removed fraction of it in steps of 0.01.
+    std::size_t firstFaces = 0;
     std::size_t facesAtReport = 0;
     std::function<void(double)> lost;
     std::uint32_t repairedFaces = 0;
@@ -59,73 +64,75 @@ struct Simplifier {
     std::unordered_map<MeshVertexNumber, MeshVertexNumber> twinOf;
 
     Numbered<ComponentNumber, Component>
-        components;              // found once faces are few or many components are as small as they get
-    double area = 0;             // object units squared; of all components
-    bool grows = false;          // small components do, since many are as small as they get
-    std::size_t spentFaces = 0;  // living faces of spent components
-    double spentArea = 0;        // object units squared; of spent components that are left
+        components;              // empty until few faces are left or many components have reached their min size
+    double area = 0;             // total area of the components, object units squared
+    bool grows = false;          // some components grow to replace removed ones
+    std::size_t spentFaces = 0;  // remaining faces of spent components
+    double spentArea = 0;        // area of the remaining spent components, object units squared
 
     [[nodiscard]] Component& componentAt(VertexHandle v) { return components[mesh->data(v).component]; }
     [[nodiscard]] const Component& componentAt(VertexHandle v) const { return components[mesh->data(v).component]; }
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// setup.cpp: makes the mesh's manifold with its quadrics; there are no candidates yet. Without a surface the mesh stays
-// empty.
+// setup.cpp: builds the manifold of the mesh and its quadrics, without candidates. If all triangles are degenerate, the
+// mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// collapse.cpp: judges what the collapse along a half-edge does to the faces around and to their wedges.
+// collapse.cpp: judges the effect of a collapse on the surrounding faces and their wedges. Ignores the topology.
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
-// Does the same, but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
-// only if the collapse is no worse than `worst`, because Debian's OpenMesh is built with assertions, which make
-// is_collapse_ok slow.
+// Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
+// only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
+// active in Debian's OpenMesh.
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
-// Collapses along the half-edge, which the topology must allow, and tells the modules.
+// Collapses the half-edge and notifies the modules. The topology must allow the collapse.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
-// Returns the vertex that `v` has collapsed onto, or `v` itself if it lives; invalid if it went with its component.
+// Returns the final survivor of `v`, or `v` itself if it is not deleted. Invalid if its component was removed.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
-// Removes what is gone from the mesh, numbers the rest anew in the same order, and gives back the memory.
+// Removes deleted elements from the mesh, renumbers the others in the same order, and frees the memory.
 void compact(Simplifier& s);
 
-// components.cpp: returns whether all faces hang together by the vertices that they share. Equal positions don't count.
+// components.cpp: returns whether shared vertices connect all faces. Vertices that share only a position do not
+// connect.
 bool isConnected(const Simplifier& s);
-// Returns whether more than a quarter of the faces are single triangles or parts of tetrahedra, which no collapse makes
-// smaller.
+// Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
+// simplify these further.
 bool manyAreSmallest(const Simplifier& s);
-// Finds the components of what is left of the mesh. Only the first call does anything.
+// Finds the components of the remaining mesh. Later calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Notes that the vertex's component has no collapse left that isn't bad.
+// Records that the vertex's component has no good or poor collapse left.
 void spend(Simplifier& s, VertexHandle v);
-// Returns how many of `faces` faces would lie on `area` if they were spread evenly over the whole area of the mesh.
+// Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
-// Returns whether the vertex's collapse, which has this fit, must not be made on the way to a level of `target` faces.
-// A bad collapse must leave its component its even share of those faces. Other collapses are limited only if spent
-// components have more than half of them: then the remaining components must keep `share` of their even share.
+// Returns whether the vertex's collapse of class `fit` must be skipped while simplifying to `target` faces. A bad
+// collapse is skipped if its component would fall below its even share of these faces (evenShare). Other collapses are
+// restricted only if spent components own more than half of these faces. The other components must then keep the
+// fraction `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
-// Removes whole components from the mesh until `target` faces are left, or until no further component may go.
+// Removes complete components until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
-// See SimplifiedLevel::removed.
+// Computes SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// See LevelMesh::growths.
+// Computes LevelMesh::growths.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
-// A copy of a level, so that it can be measured and fitted while the collapses go on.
+// A copy of a level, which other threads measure and fit while collapses continue.
 struct Snapshot {
     TriangleSet<MeshVertexNumber> drawn;
-    Numbered<TriangleCorner, VertexHandle> corners;       // the same triangles in vertices of the level's surface
-    Numbered<VertexHandle, glm::vec3> positions;          // of the level's surface
-    Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // Simplifier::current
+    Numbered<TriangleCorner, VertexHandle> corners;       // the same triangles, with vertices of the level's surface
+    Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
+    Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
-    std::vector<MeshVertexNumber> behind;               // those of `drawn` whose corners all lie behind; sorted
+    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` whose corners are all on the back; sorted
     std::vector<Ball> removed;                          // see SimplifiedLevel::removed
     Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // empty without any
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // see LevelMesh::growthsOf; empty if there are none
 };
 
-// snapshot.cpp: copies what compact() has left.
+// snapshot.cpp: copies the level. compact() must have been called.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// Makes the level of which `picture` is a copy. Its anchors are found only if `withAnchors` is set.
+// Makes a level from its copy `picture`. Anchors are computed only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus::engine

@@ -6,8 +6,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Closes the loops of half-edges beyond borders. Every vertex at a border has one that leaves it, as its faces form a
-// single fan; it becomes the vertex's half-edge.
+// Connects the half-edges without faces to loops along borders. Each border vertex has exactly one outgoing half-edge
+// without a face, because its faces form a single fan. It becomes the halfedge_handle of the vertex.
 void linkBorders(SurfaceMesh& mesh) {
     const auto count = static_cast<int>(mesh.n_halfedges());
     for (int h = 0; h < count; ++h)
@@ -18,7 +18,7 @@ void linkBorders(SurfaceMesh& mesh) {
             mesh.set_next_halfedge_handle(border, mesh.halfedge_handle(mesh.to_vertex_handle(border)));
 }
 
-// Numbers in their old order what `isKept` lets in, others are invalid; returns how many there are.
+// Numbers the elements for which isKept is true, in their order; the others become invalid. Returns their number.
 template <typename Handle, typename IsKept>
 std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const IsKept& isKept) {
     numbers.assign(count, Handle());
@@ -28,7 +28,7 @@ std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const I
     return static_cast<std::size_t>(next);
 }
 
-// Drops the wedges that no living corner draws; says what the others are from now on.
+// Removes the wedges that no remaining corner uses. Returns the new number of each wedge.
 Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
     Numbered<WedgeNumber, WedgeNumber> numbers(mesh.wedges.size());
     forEachFace(mesh, [&](FaceHandle face) {
@@ -47,8 +47,8 @@ Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
 }  // namespace
 
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles) {
-    // Each pair of twins is an edge, and so is each half-edge without one; the first of them in the order of faces is
-    // its half-edge 0.
+    // Each pair of twins forms an edge, and so does each half-edge without a twin. The half-edge with the lower number
+    // is half-edge 0 of its edge.
     Numbered<SurfaceCorner, HalfedgeHandle> halfedges(manifold.twins.size());
     int edges = 0;
     for (const SurfaceCorner h : halfedges.numbers()) {
@@ -66,7 +66,8 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<Me
         const auto face = itemAt<FaceHandle>(indexOf(f));
         const bool turned = manifold.turned[f] != 0;
         mesh.data(face).primitiveAndTurn = primitives[manifold.faces[f]].value << 1 | (turned ? 1 : 0);
-        // A turned face runs from corner 0 over 2 to 1: half-edge 2, which the manifold runs from 2 to 0, leaves 0.
+        // A reversed face has the corner order 0, 2, 1. Half-edge 2 leads from 2 to 0 in the manifold, and from 0 to 2
+        // in the mesh.
         const std::uint32_t cornerOrder[3] = {0, turned ? 2u : 1u, turned ? 1u : 2u};
         const HalfedgeHandle sides[3] = {halfedges[cornerAt(f, turned ? 2 : 0)], halfedges[cornerAt(f, 1)],
                                          halfedges[cornerAt(f, turned ? 0 : 2)]};
@@ -126,7 +127,7 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
         copy->set_halfedge_handle(faceNumber(face), numberOf(mesh.halfedge_handle(face)));
     });
 
-    // A candidate that is outdated may have lost its edge; any other of the vertex's stands for it.
+    // An outdated candidate may refer to a deleted edge. Any other half-edge of the vertex can replace it.
     forEachVertex(*copy, [&](VertexHandle v) {
         HalfedgeHandle& along = copy->data(v).candidate.along;
         if (!along.is_valid()) return;

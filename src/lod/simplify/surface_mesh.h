@@ -1,10 +1,10 @@
 #pragma once
-// The surface under simplification: OpenMesh's half-edges, with what the simplifier keeps on them. No other file
-// includes OpenMesh; the rest of the simplifier uses the names below.
+// The surface during simplification: OpenMesh's half-edge structure with the simplifier's data per vertex, half-edge
+// and face. Only this header includes OpenMesh; other files use the names below.
 //
-// Faces run around their corners so that neighbours agree. A half-edge stands for the corner of its face at the vertex
-// that it leaves. At a border the half-edges beyond the surface have no face, and a vertex's halfedge_handle is the one
-// that leaves it there. What collapses take away is only marked as deleted, until livingCopy().
+// Faces are oriented consistently with their neighbours. A half-edge also represents the corner of its face at the
+// vertex where it starts. At a border, the half-edges on the outside have no face. The halfedge_handle of a border
+// vertex is its outgoing half-edge without a face. Collapses only mark elements as deleted; livingCopy() removes them.
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/CollapseInfoT.hh>
@@ -28,30 +28,30 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-// The mesh at unit size, so that no weight depends on its scale.
+// Maps the mesh to unit size, so that weights are independent of its scale.
 struct Frame {
     glm::dvec3 centre{0};  // object units
-    double inverse = 0;    // of the mesh's longest side in object units; 0: the mesh has no extent
+    double inverse = 0;    // 1 / longest side of the mesh's bounding box; 0: the mesh has no extent
 
-    // A place of the mesh in the frame.
+    // Converts a position from object units to the frame.
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
-    // The way between two places, in units of the frame.
+    // Returns the vector between two positions, in units of the frame.
     [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
         return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
     }
 };
 
-// Collapses of a worse kind wait until no better one is left. See simplify.h for what makes one poor or bad.
+// Class of a collapse. Collapses of a worse class wait until no better one is left; simplify.h defines poor and bad.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
-// The collapse that a vertex waits for.
+// The next collapse that removes a vertex.
 struct Candidate {
-    HalfedgeHandle along;  // from the vertex to the survivor; invalid: no collapse is possible
+    HalfedgeHandle along;  // from the vertex to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // as far as it has been looked at
-    bool outdated = false;  // the vertex has a better one by now, or this one has another cost
+    Fit fit = Fit::good;    // worst class found by the tests made so far
+    bool outdated = false;  // another collapse is cheaper, or the cost has changed
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }
     [[nodiscard]] bool harmless() const { return possible() && fit < Fit::bad; }
@@ -63,21 +63,21 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
 
     template <class Base, class Refs>
-    struct alignas(64) VertexT : Base {  // a line of the cache
+    struct alignas(64) VertexT : Base {  // one cache line
         Quadric quadric;
         Candidate candidate;
-        ComponentNumber component;  // once components are found
+        ComponentNumber component;  // valid once components have been found
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
-        WedgeNumber wedge;  // of the corner; none beyond a border
+        WedgeNumber wedge;  // wedge of the corner; invalid outside a border
     };
     template <class Base, class Refs>
     struct FaceT : Base {
-        std::uint32_t primitiveAndTurn = 0;  // the primitive's number, doubled, plus 1 for a face that is turned
+        std::uint32_t primitiveAndTurn = 0;  // 2 · primitive number, plus 1 if the face is reversed
 
         [[nodiscard]] PrimitiveNumber primitive() const { return {primitiveAndTurn >> 1}; }
-        // Whether the mesh has the face's last two corners the other way round.
+        // Returns whether the mesh stores the face's last two corners in reverse order.
         [[nodiscard]] bool isTurned() const { return (primitiveAndTurn & 1) != 0; }
     };
 };
@@ -91,7 +91,7 @@ public:
     SurfaceMesh(const SurfaceMesh&) = delete;
     SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
-    // Makes so many items (at least one each); the only way to make any.
+    // Creates the given numbers of elements (at least one of each). This is the only way to create elements.
     void resize(std::size_t vertexCount, std::size_t edgeCount, std::size_t faceCount) {
         using Kernel = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
         Kernel::resize(vertexCount, edgeCount, faceCount);
@@ -101,7 +101,7 @@ public:
         positions_ = points();
     }
 
-    // At each access OpenMesh looks for the property's array first; here it is known.
+    // Faster than OpenMesh's own accessors, which look up the property array at each access.
     [[nodiscard]] VertexData& data(VertexHandle v) { return vertexData_[v.idx()]; }
     [[nodiscard]] const VertexData& data(VertexHandle v) const { return vertexData_[v.idx()]; }
     [[nodiscard]] HalfedgeData& data(HalfedgeHandle h) { return halfedgeData_[h.idx()]; }
@@ -135,8 +135,8 @@ private:
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<SurfaceMesh>;
 using CollapseModule = OpenMesh::Decimater::ModBaseT<SurfaceMesh>;
 
-// Calls visit(half-edge) for every half-edge that leaves `v`, counter-clockwise. At a border the one without a face
-// comes last.
+// Calls visit(half-edge) for every half-edge that starts at `v`, counter-clockwise. At a border, the half-edge without
+// a face is visited last.
 template <typename Visit>
 void forEachSpoke(const SurfaceMesh& mesh, VertexHandle v, const Visit& visit) {
     const HalfedgeHandle last = mesh.halfedge_handle(v);
@@ -147,7 +147,7 @@ void forEachSpoke(const SurfaceMesh& mesh, VertexHandle v, const Visit& visit) {
     } while (spoke != last);
 }
 
-// Calls visit(handle) for every face, or every vertex, that lives, in the order of their numbers.
+// Call visit(handle) for every face or vertex that is not deleted, in ascending order.
 template <typename Visit>
 void forEachFace(const SurfaceMesh& mesh, const Visit& visit) {
     for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f)
@@ -172,14 +172,14 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
     return {{first, second, mesh.next_halfedge_handle(second)}};
 }
 
-// Links the manifold's faces: its vertices and faces keep their numbers. add_face() would refuse a second edge between
-// two vertices, which cuts can leave. `triangles` are those that the manifold was made of, in mesh vertices, which are
-// their corners' wedges.
+// Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike add_face(), it accepts a
+// second edge between two vertices, which cutting non-manifold edges can create. `triangles` is the input of the
+// manifold. The mesh vertices at its corners become the wedges of the corners.
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
-// Copies what lives, numbered anew in the order that it had. (garbage_collection() would fill gaps from the end, and
-// what is near in space would no longer be so in memory.) Moves the wedge table along, without the wedges that no
-// corner draws. `vertexNumbers` gets the new number of each vertex, invalid for those that are gone.
+// Copies all elements that are not deleted, renumbered in the same order. garbage_collection() would fill gaps from the
+// end, so that neighbours in space would be far apart in memory. The wedge table is moved to the copy, without wedges
+// that no corner uses. `vertexNumbers` receives the new number of each vertex, invalid for deleted vertices.
 std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
-// Texture coordinates of a level, fitted so that it shows the texture where level 0 does. Those at seams stay as they
-// are, so that each chart keeps its rim. No triangle turns over in texture space, or becomes less than half or more
-// than twice as large there.
+// Fits the texture coordinates of a level so that the texture appears at the same position as on level 0. Coordinates
+// at seams are kept, so that the boundary of each chart is preserved. No triangle flips in texture space or changes its
+// area there by more than a factor of two.
 
 #include <algorithm>
 #include <array>
@@ -14,11 +14,11 @@ namespace defocus::engine {
 
 namespace {
 
-// An anchor further from its triangle in texture space than this, in the triangle's longest sides there, lies on
-// another chart.
+// Max distance in texture space between an anchor and its triangle, relative to the triangle's longest side in texture
+// space. A vertex beyond it belongs to another chart.
 constexpr float maxTextureGap = 0.5f;
 
-// Whether a gap in a triangle with these corners is one to another chart.
+// Returns whether a gap at a triangle with these corners leads to another chart.
 bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) {
     float longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -28,7 +28,7 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
     return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
-// The same as AnchorSums, of the way in texture space from the point of the level to the vertex that lies there.
+// Like AnchorSums, for displacements in texture space from the anchor's point on the level to the original vertex.
 struct TextureSums {
     struct Vertex {
         double weight = 0;
@@ -77,7 +77,7 @@ TextureSums sumTextureGaps(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Takes back what turned a triangle over in texture space, or made it less than half or more than twice as large.
+// Undoes changes that flip a triangle in texture space or change its area there by more than a factor of two.
 void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Numbered<UnknownNumber, glm::vec2>& original,
                         const LeastSquares& fit) {
     const auto areaOf = [&](const Numbered<UnknownNumber, glm::vec2>& uv, TriangleCorner first) {
@@ -101,7 +101,7 @@ void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Number
     }
 }
 
-// One set of the coordinates, moved by what two of the fit's channels say, from `channel` on.
+// Returns one set of texture coordinates, displaced by two channels of the solution, starting at `channel`.
 Numbered<LevelVertexNumber, glm::vec2> movedCoordinates(const std::vector<glm::vec2>& own, const Grouping& groups,
                                                         const LeastSquares& fit, std::size_t channel) {
     if (own.empty()) return {};

@@ -1,6 +1,6 @@
 #pragma once
-// Geometry of single triangles: their areas, the points closest to others, points to integrate over, and a guard of
-// what is fitted against triangles that turn over.
+// Geometry of single triangles: area, closest point, integration points, and protection of fitted positions against
+// flipped triangles.
 
 #include <array>
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace defocus::engine {
 
-// Twice the area of a triangle, along its normal; at(corner) is its place.
+// Returns the normal of a triangle with the length of twice its area. at(corner) is the corner's position.
 template <typename Corner, typename At>
 glm::dvec3 triangleCross(std::span<const Corner, 3> corners, const At& at) {
     const glm::dvec3 a = at(corners[0]);
     return glm::cross(glm::dvec3(at(corners[1])) - a, glm::dvec3(at(corners[2])) - a);
 }
 
-// Ericson 2005, Real-Time Collision Detection, 5.1.5, by Voronoi region: (u, v) of the closest point a + u·(b − a) +
-// v·(c − a) of the triangle abc to `p`.
+// Returns (u, v) of the point a + u·(b − a) + v·(c − a) of triangle abc that is closest to `p`. By Voronoi regions,
+// after Ericson 2005, Real-Time Collision Detection, 5.1.5.
 inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                      const glm::dvec3& c) {
     const glm::dvec3 ab = b - a;
@@ -36,7 +36,8 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double alongAcFromC = glm::dot(ac, p - c);
     if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
 
-    // Twice the areas that p spans with each edge, times the triangle's: ≤ 0 beyond the edge.
+    // Products of the triangle's doubled area and the doubled signed area of p with each edge; ≤ 0: p is beyond the
+    // edge.
     const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
     if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};
     const double overAc = alongAbFromC * alongAcFromA - alongAbFromA * alongAcFromC;
@@ -54,9 +55,10 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const g
     return a + along.x * (b - a) + along.y * (c - a);
 }
 
-// Calls visit(weights, share) for points of a triangle that is split into parts² alike: three within each of them,
-// which integrate quadratic functions exactly (Strang and Fix 1973). No point lies on an edge, where normals of a rim's
-// two sides may cancel. `weights` are those of the corners, and the shares sum to 1.
+// Calls visit(weights, share) for the integration points of a triangle. The triangle is divided into parts² congruent
+// triangles with three points each, which integrate quadratic functions exactly (Strang and Fix 1973). No point lies on
+// an edge, because the normals of the two sides of a rim may cancel there. `weights` are barycentric coordinates; the
+// shares sum to 1.
 template <typename Visit>
 void forEachTrianglePoint(int parts, const Visit& visit) {
     const double step = 1.0 / parts;
@@ -74,8 +76,8 @@ void forEachTrianglePoint(int parts, const Visit& visit) {
         }
 }
 
-// Moves corners back to where they were until no triangle is turned by more than 60°; at worst all of them.
-// cornersOf(t) are the three items of both arrays, below `triangles`, that a triangle joins.
+// Moves corners back to their original positions until no triangle is turned by more than 60°. In the worst case, all
+// corners return. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in both arrays.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {
     constexpr double minTurnCosine = 0.5;

@@ -1,6 +1,6 @@
 #pragma once
-// Triangles in the form that all of `lod` passes on, primitive after primitive with three corners each, and means over
-// their area.
+// Triangle lists as used throughout `lod`: three corners per triangle, sorted by primitive. Also averages over their
+// area.
 
 #include <cmath>
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace defocus::engine {
 
-// `Vertex` says whose numbers the corners hold.
+// `Vertex` is the type of vertex number stored at the corners.
 template <typename Vertex>
 struct TriangleSet {
-    Numbered<TriangleCorner, Vertex> indices;                       // three a triangle
-    Numbered<PrimitiveNumber, std::uint32_t> primitiveIndexCounts;  // three for each triangle of a primitive
+    Numbered<TriangleCorner, Vertex> indices;                       // three per triangle
+    Numbered<PrimitiveNumber, std::uint32_t> primitiveIndexCounts;  // 3 × triangles of each primitive
 
     [[nodiscard]] std::size_t count() const { return indices.size() / 3; }
     [[nodiscard]] auto numbers() const { return numbersBelow<TriangleNumber>(count()); }
@@ -28,7 +28,7 @@ struct TriangleSet {
     }
 };
 
-// The primitive of each triangle.
+// Returns the primitive of each triangle.
 template <typename Vertex>
 Numbered<TriangleNumber, PrimitiveNumber> primitivesOf(const TriangleSet<Vertex>& triangles) {
     Numbered<TriangleNumber, PrimitiveNumber> primitives;
@@ -38,8 +38,8 @@ Numbered<TriangleNumber, PrimitiveNumber> primitivesOf(const TriangleSet<Vertex>
     return primitives;
 }
 
-// The mean over a surface of what is linear over each of its triangles, value(v) at their corners; 0 without area.
-// at(v) is a corner's place.
+// Returns the area-weighted mean of a function that is linear over each triangle and has the value value(v) at corner
+// v. at(v) is the position of the corner. Returns 0 if the surface has no area.
 template <typename Vertex, typename At, typename Value>
 glm::dvec4 areaMean(const TriangleSet<Vertex>& triangles, const At& at, const Value& value) {
     glm::dvec4 sum(0);
@@ -55,7 +55,7 @@ glm::dvec4 areaMean(const TriangleSet<Vertex>& triangles, const At& at, const Va
     return areas > 0 ? sum / areas : glm::dvec4(0);
 }
 
-// The corners without their type.
+// Returns the corners as plain integers.
 template <typename Vertex>
 std::vector<std::uint32_t> plainCorners(const TriangleSet<Vertex>& triangles) {
     std::vector<std::uint32_t> corners;

@@ -1,7 +1,7 @@
 #pragma once
-// Wedges. The surface is joined by position, but each corner of a face draws a mesh vertex of its own, its wedge (Hoppe
-// 1998, Efficient Implementation of Progressive Meshes), so that UV seams, creases and material borders live on a
-// closed surface. The table holds each wedge's attributes and its attribute quadric.
+// Wedges. The surface is connected by position, but each face corner has its own mesh vertex, called a wedge (Hoppe
+// 1998, Efficient Implementation of Progressive Meshes). UV seams, creases and material borders can therefore exist on
+// a closed surface. The table stores the attributes and the attribute quadric of each wedge.
 
 #include <algorithm>
 #include <array>
@@ -17,62 +17,62 @@
 
 namespace defocus::engine {
 
-// The distance, in the mesh's longest sides, that weighs as much as a unit of an attribute (of uv: scaled to lengths of
-// the surface, so that it tells a texture that slides). Swept on the school of fish: half or twice as much costs up to
-// 0.5 dB at the same triangles.
+// Weight of an attribute: the distance, in units of the mesh's longest side, that costs as much as a change of the
+// attribute by 1. Texture coordinates are scaled to surface lengths, so that the error measures how far the texture
+// slides. Chosen by a parameter sweep on the school of fish. Half or twice a weight costs up to 0.5 dB at the same
+// triangle count.
 constexpr float normalWeight = 0.003f;
-constexpr float colorWeight = 0.005f;  // of colours in [0, 1]
+constexpr float colorWeight = 0.005f;  // for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Of a blur that vertices have themselves, over the mesh's range of it. A level must show a blur where the file has it:
-// four times a colour's weight.
+// For per-vertex blur, relative to the mesh's range of blur. Four times the colour weight, because a level must show
+// blur where the file has it.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
 public:
-    // Makes one wedge a vertex, with the weighted attributes that the vertices have. `uvScale` leads from uv to lengths
-    // of the unit frame.
+    // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts uv to lengths in the unit
+    // frame.
     void assign(const Vertices& vertices, float uvScale);
-    // Whether attributes change over a face with these wedges at its corners.
+    // Returns whether attributes vary over a face with these three wedges at its corners.
     [[nodiscard]] bool changes(const WedgeNumber* corners) const;
-    // Gives each wedge an empty quadric. Must be called before addFace(). `changing` says of each wedge whether it is
-    // on a face that changes().
+    // Gives each wedge an empty quadric. Must precede addFace(). `changing` tells for each wedge whether changes() is
+    // true for one of its faces.
     void startQuadrics(const std::vector<bool>& changing);
-    // Keeps the wedges that are named, in this order (ascending).
+    // Keeps only the wedges in `order` (ascending) and renumbers them.
     void keep(std::span<const WedgeNumber> order);
 
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
-    // The mesh vertex that the wedge's corners draw.
+    // Returns the mesh vertex of the wedge.
     [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
-    // Weighted attributes: normal, then colour, then blur, then uv, as far as the mesh has them.
+    // Returns the weighted attributes: normal, colour, blur and uv, without those that the mesh lacks.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
     }
 
-    // Whether no seam lies between two wedges: they differ in nothing but their normals.
+    // Returns whether two wedges differ at most in their normals, so that no seam separates them.
     [[nodiscard]] bool sameChart(WedgeNumber a, WedgeNumber b) const {
         const auto first = row(a);
         return std::equal(first.begin() + 3, first.end(), row(b).begin() + 3);
     }
     // Returns the squared distance between two wedges in texture space, in units of the frame.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
-    // Returns how unlike two wedges are: the sum of the squared distances between their normals, between their colours
-    // and blurs (times 4) and in texture space.
+    // Returns the dissimilarity of two wedges: the sum of the squared differences of normal, colour, blur (times 4) and
+    // texture coordinates.
     [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
 
-    // Adds a face to the quadrics of the three wedges at its corners, which lie at `places`. Leaves a sliver out,
-    // because its gradients would be noise.
+    // Adds a face to the quadrics of its three wedges; `places` are its corners. Slivers are ignored, because their
+    // gradients are mostly noise.
     void addFace(const WedgeNumber* corners, const glm::dvec3* places);
-    // Returns the cost of drawing `to`, which is `step` away, where `from` was drawn; never negative.
+    // Returns the cost of replacing the wedge `from` by `to`, at the offset `step`; never negative.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
-    // Moves what the quadric of `from` holds to that of `to`, which is `step` away.
+    // Moves the contents of the quadric of `from` to the quadric of `to`, at the offset `step`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
-    // Asks the caches for the first of what cost() needs of a survivor, and for all that moveQuadric() needs.
+    // Prefetch memory: prefetchStart() for cost() of a survivor, prefetch() for moveQuadric().
     void prefetchStart(WedgeNumber w) const;
     void prefetch(WedgeNumber w) const;
 
 private:
-    // All numbers of attributes that a mesh can have: its normals alone, or with uv (2), with colours (3), with blurs
-    // (3), with some of them.
+    // One alternative per possible number of attributes: normals (3), optionally with uv (2), colours (3) and blur (3).
     using Quadrics = std::variant<DenseQuadrics<3>, DenseQuadrics<5>, DenseQuadrics<6>, DenseQuadrics<8>,
                                   DenseQuadrics<9>, DenseQuadrics<11>, SparseQuadrics<3>>;
 
@@ -80,7 +80,7 @@ private:
     bool hasColors_ = false;
     bool hasBlurs_ = false;
     bool hasUv_ = false;
-    LargeVector<float> rows_;  // attributeCount_ a wedge
+    LargeVector<float> rows_;  // attributeCount_ per wedge
     LargeVector<MeshVertexNumber> sources_;
     Quadrics quadrics_ = DenseQuadrics<3>(0);
 };

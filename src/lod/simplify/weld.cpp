@@ -16,7 +16,7 @@ namespace {
 
 constexpr float agreeingCosine = 0.99985f;  // 1°
 
-// Open addressing with linear probing over a table of at most half load. `equal` compares vertices of equal hash.
+// Hash table with open addressing and linear probing, at most half full. `equal` compares vertices with equal hashes.
 template <typename Vertex, typename Id, typename Equal>
 Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
     const std::size_t size = std::bit_ceil(2 * hashes.size() + 1);
@@ -39,7 +39,7 @@ Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& e
     return result;
 }
 
-// The bytes of one attribute, vertex after vertex.
+// The values of one attribute, as bytes, with one entry per vertex.
 struct Stream {
     const std::byte* data = nullptr;
     std::size_t stride = 0;
@@ -97,11 +97,11 @@ WeldedVertices weldVertices(const Mesh& mesh) {
 }
 
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions) {
-    // Only vertices that share their position with another need a look; the others lead themselves.
+    // Only vertices that share their position with others are compared; each other vertex is its own leader.
     const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
     VertexGroups groups(normals.size());
     for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;
-    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // how many vertices are there, up to 2
+    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // vertices at each position, at most 2
     for (const PositionNumber position : at) met[position] = met[position] == 0 ? 1 : 2;
     std::vector<MeshVertexNumber> order;
     for (const MeshVertexNumber v : groups)

@@ -1,5 +1,5 @@
 #pragma once
-// Finds vertices that are the same, vertices at the same place, and those of them that share a normal.
+// Finds equal vertices, vertices at the same position, and groups of these with similar normals.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -9,25 +9,25 @@
 
 namespace defocus::engine {
 
-// Equal vertices have one number, in order of first appearance.
+// Equal vertices get the same id. Ids are assigned in order of first appearance.
 template <typename Vertex, typename Id>
 struct Welded {
     Numbered<Vertex, Id> id;
-    Numbered<Id, Vertex> first;  // the first vertex that has the id
+    Numbered<Id, Vertex> first;  // the first vertex with this id
 };
 using WeldedPositions = Welded<MeshVertexNumber, PositionNumber>;
 using WeldedVertices = Welded<FileVertexNumber, MeshVertexNumber>;
 
-// Welds exactly equal positions (−0 equals 0; a position that is no number equals none).
+// Welds exactly equal positions. −0 equals 0; a position with NaN equals no other position.
 WeldedPositions weldPositions(const std::vector<glm::vec3>& positions);
 
-// Welds vertices of which every attribute is equal to the last bit, morph targets included.
+// Welds vertices whose attributes, including morph targets, are all bit-identical.
 WeldedVertices weldVertices(const Mesh& mesh);
 
 // For each vertex, the first vertex of its group.
 using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
 
-// Vertices at one position whose normals agree within a degree share one group; others keep a crease between them.
+// Groups vertices at the same position whose normals differ by at most one degree. A crease separates groups.
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions);
 
 }  // namespace defocus::engine

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The least |CoC| that the object's surfaces may have at a depth and a place of the image, px.
+// Returns the min |CoC| in px that the object's surfaces can have at a depth and an image position.
 double minCoc(const ObjectPlan& object, const FramePlan& plan, double depth, const glm::dvec2& ndc) {
     return circleOfConfusionRange(plan.coc, {depth, depth, ndc, ndc, object.own}, plan.view.width).smallest;
 }

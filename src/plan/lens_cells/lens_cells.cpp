@@ -15,12 +15,12 @@ namespace defocus::engine {
 
 namespace {
 
-// σ of the blur as a share of a disk's diameter, times √N. Cells that were disks would have 1/4. Two fifths more
-// closes the gaps between them.
+// σ of the blur as a fraction of a disk's diameter, times √N. Disk-shaped cells would have 1/4. The value is 40 %
+// larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 4;  // fewer don't divide a lens
+constexpr std::uint32_t fewestSamples = 4;  // fewer samples do not divide a lens
 constexpr std::uint32_t maxPointsOfCell = 16;
-constexpr std::uint32_t maxPoints = 1u << 14;  // of all cells
+constexpr std::uint32_t maxPoints = 1u << 14;  // over all cells
 
 std::string reasonForNone(const FramePlan& plan) {
     if (plan.settings.keepAll) return "everything is kept";
@@ -33,7 +33,8 @@ std::string reasonForNone(const FramePlan& plan) {
     return "";
 }
 
-// Mean and covariance of points of the lens, and how much of the disk their light fills. Of a disk unless said.
+// Mean and covariance of lens points, and the fraction of the unit disk that their light fills. Defaults: the unit
+// disk.
 struct LensSpread {
     glm::dvec2 mean{0};
     glm::dmat2 covariance{0.25};
@@ -51,7 +52,8 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
     return spread;
 }
 
-// How much of the disk an image's light would fill if it were even: (Σ w)² / Σ w² of its cells.
+// Returns the fraction of the disk that the image's light would fill with uniform density: (Σ w)² / Σ w² over its
+// cells.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;
@@ -72,7 +74,7 @@ LensSpread lensSpread(const Lens& lens) {
     const Aperture aperture = makeAperture(lens);
     if (isUniformDisk(aperture)) return {};
     LensSpread spread = spreadOf(lensSamples(lens, Sequence::sobol, 0, 4096, 0));
-    // That of an ellipse with this covariance, less a ring's hole.
+    // Area of an ellipse with this covariance, without a ring's hole.
     spread.area = std::min(1.0, 4 * std::sqrt(glm::determinant(spread.covariance)));
     spread.area *= (1 - aperture.obstruction) / (1 + aperture.obstruction);
     if (!aperture.image.rowEnds.empty()) spread.area = std::min(spread.area, filledArea(aperture.image));
@@ -86,9 +88,9 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each sample to the mean of the points of its cell: more points of the sequence, divided evenly among the
-// samples that lie near them. They are divided along two axes, so that the means form rows and columns. With the axes
-// turned, means of a column fill the gaps to the next one where an upright or level edge is blurred.
+// Moves each sample to the mean of its cell. A cell's points are further points of the sequence, divided evenly among
+// nearby samples. The division runs along two axes, so the means form rows and columns. The axes are rotated, so that
+// the means of adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -108,14 +110,14 @@ void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     rotate(samples, turn);
 }
 
-// The lower triangular L with L·Lᵀ = m (Cholesky).
+// Returns the lower triangular L with L·Lᵀ = m (Cholesky).
 glm::dmat2 root(const glm::dmat2& m) {
     const double a = std::sqrt(std::max(m[0][0], 1e-12));
     const double b = m[0][1] / a;
     return {a, b, 0, std::sqrt(std::max(m[1][1] - b * b, 1e-12))};
 }
 
-// Samples moved and stretched so that they have the lens's mean, and its covariance less `variance` along each axis.
+// Returns the samples transformed to the lens's mean, and to its covariance minus `variance` along each axis.
 std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const LensSpread& lens, double variance) {
     glm::dmat2 wanted = lens.covariance;
     for (glm::length_t axis = 0; axis < 2; ++axis) wanted[axis][axis] -= std::min(variance, 0.75 * wanted[axis][axis]);
@@ -133,7 +135,7 @@ double varianceOf(double blur, double coc) {
     return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
-// Classes for a blur of up to `coc` px.
+// Returns the number of classes for a blur of up to `coc` px.
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);
     int classes = variance > 0 ? 1 : 0;
@@ -165,7 +167,7 @@ LensCells lensCells(const FramePlan& plan) {
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
     moveToMeans(samples, plan);
-    // A point at (1, 0) moves the image by c/2 px.
+    // A lens point at (1, 0) moves the image by c/2 px.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

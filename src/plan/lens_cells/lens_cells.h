@@ -1,20 +1,20 @@
 #pragma once
-// Lens cells: the pieces of the lens that lens samples stand for (method "multirate").
+// Lens cells: pieces of the lens that are represented by one lens sample each (method "multirate").
 //
-// N samples divide the lens into N cells of the same light. What a cell sees is the image from its middle, blurred a
-// little more: by a shape √N times smaller than the lens's own. A sum of images from points leaves that out, and shows
-// copies where there should be a disk. So the images are seen from the middles of the cells, and each is blurred by a
-// Gaussian of σ = blur·|c| px, with c the circle of confusion of what a pixel shows: the image's grid follows the blur
-// (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
+// N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
+// from the cell's middle, blurred slightly. The blur kernel is the lens's shape, √N times smaller. Summing pinhole
+// images without that blur shows ghost copies instead of a disk. Therefore each image is rendered from a cell's middle
+// and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel. The image
+// resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
 //
-// Variances add. So the middles have the mean of the lens, and its covariance less that of the blur: what is blurred
-// keeps its place and its size for any N, where points of a sequence move it by their mean. σ falls as 1/√N, and the
-// limit is that of the accumulation.
+// Variances of convolved kernels add. The middles therefore have the lens's mean, and the lens's covariance minus the
+// covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
+// by their mean. σ falls as 1/√N, so the limit equals the accumulation's.
 //
-// Blurring is linear, so what pixels show is sorted by σ into a few classes, summed, and each class is blurred once a
-// block (render/accumulation/cell_sums.h). A pixel belongs to the two classes whose variances are nearest to its own,
-// in shares that keep it: nothing pops. What is hardly blurred stays as it is, and so does a pixel where an
-// alpha-blended surface shows what lies behind it, as both have a blur of their own.
+// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed, and each class is blurred once
+// per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest variances, with
+// weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay unblurred. Pixels with
+// an alpha-blended surface also stay unblurred, because the surface and its background differ in blur.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -25,31 +25,31 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // on each side of the focus; σ ends with the last's
-// px² along an axis, of class k ≥ 0 of a side, 4^k/3 + 1/6: its image has means over squares of 2^k px, weighed by a
-// tent, and linear interpolation between their middles.
+inline constexpr int maxCellClasses = 5;  // classes on each side of the focus; σ is limited by the last class
+// Returns the variance of class k ≥ 0 along an axis in px²: 4^k/3 + 1/6. The image of a class consists of tent-weighted
+// means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // px², taken from all: what a pixel's own width hides
+inline constexpr double minCellVariance = 0.01;  // px², subtracted from every variance: hidden by a pixel's own width
 
 struct LensCells {
-    double blur = 0;                 // σ as a share of |c|; 0: images stay as they are
-    std::uint32_t firstSample = 0;   // LensSample::index of the first of them
-    std::vector<glm::vec2> middles;  // as LensSample::lens
-    glm::dvec2 pixelShift{0};        // px; brings the mean of the pixel offsets to the pixels' middle
-    // Classes that what is in front of the focus needs, and what is behind it. Where samples leave no gaps there are
-    // none: the middles of the cells are all that is left, so that nothing pops.
+    double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
+    std::uint32_t firstSample = 0;   // LensSample::index of the first sample
+    std::vector<glm::vec2> middles;  // lens points at the middles of the cells, like LensSample::lens
+    glm::dvec2 pixelShift{0};        // px, added to pixel offsets so that their mean is the pixel's centre
+    // Number of classes used in front of and behind the focus. Both are 0 if the samples leave no gaps. Then only the
+    // middles of the cells are used, which avoids popping.
     int inFront = 0;
     int behind = 0;
-    std::string reason;  // why images stay as they are; empty if they don't
+    std::string reason;  // reason why images are not blurred; empty if they are
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
-// Of the samples that were planned together. A frame that grows block by block has cells of its own in each block,
-// whose images are blurred as those of all samples until then.
+// Returns the cells of the samples that were planned together. A frame that grows block by block has separate cells in
+// each block. Their blur is that of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// The share of the pixels along an axis that an image blurred by `coc` px needs: a square of a class of that variance
-// for a pixel. 1 where images stay as they are.
+// Returns the pixel resolution along an axis that an image blurred by `coc` px needs, as a share of full resolution.
+// One pixel replaces a square of a class with that variance. Returns 1 if images are not blurred.
 double pixelRate(const LensCells& cells, double coc);
 
 }  // namespace defocus::engine

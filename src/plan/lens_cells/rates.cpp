@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-struct Run {  // of samples or groups
+struct Run {  // range of samples or groups
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     [[nodiscard]] bool empty() const { return begin >= end; }
@@ -29,7 +29,7 @@ LevelDraw during(const LevelDraw& draw, const Run& run) {
     return cut;
 }
 
-// `object` in the samples of `run` alone.
+// Returns `object` restricted to the samples of `run`.
 ObjectPlan during(const ObjectPlan& object, const Run& run) {
     ObjectPlan cut = object;
     cut.coarse = during(object.coarse, run);
@@ -54,13 +54,13 @@ void reorder(FramePlan& block, const std::vector<std::uint32_t>& order) {
     }
 }
 
-// The number of the block's first group among all groups of the sequence.
+// Returns the index of the block's first group among all groups of the sequence.
 std::uint32_t firstGroup(const FramePlan& block, std::uint32_t groupSize) {
     return block.settings.firstSample / groupSize;
 }
 
-// The groups' images: over all blocks they are the first samples of the sequence, as many as there are groups. What
-// all groups share is drawn as a frame of so many samples would draw it.
+// Returns the samples of the group images. Over all blocks they are the first samples of the sequence, one per group.
+// Objects that all groups share look as in a frame with that many samples.
 std::vector<LensSample> groupImages(const FramePlan& block, std::uint32_t groupSize) {
     const auto count = static_cast<std::uint32_t>(block.samples.size());
     return lensSamples(block.view.lens, block.settings.sequence, firstGroup(block, groupSize),
@@ -75,14 +75,15 @@ void moveToCells(FramePlan& block, const LensCells& cells) {
     }
 }
 
-// How many of the block's groups share an object, whose share is `share`: round(f·n) after n groups.
+// Returns the number of groups in the block that share an object with the given share f. After n groups of the
+// sequence, round(f·n) groups share it.
 std::uint32_t sharedGroups(double share, const RatedBlock& block) {
     const std::uint32_t before = firstGroup(block.samples, block.groupSize);
     const auto count = static_cast<double>(block.groups.samples.size());
     return static_cast<std::uint32_t>(std::round(share * (before + count)) - std::round(share * before));
 }
 
-// What the first `count` groups draw of an object.
+// Returns the draws of an object that the first `count` groups share.
 ObjectPlan sharedBy(const ObjectPlan& object, std::uint32_t count, std::uint32_t groupSize) {
     const double coarseSamples = object.coarse.sampleCount - (boundarySample(object) ? 1 - object.boundaryShare : 0.0);
     const double coarse = std::min<double>(coarseSamples / groupSize, count);
@@ -97,8 +98,8 @@ ObjectPlan sharedBy(const ObjectPlan& object, std::uint32_t count, std::uint32_t
     return group;
 }
 
-// Divides what a block draws of an object between its first `groupCount` groups, which share it, and the samples after
-// them.
+// Divides a block's draws of an object. The first `groupCount` groups share it; the remaining samples draw it
+// individually.
 void divideObject(const ObjectPlan& object, std::uint32_t groupCount, RatedBlock& block) {
     const auto sampleCount = static_cast<std::uint32_t>(block.samples.samples.size());
     const std::uint32_t shared = std::min(groupCount * block.groupSize, sampleCount);
@@ -107,7 +108,8 @@ void divideObject(const ObjectPlan& object, std::uint32_t groupCount, RatedBlock
     block.groupsShare = std::max(block.groupsShare, groupCount);
 }
 
-// Where any lens sample may show the object; a pixel more on all sides than its blur and the pixel offsets reach.
+// Returns the area where any lens sample may show the object. A margin of one pixel surrounds the reach of blur and
+// pixel offsets.
 PixelArea areaOf(const ObjectPlan& object, const FramePlan& plan) {
     const ContactBounds bounds = contactBounds(object, plan);
     const double margin = 0.5 * object.coc.largest + 2;
@@ -122,7 +124,7 @@ bool overlap(const PixelArea& a, const PixelArea& b) {
     return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
 }
 
-// Areas that hold those of all objects and don't overlap.
+// Returns disjoint areas that contain the areas of all objects.
 std::vector<PixelArea> disjointAreas(const FramePlan& plan) {
     std::vector<PixelArea> areas;
     for (const ObjectPlan& object : plan.objects) {
@@ -136,14 +138,14 @@ std::vector<PixelArea> disjointAreas(const FramePlan& plan) {
             area = {std::min(area.left, areas[i].left), std::min(area.bottom, areas[i].bottom),
                     std::max(area.right, areas[i].right), std::max(area.top, areas[i].top)};
             areas.erase(areas.begin() + static_cast<std::ptrdiff_t>(i));
-            i = 0;  // it has grown
+            i = 0;  // the area has grown; test all areas again
         }
         areas.push_back(area);
     }
     return areas;
 }
 
-// Why each sample draws the object, whatever its blur is; empty if it may share.
+// Returns the reason why each sample draws the object regardless of its blur; empty if it may share.
 std::string reasonForFullRate(const FramePlan& plan, const ObjectPlan& object) {
     if (plan.settings.keepAll) return "everything is drawn for each sample";
     if (!plan.usesLens) return "no blur reaches half a pixel";
@@ -215,7 +217,7 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
     for (std::size_t i = 0; i < count; ++i) block.samples.samples[i].pixel = block.groups.samples[i / size].pixel;
     block.groups.moments.clear();
     block.groups.objects.clear();
-    // A group's image stands for all of its samples, with their points on the lights.
+    // A group's image replaces all of its samples, so it takes over their points on the lights.
     ShadowPlan& shadows = block.groups.shadows;
     shadows.points = std::min(shadows.points * size, maxPointsPerSample(shadows.maps.size()));
     const std::vector<ObjectPlan> objects = std::exchange(block.samples.objects, {});

@@ -12,19 +12,19 @@ namespace defocus::engine {
 
 namespace {
 
-// A rectangle in normalised device coordinates.
+// Rectangle in normalised device coordinates.
 struct SweptBounds {
     glm::dvec2 min{1e30};
     glm::dvec2 max{-1e30};
 };
 
-// Sums over rectangles of pixels: each adds to its corners, and the sums of rows and columns spread them.
+// Sums over pixel rectangles. Each rectangle adds values at its corners; a prefix sum over rows and columns fills it.
 class RectangleSums {
 public:
     RectangleSums(int width, int height)
         : width_(width), height_(height), corners_(static_cast<std::size_t>(width + 1) * (height + 1)) {}
 
-    // Of the pixels that `bounds` overlap.
+    // Adds `value` to all pixels that `bounds` overlaps.
     void add(const SweptBounds& bounds, double value) {
         const auto place = [](double ndc, int size) {
             return std::clamp((ndc + 1) / 2 * size, 0.0, static_cast<double>(size));
@@ -60,7 +60,8 @@ private:
     std::vector<double> corners_;
 };
 
-// The object's vertices at the moments of the exposure; between two of them, x/w, y/w and C/w lie between their values.
+// Returns the object's vertices at the moments of the exposure. Between two moments, x/w, y/w and C/w stay between the
+// values at those moments.
 std::vector<ClipVertices> momentsOf(const FramePlan& plan, const World& world, const ObjectPlan& object,
                                     std::uint32_t level) {
     std::vector<ClipVertices> moments;
@@ -106,7 +107,7 @@ public:
     }
 
 private:
-    // What moves is taken to show its front, and what is seen through an aberrated lens.
+    // Moving objects and lenses with aberrations are treated as front-facing.
     [[nodiscard]] bool facesAway(const std::uint32_t* indices) const {
         if (moments_.size() > 1 || plan_->coc.aberrates()) return false;
         LensTriangle triangle;

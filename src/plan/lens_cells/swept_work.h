@@ -1,22 +1,23 @@
 #pragma once
-// The work of a rasteriser that tests a triangle at each pixel which its blur or its motion may reach: how many
-// triangles' bounds, swept over the lens and the exposure, cover each pixel (Munkberg, Toth and Akenine-Möller 2012,
-// Per-Vertex Defocus Blur for Stochastic Rasterization, Figure 7).
+// Work of a stochastic rasterizer that tests a triangle at each pixel within reach of its blur and motion. The work of
+// a pixel is the number of triangle bounds, swept over lens and exposure, that cover it. Source: Munkberg, Toth and
+// Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Figure 7.
 
 #include "image/image.h"
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
-// One channel: triangles a pixel of the image. A triangle counts in all pixels that its bounding rectangle overlaps,
-// over all lens points and times; one that reaches the near plane counts in all pixels, and one that shows its back to
-// all of the lens in none. A level that only some samples draw counts with their share.
+// Returns a one-channel image: triangles per pixel. A triangle counts in all pixels that its bounding rectangle
+// overlaps, over all lens points and times. A triangle that reaches the near plane counts in all pixels. A triangle
+// that faces away from the entire lens counts in none. A level that only some samples draw counts with the fraction of
+// those samples.
 Image sweptWork(const FramePlan& plan, const World& world);
 
-// Triangles a pixel from which on pixels look alike in the colour map.
+// Number of triangles per pixel at which the colour map saturates.
 inline constexpr float maxShownSweptWork = 16383;
 
-// As colours that a person can read: black where nothing is, then brighter with the logarithm (magma).
+// Returns the work as colours for display: black for empty pixels, then brighter with the logarithm (magma).
 Image sweptWorkColourMap(const Image& work);
 
 }  // namespace defocus::engine

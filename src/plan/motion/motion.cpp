@@ -1,5 +1,5 @@
-// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization: vertices and their C
-// move linearly between the opening and the closing of the shutter.
+// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization. Vertices and
+// their C move linearly between the opening and the closing of the shutter.
 #include "plan/motion/motion.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double stillness = 1e-9;  // of the largest element
+constexpr double stillness = 1e-9;  // tolerance relative to the largest matrix element
 
 std::size_t momentCount(const World& world, const View& view) {
     return std::max(world.shutter.poses.size(), view.shutterCameras.size());

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// What the morph targets add to a position at most and at least.
+// Returns the bounds of the offsets that the morph targets add to a position.
 Bounds morphReach(const Pyramid& pyramid, const ObjectPose& pose) {
     Bounds reach;
     reach.extend(glm::dvec3(0));
@@ -53,7 +53,7 @@ Bounds posedBox(const Pyramid& pyramid, const ObjectPose& pose, bool skinned) {
         return transformed(widened(pyramid.bounds, reach), pose.viewFromJoint.front());
     Bounds box;
     for (std::size_t j = 0; j < pyramid.jointBounds.size(); ++j) {
-        // A joint that the skin lacks moves nothing; the first stands in for it.
+        // A joint that the skin lacks moves no vertex; the first joint's matrix replaces it.
         const glm::dmat4& matrix = pose.viewFromJoint[j < pose.viewFromJoint.size() ? j : 0];
         box.extend(transformed(widened(pyramid.jointBounds[j], reach), matrix));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the pose of an object in view space at one moment, and a box that contains it at every level of its pyramid.
+// Pose of an object in view space at one moment, and a bounding box of all its levels in that pose.
 
 #include "plan/frame_plan.h"
 
@@ -7,18 +7,18 @@ namespace defocus::engine {
 
 ObjectPose objectPose(const Object& object, const glm::dmat4& viewFromWorld);
 
-// Returns whether morph targets change the mesh.
+// Returns true if morph targets change the mesh.
 bool morphs(const ObjectPose& pose);
 
-// Returns a box around the vertices of all levels. With a skin, Σ w_j·M_j·p lies in the convex hull of the M_j·p, and
-// so in the box around the moved boxes of all joints. With morph targets, p + Σ m_t·d_t lies in the box of p, widened
-// by the box of each target times its weight.
+// Returns a bounding box of the vertices of all levels. With a skin, Σ w_j·M_j·p lies in the convex hull of the points
+// M_j·p. The result is therefore the union of all joints' transformed boxes. With morph targets, p + Σ m_t·d_t lies in
+// the box of p, widened by each target's box times its weight.
 Bounds posedBox(const Pyramid& pyramid, const ObjectPose& pose, bool skinned);
 
-// Returns the largest factor by which the pose stretches a length.
+// Returns the largest factor by which the pose scales a length.
 double largestScale(const ObjectPose& pose);
 
-// Returns whether the pose flips the winding of triangles. The joints of a skin decide by majority.
+// Returns true if the pose flips the winding of triangles. With a skin, the majority of the joints decides.
 bool mirrors(const ObjectPose& pose);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Says how long the shutter of a frame is open, and poses the scene at the moments that a plan needs.
+// Duration of a frame's exposure, and scene poses at the moments that a plan needs.
 
 #include <functional>
 #include <variant>
@@ -9,16 +9,16 @@
 
 namespace defocus::engine {
 
-// How long the shutter is open, and how motion is followed meanwhile.
+// Exposure duration and motion sampling.
 struct ShutterSettings {
-    double seconds = 0;  // 0: everything stands still
+    double seconds = 0;  // 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
 
     [[nodiscard]] bool exactMotion() const { return std::holds_alternative<ExactMotion>(motionSegments); }
 };
 
-// Returns the middle of the exposure, in seconds from the frame's time.
+// Returns the middle of the exposure, in seconds relative to the frame's time.
 double shutterMiddle(const ShutterSettings& shutter);
 
 // A scene and its camera at one moment.
@@ -27,9 +27,10 @@ struct ShutterMoment {
     glm::dmat4 worldFromCamera{1.0};
 };
 
-// Fills `opened` (World::shutter) and view.shutterCameras with what `momentAt` returns for times in seconds from the
-// frame's time. Both stay empty if the shutter opens and closes at one moment; the cameras also stay empty if the
-// camera doesn't move. With exact motion, `view` and `settings` of the frame decide when its samples are taken.
+// Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. Its argument is a time in
+// seconds relative to the frame's time. Both stay empty if the exposure has no duration; the cameras also stay empty if
+// the camera doesn't move. With exact motion, the moments are the times of the samples, which follow from `view` and
+// `settings`.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int middlePoints = 9;  // a side, over the image's central third
+constexpr int middlePoints = 9;  // test points per side, over the image's central third
 
-// As the lens of the view with its focus at infinity, where focus breathing changes no field of view.
+// Returns the lens focused at infinity, where focus breathing doesn't change the field of view.
 Lens unfocused(const Lens& lens) {
     Lens result = lens;
     result.focusDistance = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view
     return *point;
 }
 
-// With focus breathing the pixel's ray depends on the focus: a few rounds settle it.
+// With focus breathing the pixel's ray depends on the focus distance; a few iterations converge.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who) {
     Lens lens = unfocused(view.lens);
     const int rounds = lens.focusBreathing ? 4 : 1;

@@ -1,7 +1,7 @@
 #pragma once
-// Finds where to focus: the depth (m along the view axis) of a node, of what a pixel shows, or of what the middle of
-// the image shows, at one moment. Everything in the view except its focus distance must be set. Error messages begin
-// with `who`, such as "--focus-pixel" or "focus".
+// Automatic focus: the depth (m along the view axis) of a node, of a pixel's surface, or of the middle of the image.
+// The view must be complete except for its focus distance. Error messages begin with `who`, such as "--focus-pixel" or
+// "focus".
 
 #include <glm/vec2.hpp>
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace defocus::engine {
 
-// Returns the depth of the node's centre. Throws Error if there is no such node or if it lies behind the camera.
+// Returns the depth of the node's centre. Throws Error if the node doesn't exist or lies behind the camera.
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who);
 
-// Returns, for each place in the image (px from the top left corner), the nearest surface point in view space, or
-// nothing if the place shows no surface. `lens` gives the field of view.
+// Returns the nearest surface point in view space for each place in the image; none where the place shows no surface.
+// Places are in px from the top left corner. `lens` gives the field of view.
 std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose& pose, const View& view,
                                                   const Lens& lens, const std::vector<glm::dvec2>& places);
 
@@ -25,13 +25,13 @@ std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose
 glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view, const Lens& lens,
                           const glm::ivec2& pixel, const char* who);
 
-// Returns the depth of the surface that a pixel (column from the left, row from the top) shows. Throws like
+// Returns the depth of the surface that a pixel (column from the left, row from the top) shows. Throws Error like
 // surfaceAtPixel.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who);
 
-// Returns the median depth of what the central third of the image shows; nothing if it shows no surface.
+// Returns the median depth of the surfaces in the central third of the image; none if it shows no surface.
 std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const View& view);
-// The same, but throws Error if it shows no surface.
+// Returns the same depth, but throws Error if the central third shows no surface.
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who);
 
 }  // namespace defocus::engine

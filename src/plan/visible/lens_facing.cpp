@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// det and (Nx, Ny), each trilinear in three triangles: the polynomials' coefficients follow by polarisation.
+// Returns det and (Nx, Ny), trilinear in three triangles (the polar form). It yields the Bernstein coefficients.
 glm::dvec3 blossom(const LensTriangle& a, const LensTriangle& b, const LensTriangle& c) {
     glm::dvec3 result(0);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,14 +1,14 @@
 #pragma once
-// Whether a triangle shows its back to all of the lens, for any C of its vertices and while they move (Munkberg, Toth
-// and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A, with the opposite sign of
-// the determinant: here it is positive if the front shows).
+// Tests whether a triangle faces away from the entire lens, for any C of its vertices and during motion. Source:
+// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A. The
+// determinant has the opposite sign here: it is positive if the front shows.
 //
 // After the shear p + C·(u, k·v, 0), the determinant of the corners (x, y, w) is
-//   det + u·Nx + k·v·Ny,   N = Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic),
-// at most det + r·√(Nx² + (k·Ny)²) over the lens points of the disk of radius r (Eq. 5). Where corners and C move
-// linearly, det and N are cubic in time (Eq. 7 and 8): Σ B₍m₎(t)·D₍m₎ and Σ B₍m₎(t)·N₍m₎ in Bernstein's polynomials of
-// degree 3, which are ≥ 0 and sum to 1. So the largest of D₍m₎ + r·√(N₍m₎x² + (k·N₍m₎y)²) bounds the determinant at all
-// times. The bound is exact for what stands still, and at the two ends.
+//   det + u·Nx + k·v·Ny,   N = Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
+// Its maximum over the lens points of the disk of radius r is det + r·√(Nx² + (k·Ny)²) (Eq. 5). If corners and C move
+// linearly, det and N are cubic in time (Eq. 7 and 8): Σ B₍m₎(t)·D₍m₎ and Σ B₍m₎(t)·N₍m₎. The B₍m₎ are the Bernstein
+// polynomials of degree 3, which are ≥ 0 and sum to 1. So the largest of D₍m₎ + r·√(N₍m₎x² + (k·N₍m₎y)²) bounds the
+// determinant at all times. The bound is exact for static triangles.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -23,10 +23,10 @@ struct LensTriangle {
 // Returns the largest determinant over the lens.
 double largestDeterminant(const LensTriangle& triangle, double aspect, double radius = 1);
 
-// Returns a bound of the largest determinant over the lens while places and C go evenly from one triangle to the other.
+// Returns an upper bound of the determinant over the lens while the triangle moves linearly from `from` to `to`.
 double largestDeterminant(const LensTriangle& from, const LensTriangle& to, double aspect, double radius = 1);
 
-// The triangle at a share of the way.
+// Returns the triangle interpolated linearly between `from` (share 0) and `to` (share 1).
 LensTriangle between(const LensTriangle& from, const LensTriangle& to, double share);
 
 }  // namespace defocus::engine

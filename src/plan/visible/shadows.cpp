@@ -1,5 +1,5 @@
-// Haeberli and Akeley 1990, The Accumulation Buffer (soft shadows); Williams 1978, Casting Curved Shadows on Curved
-// Surfaces; Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// Sources: Haeberli and Akeley 1990, The Accumulation Buffer (soft shadows); Williams 1978, Casting Curved Shadows on
+// Curved Surfaces; Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
 #include "plan/visible/shadows.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 
 constexpr int minMapSize = 128;  // px
 constexpr int maxMapSize = 2048;
-constexpr double minShare = 0.01;           // of all light at the scene's middle: what casts a shadow
-constexpr double widestTangent = 3;         // half the field of view of one map
-constexpr double levelErrorTexels = 0.5;    // by which a caster's level may be off
-constexpr std::size_t maxBoxes = 64;        // that bound the casters one by one
-constexpr double nearShare = 1e-4;          // near plane of lights amid the scene, of its size
-constexpr std::uint32_t smoothPoints = 64;  // on a light, of whose steps the eye sees little
+constexpr double minShare = 0.01;           // min fraction of all light for a light that casts shadows
+constexpr double widestTangent = 3;         // tan of half a map's field of view, max
+constexpr double levelErrorTexels = 0.5;    // max error of a caster's level, in texels
+constexpr std::size_t maxBoxes = 64;        // max number of individual boxes that bound the casters
+constexpr double nearShare = 1e-4;          // near plane of lights inside the scene, relative to its size
+constexpr std::uint32_t smoothPoints = 64;  // points on a light at which penumbra steps are hardly visible
 
 const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
 
@@ -59,10 +59,10 @@ Bounds boundsOfCorners(const std::vector<glm::dvec3>& corners) {
     return bounds;
 }
 
-// ---- what the plan says
+// ---- selection of lights and casters
 // ------------------------------------------------------------------------------------------------
 
-// Boxes of the object in view space, at all moments, as the camera in the middle of the exposure has them.
+// Returns the bounding box of the object over all moments, in the view space of the middle of the exposure.
 Bounds casterBox(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     if (plan.middleFromView.empty() || object.motion.empty()) return object.viewBox;
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
@@ -76,14 +76,15 @@ bool finite(const Bounds& box) {
     return !box.empty() && isFinite(glm::vec3(box.minimum)) && isFinite(glm::vec3(box.maximum));
 }
 
-// The coarsest level that is off by no more than `error` m.
+// Returns the coarsest level whose error is at most `error` m.
 std::uint32_t casterLevel(const Pyramid& pyramid, double scale, double error) {
     std::uint32_t level = 0;
     while (level + 1 < pyramid.levels.size() && pyramid.levels[level + 1].error * scale <= error) ++level;
     return level;
 }
 
-// Illuminance at the middle of what may cast shadows, which is `radius` m large. Lux, of all colours.
+// Returns the illuminance (lux, as luminance over the colours) at the middle of the casters. `radius` (m) is their
+// bounding radius and the min distance.
 double strength(const PlacedLight& placed, const glm::dvec3& middle, double radius) {
     const double brightness = placed.light.intensity * glm::dot(glm::dvec3(placed.light.color), luminanceWeights);
     if (placed.light.type == LightType::directional) return brightness;
@@ -91,7 +92,7 @@ double strength(const PlacedLight& placed, const glm::dvec3& middle, double radi
     return brightness / (distance * distance);
 }
 
-// May one map show all that a local light has before it?
+// Returns true if one map can contain everything that a local light can illuminate.
 bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const std::vector<glm::dvec3>& corners) {
     if (placed.light.type == LightType::spot &&
         std::tan(std::min(1.5, double{placed.light.outerConeAngle})) <= widestTangent)
@@ -129,7 +130,7 @@ std::vector<Candidate> candidates(const World& world, const FramePlan& plan, con
     return found;
 }
 
-// The strongest that fit, in the order of the lights.
+// Returns the maps of the strongest lights that fit into maxShadowMaps, in the order of the lights.
 std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
     std::ranges::stable_sort(found, std::greater<>(), &Candidate::strength);
     const double all = std::accumulate(found.begin(), found.end(), 0.0,
@@ -150,8 +151,8 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
     return maps;
 }
 
-// Of one sample on each light: a penumbra has as many steps as there are points, so that few samples take several. It
-// follows from how many samples the frame has by the end of this plan, which for whole blocks is enough.
+// Returns the number of points on each light per sample. A penumbra has as many steps as there are points in total, so
+// frames with few samples use several. The count depends on the frame's samples up to the end of this plan.
 std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
     const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
@@ -161,10 +162,10 @@ std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
 // ---- projections
 // -------------------------------------------------------------------------------------------------------
 
-// The corners of what the image shows, as far as the farthest object: shadows elsewhere are not looked at.
+// Returns the corners of the visible volume, up to the farthest object. Shadows outside it are never visible.
 std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
     double farthest = plan.view.nearPlane;
-    double widening = 0;  // of the frustum by the blur, as a share of the image's half width
+    double widening = 0;  // widening of the frustum by the blur, as a fraction of the image's half width
     for (const ObjectPlan& object : plan.objects) {
         farthest = std::max(farthest, object.farthestDepth);
         widening = std::max(widening, object.coc.largest / plan.view.width);
@@ -183,14 +184,16 @@ std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
     return corners;
 }
 
-// Shifts the texels of each sample by a part of one that only the sample says, so that edges of maps even out.
+// Returns a subpixel shift of the map's texels that depends only on sample and point. Averaging the samples smooths the
+// maps' edges.
 glm::dvec2 texelShift(const LensSample& sample, std::uint32_t point) {
     const glm::dvec2 at = glm::dvec2(sample.light) * glm::dvec2(7919, 6733) + glm::dvec2(sample.pixel) * 5.0 +
                           static_cast<double>(point) * glm::dvec2(0.754877666, 0.569840291);
     return glm::fract(at);
 }
 
-// Rows for x and y of `area`, which is `size` texels, one of them for the shift; `axes` from a place's own.
+// Sets the x and y rows of the projection to `area`, which spans `size` texels; one texel is reserved for the shift.
+// `axes` are the coordinate axes of `area`.
 void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& origin, Rectangle area, int size,
              const glm::dvec2& shift, double smallest) {
     const glm::dvec2 extent = glm::max(area.max - area.min, glm::dvec2(smallest));
@@ -238,7 +241,8 @@ glm::dvec3 faceDirection(int face) {
     return direction;
 }
 
-// The places of `corners` in the plane at distance 1 before the light; nothing if one lies beside or behind it.
+// Returns the bounds of `corners` projected to the plane at distance 1 from the light; none if a corner lies beside or
+// behind the light.
 std::optional<Rectangle> inFront(const Axes& axes, const glm::dvec3& origin, const std::vector<glm::dvec3>& corners,
                                  double nearest) {
     Rectangle area;
@@ -258,7 +262,7 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     const bool spot = placed.light.type == LightType::spot && face < 0;
     const Axes disk(spot ? placed.direction : bounds.centre() - centre + glm::dvec3(0, 1e-12, 0));
     const glm::dvec3 origin = centre + double{placed.light.radius} * (point.x * disk.x + point.y * disk.y);
-    // Nothing as near as the lamp is large casts a shadow: it may be the lamp's own glass.
+    // Geometry closer than the lamp's diameter casts no shadow, because it may be the lamp's own glass.
     const double nearest = std::max(nearShare * diagonal, 2.0 * placed.light.radius);
 
     const Axes axes(face >= 0 ? faceDirection(face) : spot ? placed.direction : bounds.centre() - origin);
@@ -285,8 +289,8 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     return projection;
 }
 
-// Those of one sample follow each other in the sequence, so that those of all samples are as evenly spread as so many
-// samples' would be.
+// Returns a point on the light. The points of one sample are consecutive in the sequence. The points of all samples
+// together are therefore evenly distributed.
 glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint32_t point) {
     if (plan.shadows.points == 1) return glm::dvec2(sample.light);
     const std::uint64_t index = std::uint64_t{sample.index} * plan.shadows.points + point;
@@ -322,7 +326,8 @@ glm::dvec3 gridDirection(double u, double v) {
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-// The mean over a cell of the grid, by the pixels of the map whose centres lie in it, or its middle.
+// Returns the mean radiance over a grid cell: of the map's pixels in the cell, or of one pixel if cells are smaller
+// than pixels.
 glm::dvec3 meanRadiance(const Image& map, int column, int row) {
     const auto pixel = [&](int x, int y) {
         const float* value = map.at(std::min(x, map.width - 1), std::min(y, map.height - 1));
@@ -347,7 +352,8 @@ glm::dvec3 cellRadiance(const Environment& environment, int column, int row) {
     return glm::mix(glm::dvec3(environment.horizon), pole, std::abs(height));
 }
 
-// Into which of the running sums `place`, a share of their last, falls, and how far.
+// Inverts cumulative sums: returns the interval that contains `place` (a fraction of the last sum) and the position in
+// it.
 std::pair<std::size_t, double> inverted(std::span<const double> sums, double place) {
     const double target = place * sums.back();
     const auto found = std::ranges::upper_bound(sums, target);
@@ -381,7 +387,7 @@ EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point)
     const auto [row, down] = inverted(rowSums_, point.y);
     const auto cells = std::span(cellSums_).subspan(row * gridColumns, gridColumns);
     const auto [column, across] = inverted(cells, point.x);
-    // Within a cell the height is uniform, so that its solid angle is covered evenly.
+    // Uniform height within a cell covers its solid angle evenly.
     const double top = std::cos(std::numbers::pi * static_cast<double>(row) / gridRows);
     const double bottom = std::cos(std::numbers::pi * (static_cast<double>(row) + 1) / gridRows);
     const double polar = std::acos(std::clamp(glm::mix(top, bottom, down), -1.0, 1.0));
@@ -395,7 +401,7 @@ EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point)
 // ----------------------------------------------------------------------------------------------
 
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
-    // Boxes of all that casts a shadow.
+    // Bounding boxes of all shadow casters.
     ShadowPlan shadows;
     const glm::dmat4 fromView{glm::dmat3(plan.view.worldFromCamera)};
     std::vector<Bounds> boxes;
@@ -425,7 +431,8 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     shadows.points = pointsFor(plan.settings, shadows.maps.size());
     shadows.seen = seenCorners(plan);
 
-    // As many texels across the scene as the image has pixels, and levels that they can't tell from full detail.
+    // The map has as many texels across the scene as the image has pixels. Casters use levels whose error stays below a
+    // texel.
     shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), minMapSize, maxMapSize);
     const double texel = glm::length(boundsOfCorners(shadows.corners).size()) / shadows.size;
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());

@@ -1,10 +1,10 @@
 #pragma once
-// Soft shadows from the same samples as the blur (Haeberli and Akeley 1990): each lens sample has a point on every
-// light, and a shadow map drawn from there. The mean of the samples has the penumbrae.
+// Soft shadows that use the same samples as the blur (Haeberli and Akeley 1990). Each lens sample has a point on every
+// light and a shadow map rendered from that point. The mean over the samples contains the penumbrae.
 //
-// Lights are disks that face what they shine on: of an angular diameter where they are infinitely far, of a radius
-// elsewhere. The surroundings, if they light the scene, are one more light, whose point is a direction that is chosen
-// by their radiance; what hides it takes its part from the light that a surface has from all around.
+// Lights are disks that face the receiver. A directional light has an angular diameter; other lights have a radius. The
+// surroundings (environment map) act as one more light if they light the scene. Their sample is a direction, chosen in
+// proportion to radiance. An occluder in that direction removes this sample's share of the surface's ambient light.
 
 #include <array>
 #include <cstdint>
@@ -15,50 +15,54 @@
 
 namespace defocus::engine {
 
-inline constexpr int surroundings = -1;  // as a light
-// A sample: weaker lights cast no shadow. What they leave is for several points on each light, where samples are few.
+inline constexpr int surroundings = -1;  // value of ShadowMap::light for the environment
+// Maximum number of shadow maps per sample. Weaker lights beyond it cast no shadow. If maps are left and there are few
+// samples, each light has several points.
 inline constexpr std::size_t maxShadowMaps = 8;
 
-// Directions to the surroundings, the brighter the more often: of an equirectangular grid, cell by cell.
+// Importance sampling of directions to the environment. Brighter cells of an equirectangular grid are chosen more
+// often.
 class EnvironmentDirections {
 public:
     EnvironmentDirections() = default;
     explicit EnvironmentDirections(const Environment& environment);
 
     struct Choice {
-        glm::dvec3 toLight{0, 1, 0};  // unit
-        glm::dvec3 radiance{0.0};     // over its probability density, W/m²/sr · sr
+        glm::dvec3 toLight{0, 1, 0};  // unit vector
+        glm::dvec3 radiance{0.0};     // radiance divided by its probability density, W/m²
     };
-    // `point`: in [0, 1)².
+    // Returns the direction for `point` ∈ [0, 1)².
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
 
 private:
     std::vector<glm::dvec3> radiances_;
-    std::vector<double> rowSums_;   // of luminance times solid angle, from the top on
-    std::vector<double> cellSums_;  // within the row
+    std::vector<double> rowSums_;   // cumulative luminance times solid angle, from the top row down
+    std::vector<double> cellSums_;  // cumulative sums within each row
 };
 
-// How one shadow map is drawn and read. Places are metres from the camera along the world's axes.
+// Projection of a shadow map. Positions are in metres from the camera along the world's axes.
 struct ShadowProjection {
     std::array<glm::vec4, 4>
         clipRows{};            // clip space from (x, y, z, 1), reversed depth; w is 1, or metres from the light
-    glm::vec3 toLight{0.0f};   // unit, of lights that are infinitely far
-    float texel = 0;           // m a texel at w = 1
-    glm::vec3 radiance{0.0f};  // of the surroundings, as EnvironmentDirections has it, over π
+    glm::vec3 toLight{0.0f};   // unit vector to the light, for directional lights
+    float texel = 0;           // m per texel at w = 1
+    glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance over π, for the surroundings
 };
 
-// On each light, without more maps a sample than `mostShadowMaps`; `maps`: one of each light's.
+// Returns the number of points on each light that keeps a sample within maxShadowMaps. `maps` is the number of maps
+// with one point per light.
 std::uint32_t maxPointsPerSample(std::size_t maps);
 
-// Chooses lights, points, size and casters. `objects`: all of the world's, as the plan places them, drawn or not.
+// Chooses lights, points, map size and casters. `objects` are all objects of the world in the plan's pose, drawn or
+// not.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
 
-// Those of all samples of the plan: plan.shadows.points of each, of each all maps.
+// Returns the projections of all maps, ordered by sample, then by point (plan.shadows.points per sample), then by map.
 std::vector<ShadowProjection> shadowProjections(const World& world, const FramePlan& plan,
                                                 const EnvironmentDirections& directions);
 
-// The concentric map of the square [0, 1)² to the unit disk (Shirley and Chiu 1997).
+// Maps the square [0, 1)² to the unit disk with the concentric map (Shirley and Chiu 1997).
 glm::dvec2 diskPoint(const glm::dvec2& point);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
-// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A. Shirman and
-// Abi-Ezzi 1993, The Cone of Normals Technique for Fast Processing of Curved Patches.
+// Sources: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A.
+// Shirman and Abi-Ezzi 1993, The Cone of Normals Technique for Fast Processing of Curved Patches.
 
 #include "plan/visible/visibility.h"
 
@@ -19,42 +19,43 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double snapping = 1.0 / 128;      // px that an altitude may lose where positions have 8 bits below the pixel
-constexpr double transformation = 0x1p-21;  // of a position's terms: what single precision may lose of their sum
-constexpr double storage = 1e-6;            // relative: of a cluster's values
-constexpr double guardBand = 1.8;           // images from the middle beyond which triangles may be clipped
-constexpr int shutterParts = 4;             // of the way between two moments, each with one bound of the motion
-constexpr std::size_t maxMoments = 64;      // of the shutter: with more, all clusters are drawn
-constexpr std::size_t maxPosedVertices = 100'000;  // of a level, at all moments: as many take some 10 ms
-constexpr double minSaving = 1.0 / 8;              // of a level's triangles, below which it is drawn whole
-constexpr std::uint32_t minGap = 128;              // triangles: to hide fewer costs more than a further run of indices
+constexpr double snapping = 1.0 / 128;      // px, max loss of a triangle's altitude with 8 subpixel bits
+constexpr double transformation = 0x1p-21;  // relative to a position's terms: single-precision error of their sum
+constexpr double storage = 1e-6;            // relative error of a cluster's stored values
+constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
+constexpr int shutterParts = 4;             // parts of the way between two moments; each has its own motion bound
+constexpr std::size_t maxMoments = 64;      // max shutter moments for culling; with more, all clusters are drawn
+constexpr std::size_t maxPosedVertices = 100'000;  // per level, over all moments; this many take about 10 ms
+constexpr double minSaving = 1.0 / 8;              // fraction of a level's triangles; if less is culled, all are drawn
+constexpr std::uint32_t minGap = 128;              // triangles; culling fewer costs more than another index range
 
-// The lens in object space during a part of the exposure.
+// Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
-    glm::dvec3 eye{0};             // its centre in the middle of the part
+    glm::dvec3 eye{0};             // centre of the lens in the middle of the part
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the matrix
-    double inverseSize = 0;        // bound of the norm of the inverse matrix
-    double motion = 0;             // how far any point of the lens moves from where it is in the middle of the part
+    double inverseSize = 0;        // upper bound of the norm of the inverse matrix
+    double motion = 0;             // max distance of any lens point from its position in the middle of the part
 };
 
-// An object as all samples of the frame see it.
+// An object as seen by all samples of the frame.
 struct ObjectViews {
     std::vector<glm::dmat4> viewFromObject;  // at the shutter's moments, and in the middle of the exposure
-    std::vector<LensRange> lenses;           // empty: no cluster is taken to face away
-    double lensRadius = 0;                   // m, of the disk that stands for the lens
-    double shapeLoss = 1;      // a triangle's altitude in px shrinks by a tilted focus plane's shear, at most
-    double minVolume = 0;      // of a unit of the object's space, m³
-    double largestSize = 0;    // bound of the matrices' norms
-    double largestOffset = 0;  // m, of the object's origin from the camera
-    OwnBlur own;               // what the object's surfaces make of the blur
+    std::vector<LensRange> lenses;           // empty: facing is not tested, and all clusters may face the lens
+    double lensRadius = 0;                   // m, radius of the disk that bounds the lens
+    double shapeLoss = 1;      // max shrinking of a triangle's altitude in px by a tilted focus plane's shear
+    double minVolume = 0;      // m³, min volume of a unit cube of object space
+    double largestSize = 0;    // upper bound of the matrices' norms
+    double largestOffset = 0;  // m, max distance of the object's origin from the camera
+    OwnBlur own;               // bounds of the blur modifiers of the object's surfaces
 };
 
 double frobeniusNorm(const glm::dmat3& m) {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
 
-// The lens while the matrix goes from `from` to `to`: at x = A⁻¹(e − T) for a point e. With τ the way from the middle,
-// x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Nothing where the matrix may lose its inverse or its winding.
+// Returns bounds of the lens in object space while the matrix moves linearly from `from` to `to`. A point e of the lens
+// lies at x = A⁻¹(e − T). With τ the offset from the middle, x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns none
+// if the matrix may become singular or mirrored.
 std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
     const glm::dmat4 middle = 0.5 * (from + to);
     const glm::dmat3 matrix(middle);
@@ -95,7 +96,7 @@ void addLenses(ObjectViews& views, const ObjectPlan& object, const World& world)
     views.lenses = std::move(lenses);
 }
 
-// How far the samples reach on the unit disk.
+// Returns the radius on the unit disk that contains all lens samples.
 double lensReach(const FramePlan& plan) {
     double reach = 0;
     for (const LensSample& sample : plan.samples)
@@ -125,7 +126,7 @@ ObjectViews objectViews(const ObjectPlan& object, const World& world, const Fram
     return views;
 }
 
-// Around the cluster's ball at all times.
+// Returns a view-space box around the cluster's bounding sphere at all times.
 Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
     Bounds box;
     for (const glm::dmat4& matrix : views.viewFromObject) {
@@ -139,10 +140,10 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
     return box;
 }
 
-// How far (object units) the lens must lie behind a plane so that no triangle of the cluster turns over when its
-// corners are rounded: a triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px², f
-// px a unit at distance 1 and h the distance from its plane, and edges of at most f·L·‖A‖·distance/w². Infinity where
-// it might.
+// Returns how far the lens must lie behind a plane, in object units, so that rounding flips no triangle of the cluster.
+// A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². f is the number of px
+// per unit at distance 1, and h the lens's distance from the triangle's plane. Its edges are at most
+// f·L·‖A‖·distance/w² long. Returns infinity if rounding may flip a triangle at any distance.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
@@ -156,7 +157,7 @@ double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectV
            (focal * cluster.minAltitude * views.minVolume * min * min);
 }
 
-// All of the lens lies behind all planes of the cluster by `margin` or more.
+// Returns true if the entire lens lies behind all planes of the cluster by at least `margin`.
 bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius, double margin) {
     const double cosine = cluster.minCosine;
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
@@ -165,22 +166,22 @@ bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius,
     const double along = glm::dot(toCentre, axis);
     const double across = glm::length(glm::cross(toCentre, axis));
     const double size = glm::length(toCentre);
-    // n·toCentre is least for the n that is turned away from it by the cone's angle, or opposite if the cone holds
-    // that.
+    // n·toCentre is minimal for the normal n in the cone that points farthest away from toCentre. If the cone contains
+    // the opposite of toCentre, the min is −|toCentre|.
     const bool holdsOpposite = across * cosine + along * sine < 0;
     const double nearest = holdsOpposite ? -size : along * cosine - across * sine;
     const double disk = lensRadius * (glm::length(glm::dvec2(lens.viewFromNormal * axis)) + sine * lens.inverseSize);
     return nearest + cluster.planes - disk - lens.motion >= margin + storage * size;
 }
 
-// No triangle in the box is clipped into others, whose corners would be rounded anew.
+// Returns true if no triangle in the box is clipped. Clipping adds corners with rounding errors of their own.
 bool staysWhole(const CocBox& coc, const FramePlan& plan) {
     const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
                                          std::max(1.0, plan.coc.aspect);
     return std::max({-coc.ndcMin.x, coc.ndcMax.x, -coc.ndcMin.y, coc.ndcMax.y}) < reach;
 }
 
-// C is one linear function of the place all over the box.
+// Returns true if C is a single linear function of the position over the box.
 bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
     const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
     const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
@@ -199,15 +200,14 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
     return staysWhole(coc, plan) && (!plan.usesCocControls || isOneLinearPiece(coc, plan));
 }
 
-// ---- by the corners themselves -------------------------------------------------------------------------------------
+// ---- cluster test by triangle corners -------------------------------------------------------------------------------
 
-// A level's corners at moments of the exposure. Where C is any function, or vertices move against each other, only they
-// say what the lens sees.
+// Corners of a level at moments of the exposure. They are needed if C is not linear or the vertices deform.
 struct LevelCorners {
-    std::vector<ClipVertices> moments;  // one: everything stands still
-    bool apart = false;                 // each moment is a sample's own; else corners go evenly from one to the next
-    double terms = 0;                   // m, of the sums that make positions on the GPU
-    double lensRadius = 1;              // of the samples on the unit disk
+    std::vector<ClipVertices> moments;  // a single moment: nothing moves
+    bool apart = false;                 // true: one moment per sample; false: linear motion between moments
+    double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
+    double lensRadius = 1;              // max radius of the samples on the unit disk
     double sign = 1;                    // −1: mirrored
 };
 
@@ -226,7 +226,7 @@ LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const W
     for (std::size_t i = 0; i < object.motion.size(); ++i)
         add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
                                             : static_cast<double>(i) / static_cast<double>(last));
-    // A skin adds matrices up: each term is as large as the place it leads to, or as the joint is far.
+    // A skin sums matrices. Each term is as large as the resulting position or the distance of the joint.
     const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
     corners.terms = 2 * (corners.terms + farthest);
     corners.lensRadius = lensReach(plan);
@@ -234,8 +234,8 @@ LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const W
     return corners;
 }
 
-// Whether a level's corners decide which of its clusters are drawn: it must show triangles as they are, and not be so
-// large that the test would take longer than it saves.
+// Returns true if the corners of a level are tested to cull its clusters. The level's triangles must be drawn
+// undivided. Large levels are excluded, because the test would take longer than it saves.
 bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
     const bool bends = object.deformed || object.skinned;
     if (!bends && !plan.usesCocControls) return false;
@@ -262,8 +262,9 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
     return triangle;
 }
 
-// By how much the determinant must be below 0 so that rounded corners can't turn the triangle over. Twice its area in
-// px² is W·H/4·det/(w₀w₁w₂); corners that move by r px change it by 2r·(sum of two edges) + 8r² at most.
+// Returns the margin by which the determinant must be below 0, so that rounded corners can't flip the triangle. Twice
+// the triangle's area in px² is W·H/4·det/(w₀w₁w₂). Moving the corners by r px changes it by at most 2r·(sum of two
+// edges) + 8r².
 double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
     double min = infinity;
     double max = 0;
@@ -285,7 +286,7 @@ double minDeterminant(const LensTriangle& from, const LensTriangle& to, double t
     return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * max * max * max;
 }
 
-// Two corners are one.
+// Returns true if the triangle is degenerate: two corners coincide.
 bool drawsNothing(const LensTriangle& t) {
     const auto same = [&](std::size_t i, std::size_t j) { return t.places[i] == t.places[j] && t.coc[i] == t.coc[j]; };
     return same(0, 1) || same(1, 2) || same(2, 0);
@@ -319,7 +320,8 @@ bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners
     return true;
 }
 
-// C of a corner is linear between two moments: of the thin lens, because w is; else if it is one linear function.
+// Returns true if each corner's C is linear between two moments. This holds for the thin lens, because w is linear, and
+// for a C that is one linear function.
 bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
     if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
     if (object.blurMoves) return false;
@@ -350,13 +352,13 @@ bool doubleSided(const Scene& scene, const Primitive& primitive) {
     return primitive.material >= 0 && scene.materials[static_cast<std::size_t>(primitive.material)].doubleSided;
 }
 
-// Runs of a primitive's indices, and what is left out between them.
+// Collects index ranges of a primitive's visible clusters, and counts the culled triangles between them.
 class Runs {
 public:
     explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
 
     void show(const IndexRange& range) {
-        if (!runs_->empty() && (away_ + outside_) < minGap)  // not worth a further run
+        if (!runs_->empty() && (away_ + outside_) < minGap)  // the gap is too small for another range
             runs_->back().count += 3 * (away_ + outside_) + range.count;
         else {
             leaveOut();
@@ -375,7 +377,7 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;  // triangles since the last run
+    std::uint32_t away_ = 0;  // triangles since the last range
     std::uint32_t outside_ = 0;
 };
 
@@ -430,7 +432,8 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
 
 namespace {
 
-// The largest |factor·(a + b·w) + added·w| of any wavelength: linear in each of the two, so that their ends bound it.
+// Returns the largest |factor·(a + b·w) + added·w| over all wavelengths. The expression is linear in each parameter, so
+// the ends of the ranges bound it.
 double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
     double reach = 0;
     for (const double factor : {own.factorMin, own.factorMax})
@@ -441,10 +444,10 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 
 }  // namespace
 
-// All corners lie outside one plane of the frustum: for the left one, at the place −1 in the image, while x/tan + w +
-// |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w
-// is at most `largest` px over the image's width. Within the image a further pixel makes up for rounded corners of
-// triangles.
+// Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
+// means x/tan + w + |C| < 0, with half a pixel added for the jitter. The thin lens's |C(w)| is convex, so the corners
+// bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside the image, one more pixel accounts
+// for rounded triangle corners.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

@@ -1,48 +1,52 @@
 #pragma once
-// Finds what no lens sample of a frame can show: boxes outside the frustum that the lens widens, and clusters of
-// triangles that lie outside or face away for every point (u, v) of the lens and every time t of the exposure.
+// Culls geometry that no lens sample of a frame can show: boxes outside the frustum that the lens widens, and clusters
+// of triangles. A cluster is culled if it lies outside or faces away for every lens point (u, v) and every time t of
+// the exposure.
 //
 // One triangle. The determinant det of its three clip positions (x, y, w) is positive if its front shows
 // (counter-clockwise). After the shear p + C·(u, k·v, 0), the determinant is
 //   det + u·Nx + k·v·Ny,   where Nx, Ny are the first two components of Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
 // This is linear in (u, v), because a determinant with two parallel columns is zero. So the back shows over the whole
-// unit disk if det + √(Nx² + (k·Ny)²) ≤ 0 (Munkberg, Toth and Akenine-Möller 2012, Appendix A, Eq. 5, with the opposite
-// sign of det).
+// unit disk if det + √(Nx² + (k·Ny)²) ≤ 0. Source: Munkberg, Toth and Akenine-Möller 2012, Appendix A, Eq. 5, with the
+// opposite sign of det.
 //
 // Where C is one linear function α + g·(x, y, w), Σ Cᵢ·pⱼ × pₖ = α·n + det·g with n = Σ pⱼ × pₖ. The g of a thin lens
 // points along w, so the condition becomes det + |α|·√(nx² + (k·ny)²) ≤ 0 (Eq. 6). In words: every point of the lens, a
-// disk of radius |α|·tan(θx/2), lies behind the plane of the triangle. A tilted focus plane widens this disk by
-// 1/(1 − |(gx, k·gy)|).
+// disk of radius |α|·tan(θx/2), lies behind the plane of the triangle. A tilted focus plane widens this disk by 1/(1 −
+// |(gx, k·gy)|).
 //
-// A cluster faces away if the whole disk lies behind the planes of all its triangles at every t. The test uses the cone
-// of the cluster's normals in object space, where mirrored objects need no exception. If C consists of several linear
-// pieces inside the cluster's box, or is curved there, or if vertices have a blur of their own or move against each
-// other (skins, morph targets), each triangle of the cluster is tested by its corners, posed on the CPU: by Eq. 5, and
-// while they move by Eq. 7 and 8 (lens_facing.h). That holds for triangles that are drawn as they are. An object whose
-// triangles are divided along C keeps those clusters, and so does a large mesh, whose test would take too long.
+// Clusters. A cluster faces away if the whole disk lies behind the planes of all its triangles at every t. The test
+// uses the cone of the cluster's normals in object space, where mirrored objects need no special case. The cone test
+// needs a C that is one linear function inside the cluster's box. It also needs rigid vertices without blur modifiers,
+// so no skins or morph targets. Otherwise each triangle of the cluster is posed on the CPU and tested by its corners.
+// Static triangles use Eq. 5, moving ones Eq. 7 and 8 (lens_facing.h). The corner test is valid only for triangles that
+// are drawn undivided. Objects whose triangles are divided along C keep these clusters. So do large meshes, whose test
+// would take too long.
 //
-// Rounding. A renderer rounds positions, to 1/256 px at best, and this may turn a narrow triangle over. So the lens
-// must lie behind the planes by a margin that no rounding bridges. Then nothing that is left out would have drawn a
-// pixel. (What is kept may still differ: Mesa's llvmpipe decides between front and back of a triangle narrower than
-// 1/256 px according to whether another triangle of the same batch is clipped. With other runs of indices, one pixel of
-// a sample may differ where an object crosses the border of the image.)
+// Rounding. A renderer rounds positions, to 1/256 px at best, and this may flip a narrow triangle. The lens must
+// therefore lie behind the planes by a margin larger than any rounding. Then no culled triangle would have drawn a
+// pixel.
+//
+// The remaining triangles may still rasterize differently. For a triangle narrower than 1/256 px, Mesa's llvmpipe
+// decides front or back depending on whether another triangle of the batch is clipped. With other index ranges, one
+// pixel of a sample may differ where an object crosses the image border.
 
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
-// Returns the part of `viewBox` in front of the near plane as the lens sees it; `own` is what its surfaces make of the
-// blur.
+// Returns the part of `viewBox` in front of the near plane as the lens sees it. `own` bounds the blur modifiers of its
+// surfaces.
 CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
-// Returns whether no lens sample sees any part of the box, whose surfaces make `own` of the blur. No CoC in the box is
-// larger than `largest` px.
+// Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of its surfaces. `largest`
+// (px) is an upper bound of the CoC in the box.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
-// The same of a part of the image.
+// Returns true if no lens sample shows any part of the box in `area` of the image.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 
-// Fills object.visible and lowers the triangle counts of its draws.
+// Culls clusters: fills object.visible and lowers the triangle counts of its draws.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// The image of a frame from the sums of its blocks, wherever these were rendered. The same passes add them as in a
-// single run, so that the result has the same bits on machines of one kind.
+// Combines the block sums of a frame, wherever they were rendered, into the frame's image. The GPU passes are those of
+// a single run, so the result is bit-identical on machines of one kind.
 
 #include <optional>
 
@@ -10,10 +10,10 @@ namespace defocus::engine {
 
 class BlockMerge {
 public:
-    // The frame's blocks in order, from its first sample on: all but the last of 64 samples, RGBA of one size. Needs a
-    // current GL 4.5 context. Throws Error for a block that doesn't fit to those before.
+    // Adds the frame's next block, starting with the first sample. All blocks but the last hold 64 samples; all are
+    // RGBA and of one size. Needs a current GL 4.5 context. Throws Error for a block of another size or sample count.
     void add(const BlockSum& block);
-    // At least one block must be in.
+    // Returns the mean of all samples. Needs at least one block.
     [[nodiscard]] Image image();
 
 private:

@@ -1,11 +1,11 @@
 #pragma once
-// The sums of a block's pixels by the blur of their lens cells (plan/lens_cells.h), and the block's image with each
-// class of them blurred.
+// Sums the pixels of a block by the blur class of their lens cells (plan/lens_cells.h) and produces the block's image
+// with each class blurred.
 //
-// The classes are laid over each other from the farthest to the nearest: behind the focus what is more blurred is
-// farther, in front of it what is more blurred is nearer, and what is sharp lies between. Each is blurred among the
-// samples that show nothing nearer. So a sharp outline stays sharp in front of what is blurred, nothing of what it
-// hides is spread beyond it, and what a pixel shows of the classes adds up to one.
+// The classes are composited from the farthest to the nearest. Behind the focus plane more blur means farther away; in
+// front of it more blur means nearer; sharp pixels lie between. Each class is blurred only among the samples that show
+// no nearer class. A sharp outline thus stays sharp in front of a blurred background, and hidden background does not
+// leak out. The weights of all classes in a pixel add up to one.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// The passes over images with so many classes.
+// Shader programs for a given number of classes.
 struct CellPasses {
     explicit CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder);
 
@@ -27,17 +27,18 @@ struct CellPasses {
 
 class CellSums {
 public:
-    // Of the pixels of `blockSums`, between which the block's sum changes from wave to wave; `cells` has classes, and
-    // `passes`, which must outlive it, are for as many.
+    // `blockSums`: the two textures that the block's sum alternates between from wave to wave. `cells` must have at
+    // least one class. `passes` must have been built for the same classes and must outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // What shaders/accumulation/add_layers.frag needs to fill the sums.
+    // Returns the defines with which shaders/accumulation/add_layers.frag fills the class sums.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    // `to`: the block's sum that is written beside them.
+    // Binds the targets and textures for adding layers. `to`: index of the block sum that is written together with the
+    // class sums.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
-    // Writes the block's sum with blurred cells, and zeros for what it lost, to `target`. `sum` holds the block as it
-    // was added. With `samples` > 0 it is the mean of so many, with 0 of as many as a pixel's alpha counts.
+    // Writes the block's sum with blurred cells to `target`, with zero compensation. `sum` holds the block without
+    // blur. `samples` > 0 divides by that number, 0 divides by the pixel's alpha; the default writes the sum.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;
@@ -48,14 +49,14 @@ private:
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;           // a layer a class, as shaders/include/cells.glsl orders them
-    Target addingTargets_[2];  // each of the block's sums, with the first of the classes
-    GlTexture held_;           // which classes a tile holds
-    GlTexture spread_;         // of which it needs means
+    GlTexture sums_;           // one layer per class, in the order of shaders/include/cells.glsl
+    Target addingTargets_[2];  // each has one of the block's sums and the first classes
+    GlTexture held_;           // bit mask of the classes present in each tile
+    GlTexture spread_;         // bit mask of the classes whose means each tile needs
     Target spreadTarget_;
-    // Around the middles of squares of pixels, of what lies in front of the focus and behind it a layer each, one class
-    // beside the other: what it shows, and the samples that are open to it.
-    glm::ivec2 squares_;  // of single pixels, columns and rows
+    // Means over squares of pixels: the radiance shown, and the number of samples that no nearer class covers. Layer 0
+    // is in front of the focus plane, layer 1 behind it. The classes lie side by side in a layer.
+    glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares are single pixels
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];
     Fullscreen fullscreen_;

@@ -17,9 +17,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint ratesUnit = 18;  // of shaders/aov/aov.frag
+constexpr GLuint ratesUnit = 18;  // as in shaders/aov/aov.frag
 
-// By the objects' numbers in the world; 1 for what isn't drawn.
+// Returns the rate of each object of the world; 1 for objects that are not drawn.
 TexelBuffer rateTexels(const World& world, const FramePlan& plan, bool shares) {
     std::vector<float> texels(std::max<std::size_t>(world.pose.objects.size(), 1), 1);
     const FrameRates rates = frameRates(plan, !shares);
@@ -30,7 +30,7 @@ TexelBuffer rateTexels(const World& world, const FramePlan& plan, bool shares) {
     return {texels, GL_R32F, 1, "the objects' rates"};
 }
 
-// `share` (0 … 1) by viridis, and black where `value` is negative.
+// Returns a colour map (viridis) of `share(value)` in [0, 1]; negative values are black.
 template <typename Share>
 Image colourMapOf(const Image& values, const Share& share) {
     Image colours(values.width, values.height, 3);
@@ -74,7 +74,7 @@ void AovPass::draw(const FramePlan& plan, bool shares) {
     pinhole_ = pinholePlan(scene_.world(), plan, 1);
     makeTargets(plan.view.width, plan.view.height);
 
-    // Clear to what lies behind everything.
+    // Clear to the values at infinity.
     target_.bind();
     glDepthMask(GL_TRUE);
     const float behind[4] = {
@@ -111,7 +111,7 @@ void AovPass::drawWireframe() {
     levelColours_.attach(6);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);
-    glPolygonOffset(1, 8);  // reversed depth: towards the camera
+    glPolygonOffset(1, 8);  // reversed depth: offsets towards the camera
     edges_.drawSurfaces(0, 1);
     glDisable(GL_POLYGON_OFFSET_LINE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary output variables: what a pixel's nearest surface is, through the pinhole at the pixel's centre.
+// Arbitrary output variables (AOVs): data about the nearest surface at each pixel's centre, seen through a pinhole.
 
 #include <filesystem>
 #include <optional>
@@ -12,21 +12,23 @@
 namespace defocus::engine {
 
 struct AovImages {
-    Image depth;  // m along the view axis; infinity where nothing is
-    Image coc;    // signed circle of confusion, px, > 0 behind the focus plane; the value at infinity where nothing is
-    Image level;  // the object's fractional level λ; −1 where nothing is
-    Image rate;   // the images of the object that "multirate" draws for a lens sample, 1/4 … 1; −1 where nothing is
+    Image depth;  // m along the view axis; infinity where no surface is
+    // Signed circle of confusion in px, > 0 behind the focus plane. Empty pixels have the value at infinity.
+    Image coc;
+    Image level;  // fractional level λ of the object; −1 where no surface is
+    Image rate;   // images per lens sample with method "multirate", 1/4 … 1; −1 where no surface is
 };
 
-// The same as textures (r32f, row 0 at the bottom), for frame after frame of one world. Needs a current GL context.
+// Draws the AOVs as textures (r32f, row 0 at the bottom) for successive frames of one world. Needs a current GL
+// context.
 class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level. Rates are those of
-    // "multirate", with cells=off where it `shares` images.
+    // Draws opaque, alpha-tested and blended surfaces alike, each at its nearest integer level. `shares`: rates are
+    // those of method "multirate" with cells=off.
     void draw(const FramePlan& plan, bool shares = false);
-    // The edges of the triangles that draw() drew and that nothing hides, coloured by λ (viridis), premultiplied.
+    // Draws the visible edges of the triangles that draw() drew, coloured by λ (viridis), premultiplied by alpha.
     void drawWireframe();
 
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
@@ -44,27 +46,27 @@ private:
     SurfacePass edges_;
     FrameUniforms frame_;
     FramePlan pinhole_;
-    TexelBuffer rates_;  // of the world's objects
+    TexelBuffer rates_;  // one per object of the world
     GlTexture depth_, coc_, level_, rate_, depthBuffer_, wireframe_, levelColours_;
     Target target_, wireTarget_;
 };
 
-// Draws them once.
+// Draws the AOVs of one frame and reads them back.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {},
                      bool shares = false);
 
-// λ from which on levels look alike in colour maps.
+// Level λ at which colour maps saturate.
 inline constexpr float coarsestShownLevel = 8;
 
-// Images a lens sample from which on rates look alike in colour maps.
+// Images per lens sample at which colour maps saturate.
 inline constexpr float minShownRate = 1.0f / 4;
 
-// Rates as colours that a person can read: an image for each lens sample dark violet, one for two in the middle, and
-// one for four or more yellow (viridis), black where nothing is.
+// Returns rates as colours (viridis): dark violet for one image per lens sample, mid-scale for one per two samples,
+// yellow for one per four or more. Pixels without a surface are black.
 Image rateColourMap(const Image& rate);
 
-// λ as colours that a person can read: level 0 dark violet to level 8 and beyond yellow (viridis), black where nothing
-// is.
+// Returns λ as colours (viridis): level 0 is dark violet, level 8 and above is yellow. Pixels without a surface are
+// black.
 Image levelColourMap(const Image& level);
 
 }  // namespace defocus::engine

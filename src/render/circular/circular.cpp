@@ -21,7 +21,7 @@ constexpr int tileSize = 16;  // px of the field
 struct CircularOptions {
     int nearComponents = 2;
     int farComponents = 2;
-    int reduction = 1;  // pixels a side to one of the fields
+    int reduction = 1;  // field pixels are this many image pixels wide
     bool combined = false;
     bool direct = false;
     double blendBias = 1;
@@ -63,7 +63,8 @@ CircularOptions parsed(const MethodSettings& settings) {
     return options;
 }
 
-// The largest blur in front of the focus plane, px; objects that reach the camera have no bound.
+// Returns the largest blur diameter in front of the focus plane, px. Objects that reach the camera count with the image
+// width.
 double largestNearDiameter(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) {
@@ -73,7 +74,7 @@ double largestNearDiameter(const FramePlan& plan) {
     return largest;
 }
 
-// The largest blur behind the focus plane, px, that of the sky included.
+// Returns the largest blur diameter behind the focus plane, px, including that of the sky.
 double largestFarDiameter(const FramePlan& plan) {
     double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);
@@ -203,7 +204,7 @@ private:
         nearRadiusTarget_ = Target({&nearRadius_});
     }
 
-    // The pixels of the fields that a part of the image is interpolated from.
+    // Returns the field pixels from which a part of the image is interpolated.
     [[nodiscard]] std::optional<TexelRectangle> inField(const std::optional<TexelRectangle>& part) const {
         if (!part) return {};
         const TextureInfo& field = farField_.info();
@@ -214,7 +215,7 @@ private:
         return TexelRectangle{left, bottom, std::max(right - left, 0), std::max(top - bottom, 0)};
     }
 
-    // The near field is gathered wherever a near disk may reach.
+    // Widens the near radius to all pixels that a near disk may reach.
     void spreadNearRadius() {
         tileTarget_.bind();
         ownNearRadius_.attach(0);
@@ -235,7 +236,7 @@ private:
     int height_ = 0;
     double anamorphicRatio_ = 1;
     bool hasNear_ = true;
-    ShaderDefines defines_;  // that the programs were built with
+    ShaderDefines defines_;  // defines of the current programs
     Program split_, tile_, reach_, widen_, composite_;
     GlTexture farField_, nearField_, farRadius_, ownNearRadius_, nearRadius_, tiles_, reaching_;
     Target splitTarget_, tileTarget_, reachTarget_, nearRadiusTarget_;

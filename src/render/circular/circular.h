@@ -1,8 +1,8 @@
 #pragma once
 // Method "circular": Garcia 2018, Circular Separable Convolution Depth of Field (EA; after Niemitalo 2010). A pinhole
-// image is split at the focus plane; each field is blurred by disks that separable complex kernels approximate
-// (complex_blur.h), the near field at the largest radius that reaches a pixel, so that it bleeds over its edges; then
-// the sharp image, the far field and the near field are laid over each other.
+// image is split at the focus plane into a near and a far field. Separable complex kernels (complex_blur.h) blur each
+// field with an approximate disk. The near field is blurred at the largest radius that reaches a pixel, so that it
+// bleeds over its edges. The sharp image, the far field and the near field are then composited in this order.
 
 #include "render/methods.h"
 

@@ -2,12 +2,12 @@
 // Disk-shaped blur by separable complex filters (Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia
 // 2018, Circular Separable Convolution Depth of Field).
 //
-// A component is F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x the offset over the disk's radius. Because
-// F(x)·F(y) = F(√(x² + y²)), one complex pass along the rows and one along the columns filter with a circular kernel,
-// and the weighted sum over the components c, with u = r²,
+// A component is F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), where x is the offset divided by the disk's radius.
+// F(x)·F(y) = F(√(x² + y²)), so one complex pass along rows and one along columns apply a circular kernel. With u = r²,
+// the weighted sum over the components c,
 //     K(r) = Σ_c [A·Re F(r) + B·Im F(r)] = Σ_c e^(−a·u)·(A·cos b·u + B·sin b·u),
-// approximates the disk D(r) = 1 for r < 1, 0 beyond. The passes visit the taps |x| ≤ extent, so the kernel's support
-// is the square [−extent, extent]²; it is the square that is measured here.
+// approximates the disk D(r) = 1 for r < 1, 0 beyond. The passes visit taps with |x| ≤ extent, so the kernel's support
+// is the square [−extent, extent]². All integrals below are over this square.
 
 #include <complex>
 #include <span>
@@ -22,50 +22,50 @@ struct CircularComponent {
     double sine;       // B, weight of the imaginary part
 };
 
-inline constexpr int circularKernelLimit = 9;        // components of the largest kernel
-inline constexpr double circularKernelExtent = 1.0;  // of the kernels of circularKernel, in radii of the disk
-inline constexpr double circularCornerGuard = 0.2;   // see circularKernel
+inline constexpr int circularKernelLimit = 9;        // number of components of the largest kernel
+inline constexpr double circularKernelExtent = 1.0;  // half the side of the support of circularKernel(), in disk radii
+inline constexpr double circularCornerGuard = 0.2;   // weight of the corner penalty; see circularKernel
 
-// The kernel of that many components, 1 to circularKernelLimit, that comes closest to the disk of radius 1 with
-// ∫K = ∫D: the least ∫(K − D)² dA over the square of the extent above, where the corners count once more as
-// circularCornerGuard·π·∫K² du over 1 < u < 2. (The square's arcs vanish towards its corners, u → 2. Left unguarded, K
-// falls to −0.4 … −0.7 there, four dark dots around each highlight.) Throws Error outside that range. The data live as
-// long as the program.
+// Returns the kernel of `count` components, 1 to circularKernelLimit, that best fits the disk of radius 1 with ∫K = ∫D.
+// The fit minimizes ∫(K − D)² dA over the square, plus circularCornerGuard·π·∫K² du over 1 < u < 2. This term guards
+// the corners (u → 2), where the arcs have little area: unguarded, K falls to −0.4 … −0.7 there. Each highlight would
+// have four dark dots around it. Throws Error for another `count`. The data have static lifetime.
 std::span<const CircularComponent> circularKernel(int count);
 
-inline constexpr int publishedKernelLimit = 5;  // components of the largest published kernel
+inline constexpr int publishedKernelLimit = 5;  // number of components of the largest published kernel
 
-// The kernel of 1 to publishedKernelLimit components with Niemitalo's constants (2010), of which Garcia's slides print
-// the first two. They are given there for a disk of another radius; here that radius is 1, the one for which they come
-// closest to a disk (defocus_circular_fit prints both radii). ∫K = ∫D holds once the passes have divided by the sum of
-// their taps. Throws Error for other numbers of components. The data live as long as the program.
+// Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010). Garcia's
+// slides print the first two. The published constants are for a disk of another radius; here they are rescaled to
+// radius 1, by the best fit to a disk (defocus_circular_fit prints both radii). ∫K = ∫D holds after the passes divide
+// by the sum of their taps. Throws Error for another `count`. The data have static lifetime.
 std::span<const CircularComponent> publishedCircularKernel(int count);
 
-// F(x): the complex weight of the tap at `offset` radii.
+// Returns F(x): the complex weight of the tap at `offset` radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);
 
-// K at r² = squaredRadius.
+// Returns K at r² = squaredRadius.
 double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius);
 
-// Points of an integral over the square of a function of r²: ∫f dA = Σ weight·f(squaredRadius).
+// A quadrature node for functions of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
 struct RadialNode {
     double squaredRadius;
     double weight;  // area
 };
 
-// Gauss–Legendre nodes over the square [−extent, extent]², of functions that are smooth but for a jump at the circle of
-// radius `edge` (> 0). Exact to rounding for frequencies up to about 60 per squared extent.
+// Returns Gauss–Legendre nodes over the square [−extent, extent]². The function may jump at the circle of radius `edge`
+// (> 0) and must be smooth elsewhere. Exact to rounding for frequencies up to about 60 per squared extent.
 std::vector<RadialNode> squareNodes(double extent, double edge);
 
-// The gain g that makes g·∫K over the square the area of the disk of radius diskRadius.
+// Returns the gain g for which g·∫K over the square equals the area of the disk of radius diskRadius.
 double energyGain(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
-// Root mean square deviation from the disk, relative to the disk: √(∫(g·K − D)² dA / ∫D² dA) with g = energyGain, over
-// the square and the part of the disk that sticks out of it, where K is 0.
+// Returns the RMS deviation from the disk, relative to the disk: √(∫(g·K − D)² dA / ∫D² dA) with g = energyGain. The
+// integral includes the part of the disk outside the square, where K is 0.
 double diskProfileError(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
-// A relative rounding ε of what is stored between the rows' and the columns' pass (half float: 2⁻¹¹) changes the result
-// by at most ε · this · the brightest pixel: g·Σ_c √(A² + B²)·(∫|F| dx)² / ∫D over |x| ≤ extent, with g = energyGain.
+// Returns the bound m on error amplification: g·Σ_c √(A² + B²)·(∫|F| dx)² / ∫D over |x| ≤ extent, with g = energyGain.
+// A relative rounding error ε between the passes (half float: 2⁻¹¹) changes the result by at most ε · m · the brightest
+// pixel.
 double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
 }  // namespace defocus::engine

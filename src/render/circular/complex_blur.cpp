@@ -19,14 +19,14 @@ namespace defocus::engine {
 namespace {
 
 constexpr int maxTargets = 8;
-constexpr int reduction = 8;  // of the search for the largest value, a side
+constexpr int reduction = 8;  // factor per side of the reduction that finds the max
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
-constexpr int maxFittedInHalf = 5;     // components
-constexpr int maxPublishedInHalf = 3;  // whose weights are larger, and cancel
-constexpr double outermostTap = 2;     // in radii: taps within radius + 1/2 of radii above 1/2
+constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
+constexpr int maxPublishedInHalf = 3;  // fewer, since their larger weights cancel and amplify rounding
+constexpr double outermostTap = 2;     // radii; taps lie within radius + 1/2, for radii above 1/2
 constexpr int bracketSteps = 4096;
-constexpr int publishedTaps = 8;  // on each side
+constexpr int publishedTaps = 8;  // taps on each side
 
 TextureFormat textureFormat(ComplexStorage storage) {
     switch (storage) {
@@ -82,13 +82,13 @@ std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& valu
     return parts;
 }
 
-// Of all the taps that are summed.
+// Returns the bracket for a fixed set of taps, all of which are summed.
 Bracket bracketOfSum(const std::vector<double>& taps) {
     const double offset = std::ranges::min(taps);
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Of taps that lie among these values.
+// Returns the bracket for any taps within the range of these values.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};
@@ -136,7 +136,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     sumTarget_ = Target(targets);
     if (!bracketed()) return;
 
-    // The largest radiance and weight of a field: tiles of tiles, down to one pixel.
+    // Reduction chain for the max radiance and weight of a field, down to one pixel.
     const auto pass = [&](const ShaderDefines& defines) {
         return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
     };
@@ -200,10 +200,10 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
         return;
     }
     if (bracketed()) findBrightest(field);
-    std::optional<TexelRectangle> columns = part;  // of the part, with all their rows
+    std::optional<TexelRectangle> columns = part;  // columns of the part, over all rows
     if (columns) *columns = {part->x, 0, part->width, info_.height};
     for (const Group& group : groups_) {
-        // Rows …
+        // Filter along the rows.
         sumTarget_.bind();
         field.attach(0);
         radius.attach(1);
@@ -212,7 +212,7 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
             const Scissor scissor(columns);
             fullscreen_.draw(group.horizontal);
         }
-        // … and columns, added to what other groups gave.
+        // Filter along the columns; later groups add to the result.
         resultTarget_.bind();
         for (GLuint i = 0; i < sums_.size(); ++i) sums_[i].attach(i);
         radius.attach(8);

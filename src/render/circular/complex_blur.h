@@ -1,8 +1,8 @@
 #pragma once
-// Blurs a field with a disk as wide as each pixel asks for, by separable complex kernels (circular_kernel.h).
+// Blurs a field by a disk of per-pixel radius, using separable complex kernels (circular_kernel.h).
 //
-// A field is radiance times weight with the weight as alpha. Rows, then columns are filtered at each pixel's own
-// radius; taps are normalised in every pass, so that a constant stays constant however the radius varies.
+// A field is radiance multiplied by a weight, with the weight in alpha. Rows and then columns are filtered at each
+// pixel's own radius. Taps are normalised in each pass, so a constant image stays constant for any radii.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,35 +15,36 @@
 
 namespace defocus::engine {
 
-// How the rows' complex sums are stored.
+// Storage format of the complex sums of the row pass.
 enum class ComplexStorage {
     float32,
-    half,     // kernels of more than five components (published ones of more than three) take float32: rounding grows
-    rgb10A2,  // Garcia's brackets, see Bracket; radiance and weight are divided by their largest
+    // Kernels of more than five components (more than three if published) use float32, because rounding errors grow.
+    half,
+    rgb10A2,  // Garcia's brackets (see Bracket); radiance and weight are divided by their max
 };
 
 enum class ComplexTaps {
-    exact,  // one a pixel
-    eight,  // eight on each side, spread over the radius (as published)
-    sets,   // 4, 8, 16 or 32 on each side, by the radius at the pixel
+    exact,  // one tap per pixel
+    eight,  // eight taps on each side, spread over the radius (as published)
+    sets,   // 4, 8, 16 or 32 taps on each side, depending on the pixel's radius
 };
 
 enum class KernelConstants {
-    fitted,     // circularKernel: the closest to the disk
-    published,  // publishedCircularKernel: those of Garcia's slides
+    fitted,     // circularKernel(): best fit to the disk
+    published,  // publishedCircularKernel(): the constants of Garcia's slides
 };
 
 struct ComplexBlurInfo {
     int width = 1;
     int height = 1;
-    // Of an oval, shares of the radius to the right and up.
+    // Semi-axes of an oval blur, horizontal and vertical, as a share of the radius.
     double across = 1;
     double upwards = 1;
     int components = 1;  // 1 … circularKernelLimit, or publishedKernelLimit
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
-    bool direct = false;  // gather the whole square instead: the same image, O(radius²)
+    bool direct = false;  // Gathers the full square instead of two passes: the same image at O(radius²) cost.
     std::filesystem::path shaderFolder;
 };
 
@@ -52,15 +53,15 @@ public:
     // Needs a current GL context.
     explicit ComplexBlur(const ComplexBlurInfo& info);
 
-    // `field` (RGBA) with the blur radius of each pixel in px in `radius` (R); both of the size given. With `part`,
-    // only that of the result is drawn.
+    // Blurs `field` (RGBA) by the radius in px that the red channel of `radius` holds per pixel. Both have the size of
+    // the info. With `part`, only this rectangle of the result is drawn.
     void blur(const GlTexture& field, const GlTexture& radius, const std::optional<TexelRectangle>& part = {});
-    // The blurred field of the last call, 32-bit floats, sampled linearly.
+    // The result of the last blur() call: 32-bit floats, linear filtering.
     [[nodiscard]] const GlTexture& result() const { return result_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Components [first, first + count) are filtered at a time: as many as there are render targets for.
+    // Components [first, first + count) that one pair of passes filters; the number of render targets limits the count.
     struct Group {
         int first = 0;
         int count = 0;
@@ -76,7 +77,7 @@ private:
     std::vector<Group> groups_;
     Program direct_;
     Program reduce_, reduceColor_;
-    std::vector<GlTexture> brightest_;  // each a tile's largest radiance and weight, down to one pixel
+    std::vector<GlTexture> brightest_;  // reduction chain, down to one pixel: max radiance and max weight of each tile
     std::vector<GlTexture> sums_;
     Target sumTarget_;
     GlTexture result_;
@@ -84,11 +85,11 @@ private:
     Fullscreen fullscreen_;
 };
 
-// How the sums of a component's real or imaginary taps G over n samples J in [0, 1] are stored (Garcia's appendix): as
-// I′ = (ΣG·J/n − offset·ΣJ/n)/scale with the least tap as offset.
-// Where the taps don't depend on the radius, scale = Σ(G − offset)/n as published: I′ is 1 for a white field, and no
-// tap weighs more than its share. Else scale is the range of the taps at any radius, which bounds I′ to [0, 1] as well,
-// but leaves its upper half unused.
+// Storage of the sums of a component's real or imaginary taps G over n samples J in [0, 1] (Garcia's appendix): I′ =
+// (ΣG·J/n − offset·ΣJ/n)/scale. `offset` is the smallest tap.
+//
+// If the taps don't depend on the radius, scale = Σ(G − offset)/n as published: I′ is 1 for a white field. Otherwise
+// scale is the range of the taps at any radius. This also bounds I′ to [0, 1] but leaves the upper half unused.
 struct Bracket {
     double offset = 0;
     double scale = 1;

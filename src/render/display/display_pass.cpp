@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Bits of `choices.z` in shaders/view/display.frag.
+// Returns the bits of `choices.z` in shaders/view/display.frag.
 int flagsOf(const DisplaySettings& settings) {
     return (settings.difference ? 1 : 0) | (settings.focusPeaking ? 2 : 0) | (settings.focusPlane ? 4 : 0) |
            (settings.wireframe ? 8 : 0);
@@ -49,7 +49,7 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
         target_ = Target({&texture_});
     }
     target_.bind();
-    // An overlay shows levels or rates, not both.
+    // Levels and rates share a texture unit: an overlay shows one of them.
     const GlTexture* values = settings.overlay == DisplayOverlay::rate ? inputs.rate : inputs.level;
     const GlTexture* textures[] = {inputs.first, inputs.second, inputs.coc, values, inputs.wireframe, inputs.work};
     for (GLuint unit = 0; unit < 6; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);

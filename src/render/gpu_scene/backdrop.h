@@ -1,5 +1,5 @@
 #pragma once
-// What lies behind a transmitting surface: a copy of the layers that surface is about to be drawn into.
+// The background of a transmitting surface: a copy of the layers made just before the surface is drawn into them.
 
 #include "gl/texture.h"
 
@@ -7,8 +7,8 @@ namespace defocus::engine {
 
 class Backdrop {
 public:
-    // Copies layers [0, count) of `colors` (or the one image that it holds), made anew when size or format change.
-    // `blurred`: with mipmaps, which serve as rough transmission. The framebuffer stays bound.
+    // Copies layers [0, count) of `colors` (or its single image). Reallocates only if size or format change. `blurred`:
+    // also makes mipmaps, which serve rough transmission. The bound framebuffer stays bound.
     void take(const GlTexture& colors, std::uint32_t count, bool blurred);
     void attach(GLuint unit) const { copy_.attach(unit); }
     [[nodiscard]] std::size_t bytes() const { return copy_.bytes(); }

@@ -1,12 +1,12 @@
 #pragma once
-// A colour map (image/colour_map.h) for shaders.
+// A colour map (image/colour_map.h) as a texture for shaders.
 
 #include "gl/texture.h"
 #include "image/colour_map.h"
 
 namespace defocus::engine {
 
-// `map` from 0 (left) to 1 (right): 256 x 1, linear RGBA.
+// Returns `map` sampled from 0 (left) to 1 (right): 256 x 1 texels, linear RGBA.
 GlTexture colourMapTexture(glm::vec3 (*map)(float));
 
 }  // namespace defocus::engine

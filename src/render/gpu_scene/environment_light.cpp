@@ -10,8 +10,8 @@ namespace defocus::engine {
 
 namespace {
 
-// L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0). In Legendre polynomials max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …;
-// the clamped cosine over π scales the bands by 1, 2/3 and 1/4.
+// L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0), for zenith z, horizon h and nadir n. In Legendre polynomials
+// max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …. The clamped cosine over π scales the bands by 1, 2/3 and 1/4.
 std::array<glm::vec4, 9> gradientCoefficients(const Environment& environment) {
     const glm::vec3 up = environment.zenith - environment.horizon;
     const glm::vec3 down = environment.nadir - environment.horizon;
@@ -34,8 +34,8 @@ std::array<double, 9> harmonics(const glm::dvec3& d) {
             0.546274 * (d.x * d.x - d.y * d.y)};
 }
 
-// Factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the harmonics above, times the band's cosine
-// factor.
+// Factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the harmonics above, multiplied by the cosine
+// factor of the band.
 constexpr std::array<double, 9> factors = {0.282095,         0.488603 * 2 / 3, 0.488603 * 2 / 3,
                                            0.488603 * 2 / 3, 1.092548 / 4,     1.092548 / 4,
                                            0.315392 / 4,     1.092548 / 4,     0.546274 / 4};

@@ -1,6 +1,5 @@
 #pragma once
-// The light an environment throws on a diffuse surface, as the coefficients that shaders/include/environment.glsl
-// evaluates.
+// Diffuse light from an environment, as coefficients that shaders/include/environment.glsl evaluates.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -9,9 +8,9 @@
 
 namespace defocus::engine {
 
-// Irradiance over π as a function of the normal n. A gradient gives a zonal polynomial c0 + c1·n.y + c2·n.y², a map the
-// nine coefficients of second-order spherical harmonics (Ramamoorthi and Hanrahan 2001), in the order 1, y, z, x, xy,
-// yz, 3z² − 1, xz, x² − y². Other types need none (zeros).
+// Returns irradiance over π as a function of the normal n. A gradient gives the zonal polynomial c0 + c1·n.y + c2·n.y².
+// A map gives the nine coefficients of second-order spherical harmonics (Ramamoorthi and Hanrahan 2001), in the order
+// 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y². Other environment types give zeros.
 std::array<glm::vec4, 9> diffuseCoefficients(const Environment& environment);
 
 }  // namespace defocus::engine

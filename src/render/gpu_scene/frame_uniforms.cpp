@@ -9,19 +9,19 @@
 #include "core/error.h"
 #include "lens/wavelengths.h"
 #include "render/gpu_scene/environment_light.h"
-#include "render/sampling/layer_window.h"
+#include "render/gpu_scene/layer_window.h"
 
 namespace defocus::engine {
 
 namespace {
 
-constexpr double unlimitedBlur = 1e9;  // widths of the image: finite, so that 0 times it is 0
+constexpr double unlimitedBlur = 1e9;  // image widths; finite, so that multiplying it by 0 gives 0
 constexpr std::size_t maxConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
-// The uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
+// Limits of the uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
 constexpr int maxLights = 64;
-constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes: GL_MAX_UNIFORM_BLOCK_SIZE is that or more
+constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes: the min of GL_MAX_UNIFORM_BLOCK_SIZE
 
 struct GpuLight {
     glm::vec4 directionType;
@@ -50,8 +50,8 @@ static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= ev
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
     const glm::vec3 direction(glm::normalize(placed.direction));
-    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles, squared in the
-    // shader.
+    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles. The shader squares
+    // it.
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
@@ -90,12 +90,13 @@ GlTexture environmentTexture(const Image& map) {
     return texture;
 }
 
-// Whether the same lights shine on each frame of the world. Many would make long programs.
+// Returns whether lighting is the same in every frame. Many lights return false, since constants for them make long
+// shaders.
 bool staysLitAlike(const World& world) {
     return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
 
-// A file may hold any number; only those have a text that shaders understand.
+// Returns whether all values are finite. A file may contain NaN or infinity, which have no shader literal.
 bool isFinite(const GpuLighting& block) {
     const auto finite = [](const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); };
     const auto finiteLight = [&](const GpuLight& light) {
@@ -105,7 +106,7 @@ bool isFinite(const GpuLighting& block) {
            std::ranges::all_of(block.lights, finiteLight);
 }
 
-// As lighting.glsl's constant is made of them.
+// Returns the initializer of the lighting constant in lighting.glsl.
 std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
     const auto vectors = [](std::span<const glm::vec4> list) {
         std::string text;
@@ -123,7 +124,7 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Values of a wave start where any driver lets a buffer be bound: a vec4 in every 256 bytes.
+// Values of a wave begin at the max offset alignment of uniform buffers: one vec4 per 256 bytes.
 constexpr std::size_t waveStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {
@@ -198,7 +199,7 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     std::vector<GpuSample> samples(plan.samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const LensSample& sample = plan.samples[i];
-        // Looking at a point right of the pixel's centre moves the scene left.
+        // A sample point right of the pixel's centre moves the scene left.
         const glm::vec2 jitter = -sample.pixel * pixel;
         const double dither = 0.5 + goldenRatio * static_cast<double>(plan.settings.firstSample + i);
         const auto layer = static_cast<float>(i % blockSamples % layerCount);
@@ -211,9 +212,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
     moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
-    // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of
-    // the image plane at distance 1. With controls, C/w depends on the pixel, which multiplies what the lens adds.
-    // Padded to whole blocks, which are bound one at a time.
+    // Offsets of the sky. At infinity C/w = b, so lens and jitter shift the sky by a fixed offset, in units of the
+    // image plane at distance 1. With blur controls, C/w depends on the pixel and multiplies the lens part in the
+    // shader. The buffer is padded to complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());
@@ -239,7 +240,7 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// A block's samples: colour weights and shifts of b, then points on the lens.
+// Uploads, for each block of samples: colour weights with shifts of b, then lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

@@ -1,5 +1,5 @@
 #pragma once
-// The pose of an object as shaders/include/posing.glsl reads it.
+// The poses of an object in the layout of shaders/include/posing.glsl.
 
 #include <glm/vec4.hpp>
 
@@ -11,17 +11,17 @@
 namespace defocus::engine {
 
 struct GpuPoses {
-    TexelBuffer texels;    // RGBA32F; empty for an object whose one matrix says all
+    TexelBuffer texels;    // RGBA32F; empty for an object with a single matrix
     glm::ivec4 layout{0};  // GpuObject::posing
     bool skinned = false;
     bool moving = false;
     bool cameraMoves = false;
 };
 
-// `plan` and `mesh` are the object's.
+// Returns the poses of `object`, which is part of `plan`. `mesh` is the object's mesh.
 GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh& mesh);
 
-// Adds what the vertex shader of an object in these poses needs.
+// Adds the defines that the vertex shader needs for an object with these poses.
 void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& mesh);
 
 }  // namespace defocus::engine

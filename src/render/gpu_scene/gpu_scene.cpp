@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// From how many times its own reach a mesh counts as far from its origin.
+// Min ratio of distance to half extent at which a mesh counts as far from its origin.
 constexpr double farFromOrigin = 4;
 
 template <typename T>
@@ -20,8 +20,8 @@ Buffer prefixBuffer(const std::vector<T>& items, std::size_t count) {
     return items.empty() ? Buffer() : Buffer(count * sizeof(T), items.data());
 }
 
-// Level 0's colours lie in [0, 1], where fixed point holds what files of 8 and 16 bits have exactly. Those that a
-// coarser level fits may lie outside.
+// Level 0 has colours in [0, 1], which fixed point holds exactly for files of 8 and 16 bits. Fitted colours of coarser
+// levels may lie outside this range.
 GLenum colorTypeOf(std::size_t level) {
     return level == 0 ? GL_UNSIGNED_SHORT : GL_HALF_FLOAT;
 }
@@ -48,9 +48,9 @@ GLenum minificationFilter(const Texture& texture) {
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
-constexpr float minAttenuation = 1e-6f;  // of a colour channel, whose logarithm is taken
+constexpr float minAttenuation = 1e-6f;  // of a colour channel, before taking its logarithm
 
-constexpr float rangeRounding = 1e-3f;  // in 1/255: so much of a step outwards is none
+constexpr float rangeRounding = 1e-3f;  // in 1/255: tolerance when rounding outwards
 
 void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
     if (colors.empty()) return;
@@ -136,7 +136,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     result.origin = meshOrigin(pyramid.bounds);
     result.levels.resize(pyramid.levels.size());
 
-    // Level l uses a prefix of the vertices: the finest wanted level says how many are needed.
+    // Level l uses a prefix of the vertices, so the finest wanted level determines the vertex count.
     std::size_t vertexCount = 0;
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::u16vec4> colors;
@@ -163,7 +163,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
             const auto first = pyramid.indices.begin() + range.first;
             indices.insert(indices.end(), first, first + range.count);
         }
-        if (level == 0)  // the first: `indices` holds its triangles alone
+        if (level == 0)  // level 0 comes first, so `indices` holds only its triangles
             colorRanges = cornerColorRanges(source.colors, indices);
         else
             measureColors(source.colors, target);
@@ -289,7 +289,7 @@ void GpuScene::prepareMaterial(int index) {
     }
 }
 
-// Units 5, 6 and 7 are the environment's and the poses'.
+// Units 5, 6 and 7 are taken by the environment map and the poses.
 void GpuMaterialTextures::attach() const {
     for (GLuint i = 0; i < materialTextureCount; ++i)
         if (slots[i] != nullptr) slots[i]->attach(i < 5 ? i : i + 3);
@@ -314,11 +314,11 @@ GpuMaterial GpuScene::materialBlock(int index) const {
     block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
     block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
                      material.occlusionStrength};
-    // Normal incidence on a dielectric: ((n − 1)/(n + 1))²; an index of 0 stands for one without bound.
+    // Reflectance of a dielectric at normal incidence: ((n − 1)/(n + 1))². An index n of 0 stands for infinity.
     const float ior = material.ior;
     const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
     block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
-    // The rougher and the denser, the wider what lies behind is spread; none at the index of air.
+    // The last component scales how far roughness spreads the background. It grows with the index and is 0 for air.
     block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * world_->scene->metresPerUnit;

@@ -1,6 +1,6 @@
 #pragma once
-// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, textures and materials of the
-// meshes that are drawn. What no plan has asked for is never uploaded.
+// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, and textures and materials of the
+// drawn meshes. Data are uploaded when a plan first uses them.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -34,59 +34,59 @@ enum AttributeLocation : unsigned {
     weights1Location,
     momentLocation,
     bandShiftLocation,
-    colorRangeLocation,  // the last of the 16 that every driver has
+    colorRangeLocation,  // location 15: every driver has at least 16
 };
 
-// A level's place in the mesh's buffers.
+// Position of a level's data in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
-    GLenum colorType = GL_UNSIGNED_SHORT;   // of the colours' four components: normalised shorts, or half floats
-    std::size_t vectorOffset = 0;           // bytes into the positions and the normals buffer
-    std::size_t colorOffset = 0;            // bytes into the colours buffer
-    std::size_t uvOffset = 0;               // bytes into the buffer of either set of texture coordinates
-    std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
-    glm::vec4 minColor{0.0f};               // of the level's vertices, 1 is white
+    GLenum colorType = GL_UNSIGNED_SHORT;   // type of the colours' four components: normalised shorts or half floats
+    std::size_t vectorOffset = 0;           // bytes, in the position and normal buffers
+    std::size_t colorOffset = 0;            // bytes, in the colour buffer
+    std::size_t uvOffset = 0;               // bytes, in the buffers of both texture coordinate sets
+    std::vector<std::size_t> indexOffsets;  // bytes, in the index buffer; one offset per primitive
+    glm::vec4 minColor{0.0f};               // min of the level's vertex colours; 1 is white
     glm::vec4 maxColor{0.0f};
 };
 
-// What moves a mesh's vertices against each other; empty where the mesh doesn't have it.
+// Skinning and morphing data of a mesh; empty for rigid meshes.
 struct GpuDeformation {
     Buffer joints, weights, joints1, weights1;
-    TexelBuffer morphs;  // RGB32F; target after target: positions, then normals, then tangents
+    TexelBuffer morphs;  // RGB32F; for each target: positions, then normals, then tangents
     bool morphNormals = false;
     bool morphTangents = false;
-    std::size_t vertexCount = 0;  // texels an attribute of a target
+    std::size_t vertexCount = 0;  // texels per attribute of a target
     [[nodiscard]] int attributesPerTarget() const { return 1 + (morphNormals ? 1 : 0) + (morphTangents ? 1 : 0); }
 };
 
 struct GpuMesh {
-    glm::dvec3 origin{0.0};  // object units; positions in the buffers are relative to it
+    glm::dvec3 origin{0.0};  // object units; buffer positions are relative to it
     VertexArray vertexArray;
     Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, blurs, indices;
     GpuDeformation deformation;
     std::vector<GpuLevel> levels;
 };
 
-// Where the positions of a mesh are best measured from: 0 along an axis where the box lies near its own origin, else
-// its middle. Single precision then holds the shape of what lies far away, and p − origin loses nothing: the axes that
-// are moved have every p between half and twice the origin (Sterbenz 1974, Floating-Point Computation).
+// Returns the origin for a mesh's buffer positions: per axis 0 if the bounding box lies near its own origin, else the
+// box's centre. Single precision then keeps the shape of distant meshes. The subtraction p − origin is exact, since p
+// lies between half and twice the origin on shifted axes (Sterbenz 1974, Floating-Point Computation).
 glm::dvec3 meshOrigin(const Bounds& bounds);
-// Makes the vertex array read the level's vertices.
+// Points the vertex array at the level's vertices.
 void bindLevel(GpuMesh& mesh, std::size_t level);
 
-// A material's textureUses on the GPU; null where there is none.
+// Textures of a material, in the order of textureUses(); null for unused slots.
 struct GpuMaterialTextures {
     const GlTexture* slots[materialTextureCount] = {};
-    // Where surface_shading.glsl reads them.
+    // Binds the textures to the units that surface_shading.glsl reads.
     void attach() const;
 };
 
-// For each of `colors`, the range over all triangles that it is a corner of: of each channel, 256 times the most plus
-// the least, in 1/255 and rounded outwards. `indices`: triangles.
+// Returns, for each vertex colour, the range over all triangles at this vertex. Each channel is 256 · max + min, both
+// in 1/255 and rounded outwards. `indices`: triangle list.
 std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
                                             std::span<const std::uint32_t> indices);
 
-// A material's uniform block of shaders/include/frame.glsl, std140.
+// Uniform block of a material, as in shaders/include/frame.glsl, std140.
 struct GpuMaterial {
     glm::vec4 baseColor;
     glm::vec4 emissiveCutoff;
@@ -103,7 +103,7 @@ class GpuScene {
 public:
     explicit GpuScene(const World& world) : world_(&world) {}
 
-    // Uploads what `plan` draws and isn't there yet. Throws Error when graphics memory runs out.
+    // Uploads the data of `plan` that are not on the GPU yet. Throws Error when graphics memory runs out.
     void prepare(const FramePlan& plan);
 
     [[nodiscard]] const World& world() const { return *world_; }
@@ -123,7 +123,7 @@ private:
 
     const World* world_;
     std::map<int, GpuMesh> meshes_;
-    std::map<std::pair<int, bool>, GlTexture> textures_;  // by texture and whether it is sRGB
+    std::map<std::pair<int, bool>, GlTexture> textures_;  // keyed by texture index and whether it is sRGB
     std::map<int, GpuMaterialTextures> materialTextures_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace defocus::engine {
 
-// Some of a plan's objects: whether each is among them. An empty set stands for all.
+// A subset of a plan's objects: one flag per object. An empty set stands for all objects.
 using ObjectSet = std::vector<bool>;
 
 inline bool contains(const ObjectSet& set, std::size_t object) {

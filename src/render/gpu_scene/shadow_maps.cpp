@@ -8,16 +8,16 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 18;  // of shaders/include/shadows.glsl
+constexpr GLuint mapsUnit = 18;  // as in shaders/include/shadows.glsl
 constexpr GLuint projectionsUnit = 19;
 constexpr GLint firstSampleLocation = 2;
-constexpr GLint slotLocation = 3;  // of shaders/accumulation/object.vert
+constexpr GLint slotLocation = 3;  // as in shaders/accumulation/object.vert
 
 std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// For each light, and then for the surroundings: its first map, and how many it has.
+// Returns defines with the first map and the number of maps of each light, and of the surroundings as the last entry.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);
@@ -48,7 +48,7 @@ std::vector<float> texelsOf(const std::vector<ShadowProjection>& projections) {
     return texels;
 }
 
-// What the casters' own pass draws: they alone, for all samples.
+// Returns a plan that draws only the shadow casters, for all samples.
 FramePlan castersOf(const FramePlan& plan) {
     FramePlan casters = plan;
     casters.objects = plan.shadows.casters;
@@ -93,7 +93,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
         target_ = Target();
-        maps_ = GlTexture();  // before the new one is made: both may not fit
+        maps_ = GlTexture();  // frees the old maps first: memory may not hold both
         maps_ = GlTexture({.format = TextureFormat::depth32f,
                            .width = plan.shadows.size,
                            .height = plan.shadows.size,

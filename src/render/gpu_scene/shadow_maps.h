@@ -1,6 +1,6 @@
 #pragma once
-// The shadow maps of a wave of lens samples (plan/shadows.h): a layer for each sample, point and map, drawn by a
-// surface pass of its own from the levels that the plan chose.
+// The shadow maps of a wave of lens samples (plan/shadows.h): one layer for each sample, light point and map. A surface
+// pass draws the casters at the levels that the plan chose.
 
 #include <optional>
 
@@ -15,13 +15,14 @@ public:
     // Needs a current GL context.
     ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder);
 
-    // For the samples of `plan`, which may have no shadows. `frame` was uploaded for it, and must outlive the drawing.
+    // Prepares the maps of `plan`, which may have no shadows. `frame` must hold this plan's uniforms and outlive the
+    // drawing.
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Draws the maps of samples [first, first + count), one wave; the render target is another one then.
+    // Draws the maps of samples [first, first + count), which form one wave. Changes the render target.
     void draw(std::uint32_t first, std::uint32_t count);
-    // What shaders that read the maps need; empty without shadows.
+    // Defines that shaders need to read the maps; empty without shadows.
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    // For drawing a sample, and what follows it in its wave, with such a shader.
+    // Binds the maps for drawing `sample` and the rest of its wave; the shader that reads them must be in use.
     void bind(std::uint32_t sample) const;
     [[nodiscard]] std::size_t bytes() const { return maps_.bytes() + projections_.bytes() + casters_.bytes(); }
 
@@ -30,15 +31,15 @@ private:
     SurfacePass casters_;
     const FrameUniforms* frame_ = nullptr;
     EnvironmentDirections directions_;
-    const Image* directionsOf_ = nullptr;  // the map that they are of, if it is one
-    FramePlan plan_;                       // of the casters
+    const Image* directionsOf_ = nullptr;  // environment map that directions_ were computed for; null without one
+    FramePlan plan_;                       // plan of the casters alone
     ShaderDefines defines_;
     TexelBuffer projections_;
     GlTexture maps_;
     Target target_;
 };
 
-// Bytes of the maps of one lens sample.
+// Returns the bytes of the shadow maps of one lens sample.
 std::uint64_t shadowMapBytes(const FramePlan& plan);
 
 }  // namespace defocus::engine

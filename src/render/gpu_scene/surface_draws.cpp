@@ -25,7 +25,7 @@ std::size_t uniformStride(std::size_t bytes) {
 
 namespace {
 
-// m by which what is drawn of the object lies off full detail, at most.
+// Returns the max distance in m between the object's drawn levels and full detail.
 double levelError(const World& world, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     double error = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What passes over the surfaces of a FramePlan share: the objects' uniform blocks and poses, the runs of indices that
-// remain of a level, and the features that a material's shaders need.
+// Parts shared by all passes that draw the surfaces of a FramePlan: uniform blocks and poses of objects, index runs of
+// visible clusters, and the shader features of a material.
 
 #include <glm/mat4x4.hpp>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// An object's uniform block of shaders/include/frame.glsl, std140.
+// Uniform block of an object, as in shaders/include/frame.glsl, std140.
 struct GpuObject {
     glm::mat4 viewFromObject;
     glm::mat4 normalMatrix;
@@ -21,31 +21,32 @@ struct GpuObject {
     glm::vec4 levels;
 };
 
-// One for each object of the plan, whose meshes `scene` holds; `poses` as many.
+// Returns one block for each object of the plan; `scene` must hold their meshes. Fills `poses` with one entry per
+// object.
 UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses);
 
-// A run of indices in GpuMesh::indices.
+// A range of indices in GpuMesh::indices.
 struct IndexRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-// What the frame draws of a primitive at a level: all of it, or what visible clusters leave.
+// Returns the index runs of a primitive at a level: all indices, or those of the visible clusters.
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
                                 std::uint32_t primitive);
 
 enum class SurfaceLook {
-    flat,         // neither lights nor textures beyond the alpha test
-    caster,       // as `flat`, and what lets light pass says how much
-    lit,          // what transmits is opaque
-    seenThrough,  // as `lit`, and what transmits shows what lies behind
+    flat,         // no lighting, and no textures except for the alpha test
+    caster,       // as `flat`, with the amount of light that transmitting surfaces let pass
+    lit,          // full shading; transmitting surfaces are opaque
+    seenThrough,  // as `lit`, and transmitting surfaces show the background
 };
 
-// The features of a material on a mesh that shaders/include/surface_shading.glsl knows.
+// Returns the defines of shaders/include/surface_shading.glsl for a material on a mesh.
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int material, std::uint32_t level,
                              SurfaceLook look);
 
-// One text for each set of defines.
+// Returns a unique key for a set of defines.
 std::string keyOf(const ShaderDefines& defines);
 
 }  // namespace defocus::engine

@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // a frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 17;      // of shaders/accumulation/object.frag
-constexpr GLint shadowSlotLocation = 3;  // of shaders/accumulation/object.vert
+constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 17;      // as in shaders/accumulation/object.frag
+constexpr GLint shadowSlotLocation = 3;  // as in shaders/accumulation/object.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -19,7 +19,7 @@ struct SampleSpan {
     [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
 };
 
-// Those of samples [first, first + count) that `drawn` is drawn for.
+// Returns the part of samples [first, first + count) for which `drawn` is drawn.
 SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
     return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
 }
@@ -28,7 +28,7 @@ GLenum modeOf(Refinement refinement) {
     return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
 }
 
-// Of the bound vertex array, for samples [firstSample, firstSample + sampleCount), one an instance.
+// Draws indices of the bound vertex array, with one instance per sample of [firstSample, firstSample + sampleCount).
 void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
                  std::uint32_t sampleCount) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
@@ -87,7 +87,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
         }
     }
-    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects come nearest first
+    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects are sorted nearest first
     for (const ObjectPlan& object : plan.objects) transmittingObjects_ += object.transmits ? 1 : 0;
     for (const Draw& item : translucent_) {
         const Material& material = scene_->material(item.material);
@@ -95,7 +95,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// The samples that `level` draws alone, and the one that it shares.
+// Adds the draws of a level: samples that use it alone, and the sample shared with the neighbouring level.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
     const std::vector<IndexRun> runs =
@@ -150,7 +150,7 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(static_cast<bool>(mesh.blurs), "VERTEX_BLURS");
     set(draw.blurMoves && frame_->moments(), "BLUR_MOVES");
     set(refined, "REFINED");
-    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
+    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // adds shader stages, so it needs its own program
     set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
     poseDefines(defines, poses_[draw.object], mesh);
@@ -175,7 +175,7 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Several passes may draw the same meshes, each its own samples.
+// Binds the samples of this pass; several passes may draw the same meshes with different samples.
 void SurfacePass::bindSamples(VertexArray& array) const {
     array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
     array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
@@ -183,7 +183,7 @@ void SurfacePass::bindSamples(VertexArray& array) const {
     if (frame_->bandShifts()) array.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 
-// Everything that a draw of samples from `sample` on reads.
+// Binds all inputs of a draw whose first sample is `sample`.
 void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
     GpuMesh& mesh = scene_->mesh(item.mesh);
     mesh.vertexArray.use();
@@ -207,7 +207,8 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
 }
 
-// A sample draws so many triangles; drawSamples(first, count) draws several.
+// Submits samples [first, end) in steps that limit the triangles per submission. `triangles`: per sample. Calls
+// drawSamples(first, count) for each step.
 void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
     const std::uint64_t max = pacer_.maxTriangles();
     const std::uint64_t step = max == 0 ? end - first : std::max<std::uint64_t>(1, max / triangles);
@@ -251,7 +252,7 @@ void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t
     draw(item, first, count);
 }
 
-// Both sides of what is double-sided.
+// Sets face culling; double-sided materials and shadow casters show both faces.
 void SurfacePass::setFaces(const Draw& item) const {
     if (scene_->material(item.material).doubleSided || info_.look == SurfaceLook::caster)
         glDisable(GL_CULL_FACE);
@@ -289,7 +290,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
     return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
 }
 
-// Returns the triangles of all samples.
+// Draws the remaining pieces and returns their triangle count, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
     std::uint64_t triangles = 0;
@@ -333,7 +334,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
     bindFrame();
     glDepthFunc(GL_GREATER);
     std::size_t left = transmittingObjects_;
-    std::optional<std::uint32_t> shown;  // the transmitting object that the backdrop is for
+    std::optional<std::uint32_t> shown;  // transmitting object that the backdrop was copied for
     for (const Draw& item : translucent_) {
         if (!contains(objects, item.object)) continue;
         if (!scene_->material(item.material).transmits()) {
@@ -358,7 +359,7 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, marksBlended_ ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
-    if (scene_->material(item.material).doubleSided) {  // the far side first
+    if (scene_->material(item.material).doubleSided) {  // back faces first
         glCullFace(GL_FRONT);
         draw(item, first, count);
     }
@@ -369,7 +370,8 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
 void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {
     if (translucent_.empty()) return;
     glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawSolid(translucent_, first, count, GL_GEQUAL, objects);  // what transmits has left its depth already
+    // Transmitting surfaces have already written their depth.
+    drawSolid(translucent_, first, count, GL_GEQUAL, objects);
     glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
@@ -385,7 +387,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     sky_.use();
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // equal to the cleared depth only where nothing was drawn
+    glDepthFunc(GL_GEQUAL);  // passes only where depth is still cleared
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
-// object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels); two more
-// where a sample at that boundary is split over its pixels. A level that clusters are left out of is drawn run by run
-// of its indices.
+// Draws the surfaces of a FramePlan with one shader program per set of material features. Each object, primitive and
+// wave needs at most two instanced draws, since a wave has at most one boundary between levels. Two more draws are
+// needed if the sample at the boundary is split between the levels pixel by pixel. A level with culled clusters is
+// drawn run by run.
 
 #include <map>
 #include <optional>
@@ -18,10 +18,10 @@
 namespace defocus::engine {
 
 struct SurfacePassInfo {
-    std::string fragmentShader;  // under shaders/
-    ShaderDefines defines;       // of the pass (layer format …)
+    std::string fragmentShader;  // path under shaders/
+    ShaderDefines defines;       // of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
-    bool vertexShaderLayers = true;  // false: a geometry shader picks the layer
+    bool vertexShaderLayers = true;  // false: a geometry shader selects the layer
     std::filesystem::path shaderFolder;
 };
 
@@ -32,53 +32,53 @@ public:
     SurfacePass(GpuScene& scene, SurfacePassInfo info)
         : scene_(&scene), info_(std::move(info)), occlusion_(scene.world()) {}
 
-    // Builds the draws and programs of `plan`. `frame` and `shadows` must outlive the drawing. `shadows`, of the same
-    // plan: the maps to be read, or of casters those to be drawn; null where there are none.
+    // Builds the draws and programs of `plan`. `frame` and `shadows` must outlive the drawing. `shadows` belongs to the
+    // same plan: the maps to read, or for casters the maps to draw. Null without shadows.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
-    // Draws samples [first, first + count) of the opaque and alpha-tested surfaces, front to back.
+    // Draws the opaque and alpha-tested surfaces of samples [first, first + count), front to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
-    // Draws the same picture, and of the plan's opaque surfaces only what each sample may show, where that is much
-    // less. Sample `first` is drawn into layer `layer`, the others into those after it, and these are the layers'
-    // depths. Returns how many triangles are left out. findHidden goes before it, for the plan of prepare, which must
-    // then outlive the drawing.
+    // drawOpaqueVisible draws the same image as drawOpaque, but skips hidden triangles if enough can be skipped. Sample
+    // `first` is in layer `layer` of `depths`, the others in the following layers. Returns the number of skipped
+    // triangles. Call findHidden first, with the plan of prepare(); this plan must outlive the drawing.
     void findHidden(const FramePlan& plan);
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer);
-    // The same for alpha-blended and transmitting surfaces, object by object and back to front. `colors` is what is
-    // drawn into, the environment included: a transmitting surface shows a copy of what it holds before its object is
-    // drawn. Of many such objects, only the nearest see each other. `objects` has all that transmit, or none.
+    // Draws alpha-blended and transmitting surfaces, object by object and back to front. `colors` is the render target
+    // and already holds the environment. A transmitting surface shows a copy of `colors` made before its object is
+    // drawn. Beyond a limit, only the nearest transmitting objects see each other. `objects` must contain all
+    // transmitting objects or none.
     void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
                          const ObjectSet& objects = {});
-    // Whether alpha-blended surfaces add their alpha to what is there, so that it is above 1 where they lie over what
-    // is opaque.
+    // Sets whether alpha-blended surfaces add their alpha to the target's alpha. Alpha then exceeds 1 where they cover
+    // opaque surfaces.
     void markBlended(bool marks) { marksBlended_ = marks; }
     [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
-    // Only the depth of the alpha-blended and transmitting surfaces, and what the shader writes beside the colour.
+    // Draws only the depth of alpha-blended and transmitting surfaces, and the shader outputs other than colour.
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
-    // All surfaces, translucent ones too, as if they were opaque.
+    // Draws all surfaces, including translucent ones, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // The same into the shadow map `slot` of each sample, both sides of each surface.
+    // Draws all surfaces, with both faces, into shadow map `slot` of each sample.
     void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
-    // All of them, each fragment added to what is there: nothing hides anything.
+    // Draws all surfaces without depth test and adds each fragment to the target.
     void drawTouched(std::uint32_t first, std::uint32_t count);
-    // The environment behind everything, where no surface was drawn. (The accumulation composes skies that are simpler
-    // than maps when it adds layers.)
+    // Draws the environment where no surface was drawn. (The accumulation composites environments other than maps when
+    // it adds layers.)
     void drawSky(std::uint32_t first, std::uint32_t count);
 
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     enum class ScreenDoor {
-        open,         // every pixel
-        coarseShare,  // the pixels of a boundary sample that draw the coarser level
-        fineShare,    // the others
+        open,         // all pixels
+        coarseShare,  // pixels of a boundary sample that draw the coarser level
+        fineShare,    // pixels of a boundary sample that draw the finer level
     };
 
-    struct Draw {  // a primitive of an object at one level
+    struct Draw {  // One primitive of an object at one level.
         int mesh = -1;
         std::uint32_t level = 0;
         std::uint32_t primitive = 0;
-        std::uint32_t object = 0;  // into the object blocks
+        std::uint32_t object = 0;  // index into the object blocks
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
@@ -119,20 +119,20 @@ private:
     std::map<std::string, Program> programs_;
     SubmissionPacer pacer_;
     Program sky_;
-    ShaderDefines skyDefines_;  // that sky_ was built with
+    ShaderDefines skyDefines_;  // defines of the current sky_ program
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
     const ShadowMaps* shadows_ = nullptr;
-    int shadowSlot_ = 0;  // that casters are drawn into
+    int shadowSlot_ = 0;  // shadow map that casters are drawn into
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
-    std::vector<GpuPoses> poses_;  // as many as objects
+    std::vector<GpuPoses> poses_;  // one per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     bool marksBlended_ = false;
-    std::vector<Draw> translucent_;  // alpha-blended or transmitting, the farthest first
+    std::vector<Draw> translucent_;  // alpha-blended or transmitting, farthest first
     std::size_t transmittingObjects_ = 0;
-    bool blursBackdrop_ = false;  // some transmitting surface is rough
+    bool blursBackdrop_ = false;  // whether a transmitting surface is rough
     Backdrop backdrop_;
     Occlusion occlusion_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform blocks of one kind in one buffer, each where a driver lets it be bound.
+// Uniform blocks of one type in one buffer, spaced so that each can be bound on its own.
 
 #include <cstring>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// `bytes` rounded up to where a uniform block may begin.
+// Returns `bytes` rounded up to the driver's offset alignment for uniform blocks.
 std::size_t uniformStride(std::size_t bytes);
 
 template <typename Block>

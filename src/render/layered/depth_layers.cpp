@@ -4,7 +4,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint frontUnit = 20;  // of shaders/layered/peel.glsl
+constexpr GLuint frontUnit = 20;  // as in shaders/layered/peel.glsl
 
 GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint32_t count) {
     return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(count)});
@@ -26,8 +26,8 @@ GlHandle<destroyQuery> newQuery() {
 
 }  // namespace
 
-// A pixel's place n = (x, y) becomes n·(W, H)/(W', H'), so that each term of c/W·W stays the same in px
-// (lens/circle_of_confusion.h).
+// Position n = (x, y) in the image becomes n·(W, H)/(W', H'). The coefficients change so that each term of c/W·W stays
+// the same in px (lens/circle_of_confusion.h).
 FramePlan widened(const FramePlan& plan, int border) {
     FramePlan wide = plan;
     wide.tile.reset();
@@ -45,7 +45,7 @@ FramePlan widened(const FramePlan& plan, int border) {
     coc.gain *= wider * wider;
     coc.aspect = static_cast<double>(wide.view.width) / wide.view.height;
     for (LensSample& sample : wide.samples) sample.lens = glm::vec2(0);
-    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // without a lens nothing bends
+    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // pinhole images need no refinement
     return wide;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// The scene through the middle of the lens as depth layers (Everitt 2001, Interactive Order-Independent Transparency):
-// in each pixel the nearest surface, the next one behind it, and so on.
+// The scene seen through the lens centre as depth layers (Everitt 2001, Interactive Order-Independent Transparency): in
+// each pixel the nearest surface, the next surface behind it, and so on.
 //
-// What no point of the lens can see takes no layer (the umbra of Lee, Eisemann and Seidel 2010, Real-Time Lens Blur
-// Effects and Focus Control): what lies behind a pixel's surface and moves against it by less than a pixel over the
-// whole lens.
+// Surfaces that no lens point can see take no layer (the umbra of Lee, Eisemann and Seidel 2010, Real-Time Lens Blur
+// Effects and Focus Control). Such a surface lies behind the pixel's nearest surface and shifts against it by less than
+// a pixel over the full lens.
 
 #include <optional>
 
@@ -15,16 +15,17 @@
 
 namespace defocus::engine {
 
-// `plan` for an image that shows `border` px more on each side; the pixels between them keep what they show, and their
-// circle of confusion in px. For pinholes: lens samples are left out, and so is the tile.
+// Returns `plan` for an image with `border` px more on each side. The inner pixels keep their content and their circle
+// of confusion in px. The result is for pinholes: lens points move to the centre, and the tile is dropped.
 FramePlan widened(const FramePlan& plan, int border);
 
 struct DepthLayersInfo {
-    int width = 1;  // px, with the border
+    int width = 1;  // px, including the border
     int height = 1;
-    std::uint32_t layers = 1;                   // at most
-    LayerFormat format = LayerFormat::rgba16f;  // it holds alpha
-    bool blended = false;                       // surfaces let through what lies behind them, whatever the lens
+    std::uint32_t layers = 1;                   // max number of layers
+    LayerFormat format = LayerFormat::rgba16f;  // must hold alpha
+    // Surfaces show the background through themselves, so surfaces that no lens point sees take layers too.
+    bool blended = false;
     std::filesystem::path shaderFolder;
     bool operator==(const DepthLayersInfo&) const = default;
 };
@@ -34,26 +35,26 @@ public:
     // Needs a current GL context.
     DepthLayers(GpuScene& scene, const DepthLayersInfo& info);
 
-    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing.
+    // `frame` must have been uploaded for `pinholes` with one layer, and must outlive the drawing.
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
-    // Peels the layers of sample `index`, up to the first that holds nothing.
+    // Peels the layers of sample `index`; stops at the first empty layer.
     void peel(std::uint32_t index);
 
-    // Of the sample peeled last: layers that hold anything.
+    // Number of layers with content, for the sample peeled last.
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    // Arrays of all layers: linear radiance, premultiplied; and what shaders/layered/peel.glsl says of the surfaces.
+    // Texture arrays with all layers: premultiplied linear radiance, and surface data as in shaders/layered/peel.glsl.
     [[nodiscard]] const GlTexture& colors() const { return colors_; }
     [[nodiscard]] const GlTexture& surfaces() const { return surfaces_; }
     [[nodiscard]] const DepthLayersInfo& info() const { return info_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Draws the surfaces behind front_ into a layer; are there any?
+    // Draws the nearest surfaces behind front_ into a layer. Returns whether any pixel was drawn.
     bool peelLayer(std::uint32_t index, std::uint32_t layer);
 
     DepthLayersInfo info_;
     GlTexture colors_, surfaces_, front_, depth_;
-    std::vector<Target> targets_;  // one a layer
+    std::vector<Target> targets_;  // one per layer
     ShadowMaps shadows_;
     SurfacePass pass_;
     GlHandle<destroyQuery> anyDrawn_;

@@ -11,10 +11,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr int extentLevels = 6;                   // squares of 2 … 64 px
-constexpr int largestSquare = 1 << extentLevels;  // px
-constexpr GLuint groupSize = 8;                   // threads a side
+constexpr int largestSquare = 1 << extentLevels;  // px, side of the coarsest squares
+constexpr GLuint groupSize = 8;                   // threads per side
 
-// Texels of the finest level, so that each coarser one covers whole texels of the one before.
+// Returns the size of the finest level, rounded so that each texel of a coarser level covers full texels of the finer
+// one.
 int extentTexels(int pixels) {
     return (pixels + largestSquare - 1) / largestSquare * largestSquare / 2;
 }

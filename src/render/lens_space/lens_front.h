@@ -1,10 +1,10 @@
 #pragma once
-// What the lens-space methods share in front of their own kernels (Tzeng et al. 2012, High-Quality Parallel
-// Depth-of-Field Using Line Samples): the vertices of a frame with their signed C, its triangles, and for each tile of
-// the image the triangles that any point of the lens may show in it.
+// The common front end of the lens-space methods (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
+// Samples). It computes a frame's vertices with their signed C, and its triangles. A list per image tile holds the
+// triangles that some lens point may see in that tile.
 //
-// The lists of the tiles grow as needed: triangles are counted, the places of the lists are summed up, and the lists
-// filled. No triangle is lost to a full tile.
+// The lists have no fixed capacity: triangles are counted, the list offsets are prefix sums of the counts, and then the
+// lists are filled. No triangle is lost to a full tile.
 
 #include <map>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Surfaces that are shaded alike.
+// Surfaces that share one shading program and material.
 struct ShadedGroup {
     ShaderDefines defines;
     int material = -1;
@@ -31,59 +31,59 @@ struct TileBand {
 
 struct BinStatistics {
     std::uint32_t tiles = 0;
-    std::uint64_t entries = 0;      // of all tiles together
-    std::uint32_t largestTile = 0;  // triangles
-    std::uint64_t bytes = 0;        // of the lists that are held at once
+    std::uint64_t entries = 0;      // list entries of all tiles
+    std::uint32_t largestTile = 0;  // number of triangles in the fullest tile
+    std::uint64_t bytes = 0;        // memory of the lists that are held at the same time
 };
 
 class LensFront {
 public:
-    // `tileSize`: px. `lightsVertices`: whether vertices have
-    // light of their own (RecordShading). `entryBytes`: the most memory for lists at once; beyond it the tiles come in
-    // several bands.
+    // `tileSize`: px. `lightsVertices`: whether lighting is computed per vertex (RecordShading). `entryBytes`: memory
+    // limit for the lists; beyond it the tiles are processed in several bands.
     LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
               std::filesystem::path shaderFolder);
 
-    // The triangles of `plan`. `frame` must outlive the drawing. Throws Error, naming the object, for what no method of
-    // this family can draw.
+    // Prepares the triangles of `plan`. `frame` must outlive the drawing. Throws Error, naming the object or the
+    // feature, for a plan that the lens-space methods can't draw.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Vertices and tiles in a part of the exposure: from moment `part` of the shutter to the next. 0 if nothing moves.
+    // Computes vertices and tile counts for a part of the exposure: from moment `part` of the shutter to the next
+    // moment. Use part 0 if nothing moves.
     void pose(std::uint32_t part);
-    // Fills the lists of a band, if they aren't yet: front to back.
+    // Fills and sorts the lists of a band, front to back, unless it is the current band.
     void fill(const TileBand& band);
-    // Binds vertices, triangles, draws, ends of the tiles' lists and the lists as shaders/lens_space/ has them.
+    // Binds vertices, triangles, draws, list ends and lists to the bindings of shaders/lens_space/.
     void bindTriangles() const;
     void bindAttributes() const;
     void bindVertexLight() const;
-    // Binds what shaders/lens_space/shade_vertices.comp reads and writes.
+    // Binds the inputs and outputs of shaders/lens_space/shade_vertices.comp.
     void bindVertices() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
-    // Group i of triangles is shaded as groups()[i − 1]; 0 is the sky.
+    // Group i of triangles has the shading of groups()[i − 1]; group 0 is the sky.
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
-    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // that kernels over triangles need
+    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for kernels that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
-    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // of the exposure; 1 if nothing moves
+    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // parts of the exposure; 1 if nothing moves
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    struct Run {  // of indices
+    struct Run {  // A range of indices.
         std::uint32_t object = 0;
         std::uint32_t first = 0;
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
     };
-    struct Vertices {  // of an object at a level
+    struct Vertices {  // The vertices of an object at one level.
         std::uint32_t object = 0;
         std::uint32_t level = 0;
         std::uint32_t first = 0;
         std::uint32_t count = 0;
     };
-    struct GpuDraw {  // of shaders/lens_space/triangles.glsl
+    struct GpuDraw {  // Layout of shaders/lens_space/triangles.glsl.
         std::uint32_t firstRay = 0;
         std::uint32_t endRay = 0;
         std::uint32_t group = 0;
@@ -99,7 +99,7 @@ private:
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void makeDepths();
     void countTiles();
-    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // with the program and the buffers that are bound
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // the program and its buffers must be bound
     void sort(const TileBand& band);
 
     GpuScene* scene_;
@@ -113,7 +113,7 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines binDefines_;
     Program trianglesProgram_, depthsProgram_, countProgram_, fillProgram_, sortProgram_;
-    GlTexture unused_;  // drivers want a target even where nothing is rasterised
+    GlTexture unused_;  // dummy target: drivers need one even with rasterization disabled
     Target unusedTarget_;
     UniformBlocks<GpuObject> objects_;
     std::vector<GpuPoses> poses_;
@@ -125,17 +125,17 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer firstTriangles_, vertexLight_;  // where vertices have light of their own
-    Buffer depths_;                        // of triangles, by which lists are sorted
+    Buffer firstTriangles_, vertexLight_;  // allocated only with per-vertex lighting
+    Buffer depths_;                        // one per triangle: sort key of the lists
     Buffer tileCounts_, tileEnds_, entries_;
-    std::vector<std::uint32_t> tilePlaces_;  // where each tile's list begins in its band
+    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list in its band
     std::vector<TileBand> bands_;
-    std::uint32_t filled_ = 0;  // the first tile of the band that is filled; its end if none is
+    std::uint32_t filled_ = 0;  // first tile of the band that is filled
     bool isFilled_ = false;
     BinStatistics statistics_;
 };
 
-// The kernels' dispatch over `count` items in groups of 256 threads.
+// Dispatches the current kernel over `count` items in groups of 256 threads.
 void dispatchOver(std::uint64_t count);
 
 }  // namespace defocus::engine

@@ -102,7 +102,7 @@ private:
     void prepareSum(const ShaderDefines& rayDefines) {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
         if (!sum_ || sumSize_ != size || sumDefines_ != rayDefines) {
-            sum_.reset();  // before the new one is made: both may not fit
+            sum_.reset();  // frees the old sum first: memory may not hold both
             sum_.emplace(size.x, size.y, rayDefines, options_.shaderFolder);
             sumSize_ = size;
             sumDefines_ = rayDefines;
@@ -110,7 +110,7 @@ private:
         sum_->reset();
     }
 
-    // K: as many rays of each pixel as the memory allows, at most a block of the frame's uniforms.
+    // Returns K: as many rays per pixel as fit into the memory, at most a block of the frame's uniforms.
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
@@ -119,12 +119,12 @@ private:
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : max, max, blockSamples}));
     }
 
-    // The part of the exposure in which ray `ray` of each pixel sees the scene.
+    // Returns the part of the exposure in which ray `ray` of each pixel sees the scene.
     [[nodiscard]] std::uint32_t partOf(std::uint32_t ray, std::uint32_t total) const {
         return static_cast<std::uint32_t>(std::uint64_t{ray} * front_->parts() / total);
     }
 
-    // A wave ends with its block of samples, and with its part of the exposure.
+    // Returns the next wave, which ends within its block of samples and its part of the exposure.
     [[nodiscard]] RayWave nextWave(std::uint32_t first, std::uint32_t total) const {
         RayWave wave{first, std::min({wavesRays(), total - first, blockSamples - first % blockSamples})};
         while (partOf(first + wave.count - 1, total) != partOf(first, total)) --wave.count;
@@ -132,7 +132,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K asked for; 0: as many as memory allows
+    std::uint32_t wave_;  // K requested; 0: as many as fit into memory
     std::unique_ptr<VisibilityKernel> kernel_;
     GpuScene scene_;
     FramePlan plan_;
@@ -143,7 +143,7 @@ private:
     glm::ivec2 sumSize_{0};
     ShaderDefines sumDefines_;
     Buffer rays_;
-    std::optional<std::uint32_t> part_;  // of the exposure that the vertices are posed for
+    std::optional<std::uint32_t> part_;  // part of the exposure that the vertices are posed for
     mutable FrameClock clock_;
     RenderStats stats_;
 };

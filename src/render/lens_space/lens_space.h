@@ -1,6 +1,6 @@
 #pragma once
-// The frame around the lens-space methods: they draw a frame's triangles once, and find for each pixel what many rays
-// through the lens meet, where the accumulation draws the triangles again for each lens sample.
+// The renderer around the lens-space methods. They process a frame's triangles once and find, for each pixel, what many
+// rays through the lens hit. The accumulation instead draws the triangles again for each lens sample.
 
 #include <memory>
 
@@ -9,12 +9,12 @@
 
 namespace defocus::engine {
 
-// The setting of these methods that VisibilityKernel::lightsVertices() follows.
+// Setting "shading" of these methods, which decides VisibilityKernel::lightsVertices().
 MethodSetting shadingSetting();
 
-// `options.settings` must be complete. Starting a frame throws Error, naming the object or the setting, for what these
-// methods can't draw: blended and alpha-tested materials, controls of the blur that bend inside triangles, axial
-// chromatic aberration, the cat's eye, exact motion.
+// Returns a renderer that uses `kernel`. `options.settings` must be complete. Starting a frame throws Error, naming the
+// object or the setting, for unsupported features: blended and alpha-tested materials, blur controls that vary
+// nonlinearly inside triangles, axial chromatic aberration, astigmatism and coma, cat's eye, exact motion.
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel);
 

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::uint32_t maxVariants = 64;
 constexpr std::uint32_t minVariants = 4;
-constexpr std::uint32_t maxRays = 1u << 18;  // of all variants together
+constexpr std::uint32_t maxRays = 1u << 18;  // over all variants
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;
 }
 
-// Halves the samples along one axis after the other until each stands alone.
+// Bisects the samples along alternating axes until each part has one sample.
 void sortIntoParts(std::span<LensSample> samples, int axis, int axes) {
     if (samples.size() < 2) return;
     const std::size_t half = samples.size() / 2;

@@ -1,5 +1,5 @@
 #pragma once
-// The sum of the light that each pixel's rays brought, added in order with Neumaier's compensation.
+// The sum of the light of each pixel's rays, added in order with Neumaier's compensation.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -8,14 +8,15 @@ namespace defocus::engine {
 
 class RaySum {
 public:
-    // `defines` are those of the rays. Throws Error when the size is beyond what shaders read of one buffer.
+    // `defines`: the ray defines. Throws Error if the sum exceeds the buffer size that shaders can read.
     RaySum(int width, int height, const ShaderDefines& defines, const std::filesystem::path& shaderFolder);
 
     void reset() { rays_ = 0; }
-    // Adds the light of the next `count` rays of each pixel; records are bound.
+    // Adds the light of the next `count` rays of each pixel. The records must be bound.
     void add(std::uint32_t count);
     [[nodiscard]] std::uint32_t rays() const { return rays_; }
-    // The mean of the rays so far, RGBA, row 0 at the bottom, until the next call. At least one.
+    // Returns the mean of the rays so far as RGBA, row 0 at the bottom. Valid until the next call. Needs at least one
+    // ray.
     [[nodiscard]] const GlTexture& mean();
     [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + mean_.bytes(); }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Buffers that the lens-space kernels read and write, and the records among them, of which a wave asks for more or
-// fewer.
+// Storage buffers of the lens-space kernels, and the growing buffer that holds the records of a wave.
 
 #include <cstdint>
 
@@ -8,18 +7,19 @@
 
 namespace defocus::engine {
 
-// The most bytes that this driver's shaders read of one buffer.
+// Returns the max bytes of one buffer that the driver's shaders can read.
 std::uint64_t largestStorage();
 
-// A buffer that shaders read whole. Throws Error, naming what it holds, if that is more than they can.
+// Returns a buffer that shaders can read completely. Throws Error, naming the content (`what`), if it exceeds
+// largestStorage().
 Buffer storage(std::uint64_t bytes, const char* what);
 
-// What the rays of a wave meet, as shaders/lens_space/records.glsl has it.
+// The ray hits of a wave, in the layout of shaders/lens_space/records.glsl.
 class RecordBuffer {
 public:
-    // The most that fit into a buffer.
+    // Returns the max number of records in a buffer.
     static std::uint64_t maxRecords();
-    // Makes room for `count` records; what the buffer held may be lost.
+    // Ensures room for `count` records; previous content may be lost.
     void reserve(std::uint64_t count);
     void bind() const;
     [[nodiscard]] std::uint64_t capacity() const;

@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // of shaders/lens_space/groups.glsl
+constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // as in shaders/lens_space/groups.glsl
 constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // as glDispatchComputeIndirect reads it
 
 }  // namespace
@@ -74,11 +74,11 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // before the new one is made: both may not fit
+        list_ = Buffer();  // frees the old buffer first: memory may not hold both
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
-    // The records of each group.
+    // List the records of each group.
     const GLuint zero = 0;
     glClearNamedBufferData(groups_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     front.bindTriangles();
@@ -90,7 +90,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    GLint rays = 0;  // they share a binding with the places of the lists
+    GLint rays = 0;  // rays share this binding with the list offsets
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);
     placesProgram_.use();
@@ -101,7 +101,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
     overRecords(listProgram_);
 
-    // Their light.
+    // Shade the listed records.
     if (front.lightsVertices())
         front.bindVertexLight();
     else

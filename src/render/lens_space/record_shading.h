@@ -1,7 +1,7 @@
 #pragma once
-// Turns the records of a wave into light: lists them by the groups of surfaces that are shaded alike, then shades one
-// group after the other, each with its material's textures, as a fragment of the other methods would be. Or, where
-// vertices have light of their own (Tzeng et al. 2012), shades these beforehand and interpolates.
+// Shades the records of a wave. The records are listed by group of surfaces with the same shading. Each group is then
+// shaded with its material's textures, like a fragment of the other methods. With per-vertex lighting (Tzeng et al.
+// 2012), vertices are shaded beforehand and their light is interpolated.
 
 #include <map>
 #include <string>
@@ -14,11 +14,12 @@ class RecordShading {
 public:
     RecordShading(GpuScene& scene, std::filesystem::path shaderFolder);
 
-    // Programs and materials of the front's groups. `defines` are those of the front, the rays and the kernel.
+    // Prepares the programs and materials of the front end's groups. `defines`: those of the front end, the rays and
+    // the kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
-    // The light of the front's vertices, if they have light of their own. The frame's uniforms are bound.
+    // Shades the front end's vertices if lighting is per vertex. The frame's uniforms must be bound.
     void shadeVertices(const LensFront& front);
-    // Shades `count` records of the wave that begins at ray `firstRay`. Rays, records and the frame's uniforms are
+    // Shades `count` records of the wave that begins at ray `firstRay`. Rays, records and the frame's uniforms must be
     // bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
     [[nodiscard]] std::size_t bytes() const;
@@ -34,8 +35,8 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines listDefines_;
     Program countProgram_, listProgram_, placesProgram_;
-    std::vector<const Program*> groupPrograms_;   // the sky's first
-    std::vector<const Program*> vertexPrograms_;  // of the front's groups, where vertices have light of their own
+    std::vector<const Program*> groupPrograms_;   // the sky's program first
+    std::vector<const Program*> vertexPrograms_;  // one per group, with per-vertex lighting only
     UniformBlocks<GpuMaterial> materials_;
     Buffer groups_, dispatches_, list_;
 };

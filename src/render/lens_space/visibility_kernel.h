@@ -1,5 +1,5 @@
 #pragma once
-// What tells the lens-space methods apart: their rays, and how they find what these meet.
+// The part that differs between the lens-space methods: the rays, and how their hits are found.
 
 #include "render/lens_space/lens_front.h"
 #include "render/lens_space/ray_sets.h"
@@ -7,7 +7,8 @@
 
 namespace defocus::engine {
 
-inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);  // of shaders/lens_space/records.glsl
+// Size of a record of shaders/lens_space/records.glsl.
+inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);
 
 // Rays [first, first + count) of each pixel.
 struct RayWave {
@@ -18,22 +19,22 @@ struct RayWave {
 class VisibilityKernel {
 public:
     virtual ~VisibilityKernel() = default;
-    [[nodiscard]] virtual std::string name() const = 0;        // of the method
+    [[nodiscard]] virtual std::string name() const = 0;        // name of the method
     [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // px
-    // Whether surfaces are shaded at their vertices, and interpolated, instead of where they are seen.
+    // Returns whether lighting is computed at vertices and interpolated, instead of at the hits.
     [[nodiscard]] virtual bool lightsVertices() const = 0;
-    // Throws Error for a plan that the method can't draw.
+    // Returns the rays of the plan. Throws Error for a plan that the method can't draw.
     [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
-    // What shaders that read rays and records need, beside VARIANTS.
+    // Returns the defines, other than VARIANTS, of shaders that read rays and records.
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
-    // Bytes of a ray's records, at least.
+    // Returns the min bytes of the records of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Before the first wave of a frame. `defines` are those of the front and of the rays.
+    // Called before the first wave of a frame. `defines`: those of the front end and of the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
-    // Finds what a wave's rays meet and returns the number of records. Takes rays off the end of a wave that meets more
-    // than a buffer holds. The frame's uniforms and the rays are bound.
+    // Finds the hits of a wave's rays and returns the number of records. Shortens a wave whose records exceed a buffer.
+    // The frame's uniforms and the rays must be bound.
     virtual std::uint64_t find(LensFront& front, RayWave& wave) = 0;
-    // Binds what shaders/lens_space/ knows as records, and for lines their ranges.
+    // Binds the records for shaders/lens_space/; for line samples also their ranges.
     virtual void bindRecords() const = 0;
     virtual void addTo(RenderStats& stats) const = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;

@@ -17,24 +17,25 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
-constexpr std::size_t jobRanges = 2;  // of a job
-// Mesa's software driver ends the loops of a thread after 65,535 rounds in all. Kernels stop at twice this number.
+constexpr std::size_t jobRanges = 2;  // ranges per job
+// Mesa's software driver ends the loops of a thread after a total of 65,535 iterations. Kernels stop at twice this
+// number.
 constexpr std::uint32_t softwareRounds = 30'000;
-constexpr std::size_t stateBytes = 32u << 20;   // of jobs that go on from dispatch to dispatch, about
-constexpr std::uint64_t expectedRecords = 6;    // of a line; there is more room where a wave needs it
-constexpr std::uint32_t maxShadingPoints = 16;  // of a piece
-constexpr std::uint32_t firstCapacity = 48;     // pieces of an exact line
+constexpr std::size_t stateBytes = 32u << 20;   // approximate memory of the jobs that continue over several dispatches
+constexpr std::uint64_t expectedRecords = 6;    // per line; reserved, and enlarged if a wave needs more
+constexpr std::uint32_t maxShadingPoints = 16;  // per piece
+constexpr std::uint32_t firstCapacity = 48;     // pieces per exact line
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // of a segment in the buffer
-constexpr float lightUnit = 1.0f / 1024;   // of droppedLight
+constexpr std::uint32_t sharedBytes = 24;  // per segment in the buffer
+constexpr float lightUnit = 1.0f / 1024;   // unit of droppedLight
 
-// std140, of shaders/line/visible.comp.
+// Uniform block of shaders/line/visible.comp, std140.
 struct GpuBounds {
     glm::vec4 box;
     glm::vec4 strip;
 };
 
-// The counters in front of the ranges.
+// Counters at the start of the output buffer, before the ranges.
 struct Counters {
     std::uint32_t records = 0;
     std::uint32_t droppedSegments = 0;
@@ -150,10 +151,10 @@ public:
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
 
 private:
-    struct Places {  // among the ranges
+    struct Places {  // Offsets into the ranges.
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
-        std::uint64_t slots = 0;  // of states
+        std::uint64_t slots = 0;  // number of states
     };
     struct Totals {
         std::uint64_t records = 0;
@@ -174,14 +175,14 @@ private:
         program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
     }
 
-    // What a thread holds of a line between dispatches, as shaders/line/ has it.
+    // Returns the size of a thread's state between dispatches, in ranges, as in shaders/line/.
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
-    // Lines of `wave`, of all tiles.
+    // Finds the segments of the lines of `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
-        // Room for ranges, and where jobs may be put off, for those and the states of some of them.
+        // Allocate the ranges, and where jobs may be deferred, the jobs and the states of some of them.
         const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
                                    static_cast<std::uint32_t>(imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
@@ -190,7 +191,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // before the new one is made: both may not fit
+            output_ = Buffer();  // frees the old buffer first: memory may not hold both
             output_ = storage(bytes, "the lines of a wave");
         }
 
@@ -205,7 +206,7 @@ private:
         return readCounters();
     }
 
-    // What the first dispatch put off, as many at once as there is room for what they hold.
+    // Finishes the jobs that the first dispatch deferred, as many at once as there is memory for their states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {
@@ -232,7 +233,7 @@ private:
         glUniform1ui(6, maxRounds_);
     }
 
-    // `jobs` as shaders/line/visible.comp has them.
+    // Dispatches the kernel; `jobs` is laid out as in shaders/line/visible.comp.
     static void dispatch(const std::array<std::uint64_t, 4>& jobs, std::uint32_t width, std::uint32_t height) {
         glUniform4ui(7, static_cast<GLuint>(jobs[0]), static_cast<GLuint>(jobs[1]), static_cast<GLuint>(jobs[2]),
                      static_cast<GLuint>(jobs[3]));
@@ -263,7 +264,7 @@ private:
     Program program_;
     Buffer boundBlock_, output_;
     RecordBuffer records_;
-    std::uint32_t maxRounds_ = 0;  // of a dispatch; 0: any number
+    std::uint32_t maxRounds_ = 0;  // loop iterations per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
 };

@@ -1,12 +1,13 @@
 #pragma once
-// Line samples: each pixel looks along lines through the lens and finds which triangle is visible where on each of
-// them, as intervals instead of points (Tzeng, Patney, Davidson, Ebeida, Mitchell and Owens 2012, High-Quality Parallel
+// Line samples: each pixel looks along lines through the lens. The visible triangles on each line are found as
+// intervals instead of points (Tzeng, Patney, Davidson, Ebeida, Mitchell and Owens 2012, High-Quality Parallel
 // Depth-of-Field Using Line Samples).
 //
-// As published, segments are kept in a buffer of fixed size whose heuristics may drop or merge some, intersecting
-// segments change places only where one ends, and a segment is shaded once, in its middle. By default the visible
-// pieces of a line are exact, intersections included, and a piece is shaded at as many points as its surface moves by
-// steps of some pixels, at random places, so that textures are blurred too.
+// The published method keeps segments in a buffer of fixed size, whose heuristics may drop or merge segments.
+// Intersecting segments swap only where a segment ends, and each segment is shaded once, at its midpoint. By default
+// this implementation finds the visible pieces of a line exactly, intersections included. The number of shading points
+// of a piece depends on how many pixels its surface moves along the line. They are placed at random, so that textures
+// are blurred too.
 
 #include "render/methods.h"
 

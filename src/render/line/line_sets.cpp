@@ -12,14 +12,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int angleSteps = 4096;  // of the table of the light at each angle
+constexpr int angleSteps = 4096;  // table size of the light by angle
 
-// Of a narrow sector with this radius, up to a constant.
+// Returns the area of a narrow sector with this radius, up to a constant.
 double areaAt(double radius) {
     return radius * radius;
 }
 
-// From shares of the light to angles in [0, π).
+// Returns the cumulative share of the light over angles in [0, π).
 std::vector<double> lightUpToAngles(const Aperture& aperture) {
     std::vector<double> sums(angleSteps + 1, 0.0);
     for (std::size_t i = 0; i < angleSteps; ++i) {
@@ -39,15 +39,15 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
-// Where the lines of a variant lie in the pixel, and where along a segment they are shaded, by their place in the
-// wheel.
+// Position of a line in the pixel, and shading position along a segment.
 struct WheelPoint {
     glm::dvec2 pixel{0};  // [0, 1)
     double shading = 0;
 };
 
-// The pixel's places are a net, that is two coordinates of the sequence, and a third one says which line has which: so
-// they are well spread over the wheel, too. Shading goes on by the golden ratio from line to line.
+// Returns one point per line of the wheel. Pixel positions are a net: two coordinates of the sequence. A third
+// coordinate assigns them to lines, so that they are well distributed over the wheel too. Shading positions advance by
+// the golden ratio from line to line.
 std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_t variant, std::uint32_t lines) {
     std::vector<SequencePoint> points;
     for (std::uint32_t line = 0; line < lines; ++line)
@@ -68,7 +68,7 @@ std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_
 
 double apertureRim(const Aperture& aperture, double angle) {
     if (aperture.bladeCount < 3) return 1;
-    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // its corners lie at the multiples of this angle
+    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // the corners are at multiples of this angle
     const double fromMiddle = angle - (std::floor(angle / blade) + 0.5) * blade;
     return (1 - aperture.bladeCurvature) * std::cos(blade / 2) / std::cos(fromMiddle) + aperture.bladeCurvature;
 }

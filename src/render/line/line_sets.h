@@ -1,14 +1,14 @@
 #pragma once
-// The lines of each pixel: a wagon wheel through the centre of the lens (Tzeng et al. 2012). Line i of n passes at the
-// angle π·(i + r)/n, and each variant of ray_sets.h turns the wheel by another r and puts the lines at other places of
-// the pixel. The paper leaves open how to avoid that lines of one direction, at the same place of all pixels, show as
-// strobes.
+// The lines of each pixel: a wagon wheel through the lens centre (Tzeng et al. 2012). Line i of n has the angle π·(i +
+// r)/n. Each variant of ray_sets.h rotates the wheel by another r and offsets the lines in the pixel differently.
+// Without this, lines of one direction at the same position of all pixels would be visible as strobing, which the paper
+// leaves unsolved.
 //
-// The lines of a pixel have places in it that are spread over the pixel and over the wheel together, because a wheel
-// of few lines smooths what is in focus by those places alone.
+// The lines' positions in the pixel are well distributed over the pixel and the wheel together. With few lines, these
+// positions alone antialias surfaces in focus.
 //
-// The angle is counted in equal shares of the aperture's light, so that all lines weigh the same for any shape without
-// an image.
+// Angles are measured in equal shares of the aperture's light, so that all lines have equal weight for any aperture
+// without an image.
 
 #include "lens/aperture.h"
 #include "render/lens_space/ray_sets.h"
@@ -16,15 +16,18 @@
 namespace defocus::engine {
 
 struct LineSets {
-    RaySets sets;  // lensAndPixel: the way (u, k·v) from the centre to the rim; values: backward, forwardShare, a
-                   // number in [0, 1) that says where along a segment it is shaded
-    std::vector<glm::vec4> strips;  // of each line: xy a unit vector across it in (u, v), z how far a variant leaves it
+    // LensAndPixel: vector (u, k·v) from the centre to the rim; values: backward, forwardShare, shading position on a
+    // segment [0, 1).
+    RaySets sets;
+    // Per line: xy is a unit vector across it in (u, v); z is the max distance of a variant from the line.
+    std::vector<glm::vec4> strips;
 };
 
-// `turned`: false for one wheel and one place for all pixels, as published. Throws Error for an aperture image.
+// Returns the lines of a plan. `turned`: false for the same wheel and position in all pixels, as published. Throws
+// Error for an aperture image.
 LineSets lineSets(const FramePlan& plan, bool turned);
 
-// The distance of the aperture's rim from its centre at `angle`, before rotation and anamorphic ratio.
+// Returns the distance from the aperture's centre to its rim at `angle`, before rotation and anamorphic squeeze.
 double apertureRim(const Aperture& aperture, double angle);
 
 }  // namespace defocus::engine

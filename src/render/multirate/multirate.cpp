@@ -16,7 +16,7 @@ namespace {
 
 static_assert(rateBlock == blockSamples);
 
-// What groups of neighbouring lens samples share.
+// The images that groups of neighbouring lens samples share.
 class GroupImages final : public SharedImages {
 public:
     explicit GroupImages(bool cells) : usesCells_(cells) {}
@@ -78,7 +78,7 @@ private:
     const LayerSum* sum_ = nullptr;
     const FramePlan* plan_ = nullptr;
     FrameRates rates_;
-    // Of the block that the next sample belongs to; without its samples.
+    // The current block, without the plan of its samples.
     RatedBlock block_;
     std::uint32_t groupsDrawn_ = 0;  // groups before this one have been drawn
     FrameUniforms frame_;

@@ -7,8 +7,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int smallestTile = 4;  // px a side
-constexpr int maxTiles = 3;      // a side of what is asked for, so that a level fits it well
+constexpr int smallestTile = 4;  // px per side
+constexpr int maxTiles = 3;      // per side of a query, to select a level of matching size
 
 int shared(int size, int parts) {
     return (size + parts - 1) / parts;

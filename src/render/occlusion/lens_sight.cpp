@@ -4,15 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/sampling/layer_window.h"
+#include "render/gpu_scene/layer_window.h"
 
 namespace defocus::engine {
 
 namespace {
 
-constexpr double snapping = 0.25;           // px that a rasteriser may move a corner, with room to spare
-constexpr double transformation = 0x1p-20;  // of a position's terms: what single precision may lose of their sum
-constexpr double interpolation = 0x1p-14;   // relative: what a triangle's depths may lose
+constexpr double snapping = 0.25;           // px: bound on how far a rasterizer moves a vertex, with margin
+constexpr double transformation = 0x1p-20;  // Relative to a position's terms: error of their sum in single precision.
+constexpr double interpolation = 0x1p-14;   // relative error of a triangle's interpolated depths
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool seesBoxes(const ObjectPlan& object) {
            object.refinement == Refinement::none;
 }
 
-// throughLens of shaders/include/lens.glsl: the pinhole's (x, y) and (a + b·w)·(u, k·v) + w·jitter.
+// Same formula as throughLens of shaders/include/lens.glsl: the pinhole's (x, y) and (a + b·w)·(u, k·v) + w·jitter.
 LensSight::LensSight(const FramePlan& plan, const ObjectPlan& object, std::uint32_t sample)
     : nearPlane_(plan.view.nearPlane) {
     const LensSample& lens = plan.samples[sample];

@@ -1,12 +1,12 @@
 #pragma once
-// Finds which triangles each lens sample hides behind others, by its own depth buffer, so that a software rasteriser
-// needn't draw them: it takes nearly as long for a triangle that nobody sees as for one that shows.
+// Finds the triangles that each lens sample hides, from its own depth buffer, so that a software rasterizer can skip
+// them. A hidden triangle costs such a rasterizer nearly as much as a visible one.
 //
-// The first sample of a block of the sum draws everything. The others first draw the pieces of levels that it doesn't
-// hide. Then each asks its own depths which of the rest may show, and draws those too. (Greene, Kass and Miller 1993,
-// Hierarchical Z-Buffer Visibility, whose image of the frame before is that of the first sample here.) So nothing that
-// shows is left out. Where two surfaces have equal depths the one that is drawn first shows, which may be another than
-// without this.
+// The first sample of a block draws all triangles and sorts pieces of levels into visible and hidden. Each other sample
+// first draws the visible pieces. It then tests the hidden pieces against its own depths and draws those that may be
+// visible. (Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, use the previous frame where this uses the
+// first sample.) No visible triangle is lost. Of two surfaces with equal depth, the one drawn first is visible, which
+// may differ from the result without occlusion culling.
 
 #include <cstdint>
 #include <map>
@@ -20,9 +20,9 @@
 
 namespace defocus::engine {
 
-// A primitive of an object at a level, as a pass draws it for some samples.
+// A primitive of an object at one level, as a pass draws it for a range of samples.
 struct OccludableDraw {
-    std::uint32_t object = 0;  // into FramePlan::objects
+    std::uint32_t object = 0;  // index into FramePlan::objects
     std::uint32_t level = 0;
     std::uint32_t primitive = 0;
     std::uint32_t firstSample = 0;
@@ -30,14 +30,14 @@ struct OccludableDraw {
 };
 
 struct RemainingDraw {
-    std::size_t draw = 0;  // into those that Occlusion was prepared for
+    std::size_t draw = 0;  // index into the draws of Occlusion::prepare
     std::uint32_t firstSample = 0;
     std::uint32_t sampleCount = 0;
-    std::uint32_t firstIndex = 0;  // into RemainingDraws::indices
+    std::uint32_t firstIndex = 0;  // offset into RemainingDraws::indices
     std::uint32_t indexCount = 0;
 };
 
-// In the order of the draws, and of the samples where those differ.
+// Draws with hidden pieces removed, ordered by draw, or by sample first if samples differ.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
@@ -45,35 +45,36 @@ struct RemainingDraws {
 
 class Occlusion {
 public:
-    // `world` must outlive it.
+    // `world` must outlive this object.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Begins a plan, which must outlive the drawing. Where nothing can be gained, all draws remain whole: the lens or
-    // what moves may forbid it, or there are few triangles.
+    // Begins a plan, which must outlive the drawing. Culling stays off if it can't pay: with few triangles, or if the
+    // lens or motion rules out the test.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
 
-    // Whether `sample` has to be drawn whole, so that its depths sort the pieces.
+    // Returns whether all triangles of `sample` must be drawn so that its depths sort the pieces.
     [[nodiscard]] bool needsDepthsOf(std::uint32_t sample) const;
-    // `sample` was drawn whole into layer `layer` of `depths`.
+    // Sorts the pieces by sample `sample`, of which all triangles were drawn into layer `layer` of `depths`.
     void sortBy(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer);
-    // Whether that has found enough to leave out.
+    // Returns whether the sorting found enough hidden triangles to skip.
     [[nodiscard]] bool hidesMuch() const { return hidesMuch_; }
 
-    // What comes first, for all samples: what the sorting sample doesn't hide, and objects that can't be asked.
+    // Returns the draws to submit first, for all samples: pieces visible in the sorting sample, and objects that can't
+    // be tested.
     [[nodiscard]] const RemainingDraws& shown() const { return shown_; }
-    // What else samples [first, first + count) may show once that is drawn. Sample `first` is in layer `layer` of
-    // `depths`, the others in those after it.
+    // Returns the further pieces that samples [first, first + count) may show after those draws. Sample `first` is in
+    // layer `layer` of `depths`, the others in the following layers.
     [[nodiscard]] RemainingDraws uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                            std::uint32_t layer) const;
 
 private:
     struct Piece {
         const IndexPiece* piece = nullptr;
-        bool shown = true;  // to the sorting sample
+        bool shown = true;  // whether the sorting sample shows it
     };
     struct Sorted {
         OccludableDraw draw;
-        std::vector<Piece> pieces;  // that the plan's clusters leave
+        std::vector<Piece> pieces;  // pieces in the plan's visible clusters
         bool canHide = false;
     };
 
@@ -85,9 +86,9 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // By mesh, level and primitive.
+    // Keyed by mesh, level and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
-    std::vector<Sorted> sorted_;  // empty where nothing can be gained
+    std::vector<Sorted> sorted_;  // empty if culling is off
     std::int64_t sortedBlock_ = -1;
     bool hidesMuch_ = false;
     RemainingDraws shown_;

@@ -1,8 +1,9 @@
 #pragma once
-// Draws a bucket of alpha-blended objects as a pinhole image of its own (Garcia 2018), over nothing.
+// Draws a bucket of alpha-blended objects as a separate pinhole image (Garcia 2018) on a transparent background.
 //
-// What opaque surfaces hide of it is black, without coverage, at their depth. Where the bucket is empty, its surfaces
-// go on without coverage at the depth of what is near: so a blur spreads its edges as disks.
+// Pixels hidden by opaque surfaces are black with zero coverage, at the opaque depth. In pixels without bucket
+// surfaces, coverage is zero and the depth is extrapolated from nearby bucket surfaces. A blur then spreads the
+// bucket's edges as disks.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -13,12 +14,12 @@ namespace defocus::engine {
 
 class BucketPass {
 public:
-    // `opaque`: of the format `format`; must outlive this.
+    // `opaque` must have the format `format` and outlive this pass.
     BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder);
 
-    // `surfaces` was prepared; `opaque` holds the same sample.
+    // `surfaces` must be prepared, and `opaque` must hold the same sample.
     void draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectSet& bucket);
-    // Of the bucket drawn last.
+    // Image of the bucket drawn last.
     [[nodiscard]] PinholeImage& image() { return image_; }
     [[nodiscard]] std::size_t bytes() const {
         return image_.bytes() + surfaceDepth_.bytes() + surfaceOwnBlur_.bytes() + known_.bytes();
@@ -28,7 +29,7 @@ private:
     const PinholeImage* opaque_;
     PinholeImage image_;
     GlTexture surfaceDepth_, surfaceOwnBlur_;  // of the bucket's nearest surfaces
-    GlTexture known_;                          // the same with mipmaps
+    GlTexture known_;                          // depth and own blur of these surfaces, with mipmaps
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

@@ -1,5 +1,5 @@
 #pragma once
-// A pinhole image as post-process methods blur it: what is seen through the middle of the lens, and how far away.
+// A pinhole image for the post-process methods: colour and depth of the scene seen through the lens centre.
 
 #include <cstddef>
 #include <optional>
@@ -11,20 +11,20 @@ namespace defocus::engine {
 
 struct PinholeImage {
     PinholeImage() = default;
-    // `format` holds alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f where a pass computes it.
-    // `keepsOwnBlur`: what the surfaces make of the blur is kept too.
+    // `format` must hold alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a pass computes the depth.
+    // `keepsOwnBlur`: also stores the blur controls of surfaces.
     PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur);
 
-    // What shaders/include/pinhole.glsl reads: depth and scales of the blur.
+    // Binds the inputs of shaders/include/pinhole.glsl: depth and blur controls.
     void attachForBlur() const;
-    // From here on, `color` reads as the coverage, in red, green and blue; or as the radiance again.
+    // Switches what `color` reads as: with `on` the coverage in red, green and blue, else the radiance.
     void readAsCoverage(bool on);
     [[nodiscard]] std::size_t bytes() const { return color.bytes() + depth.bytes() + ownBlur.bytes(); }
 
-    GlTexture color;    // linear radiance, premultiplied, with coverage as alpha
+    GlTexture color;    // premultiplied linear radiance, with coverage as alpha
     GlTexture depth;    // reversed: near plane over distance; 0 is infinity
-    GlTexture ownBlur;  // the factor, and what is added; empty: nothing of their own
-    // Blurred, it is black and without coverage elsewhere, and needn't be drawn there; none: it may be seen anywhere.
+    GlTexture ownBlur;  // Blur controls of surfaces: factor and offset; empty if no surface has its own.
+    // Outside this rectangle the blurred image is black with zero coverage and needs no drawing. Empty: the full image.
     std::optional<TexelRectangle> part;
 };
 

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t lightPoints = 16;  // of a pinhole's shadows, on each light
+constexpr std::uint32_t lightPoints = 16;  // points on each light for a pinhole's shadows
 
 ShaderDefines definesOf(LayerFormat format) {
     ShaderDefines defines = layerFormatDefines(format);
@@ -17,7 +17,7 @@ ShaderDefines definesOf(LayerFormat format) {
     return defines;
 }
 
-// Of every surface but the sky and what is translucent: those leave it as it is.
+// Enables or disables writing the surfaces' own blur. The sky and translucent surfaces must leave it unchanged.
 void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);

@@ -1,6 +1,6 @@
 #pragma once
-// What post-process methods start from: the scene through the middle of the lens, its sky included, with the depth of
-// each pixel.
+// Draws the input of the post-process methods: the scene with its sky through the lens centre, and the depth of each
+// pixel.
 
 #include <optional>
 #include <vector>
@@ -15,31 +15,30 @@
 
 namespace defocus::engine {
 
-// The objects of `plan`, each at the whole level nearest to its λ, for `count` samples in the middle of the lens. They
-// are spread over the pixel by Hammersley's points; one alone lies in its middle. The plan's lens (its CoC) is kept.
-// What moves is drawn as it is in the middle of the exposure. A pinhole has 16 points on each light.
+// Returns a plan for `count` samples at the lens centre, with each object at the integer level nearest to its λ. The
+// samples are Hammersley points over the pixel; a single one is at its centre. The plan keeps its lens, and so its CoC.
+// Moving objects are drawn as in the middle of the exposure. Each pinhole uses 16 points per light.
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
 
 class PinholePass {
 public:
-    // `format` holds alpha (rgba16f, rgba32f). `ownBlur`: what the surfaces make of the blur is kept too. Needs a
+    // `format` must hold alpha (rgba16f, rgba32f). `ownBlur`: also stores the blur controls of surfaces. Needs a
     // current GL context.
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                 const std::filesystem::path& shaderFolder);
 
-    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing. `buckets` are drawn
-    // apart, each by drawBucket.
+    // `frame` must have been uploaded for `pinholes` with one layer, and must outlive the drawing. Objects in `buckets`
+    // are left to drawBucket.
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
-    // Draws sample `index`. Alpha-blended surfaces that are in no bucket leave their depth too, in a pass of its own:
-    // what lies behind them is blurred as they are (Scheuermann 2004).
+    // Draws sample `index`. Alpha-blended surfaces outside buckets write their depth in a second pass. The background
+    // seen through them is then blurred like them (Scheuermann 2004).
     void draw(std::uint32_t index);
-    // Of the sample drawn last: linear radiance with coverage as alpha (1 but over a transparent background), and
-    // depth.
+    // Image of the sample drawn last: linear radiance with coverage as alpha (1 for an opaque background), and depth.
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
-    // The image of a bucket of the sample drawn last, the farthest first: what image() doesn't hide of it, over
-    // nothing.
+    // Draws a bucket of the sample drawn last, without the parts that image() hides, on a transparent background.
+    // Bucket 0 is the farthest.
     [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
@@ -52,11 +51,11 @@ private:
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
     Target target_;
-    bool transparent_ = false;  // the background
+    bool transparent_ = false;  // whether the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // of the buckets
+    std::vector<TexelRectangle> reaches_;  // one per bucket, see reachOf
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

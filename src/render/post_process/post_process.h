@@ -1,6 +1,6 @@
 #pragma once
-// Renders by blurring pinhole images: the frame around the post-process methods. Several pinholes spread over the pixel
-// are blurred one by one and averaged, which antialiases; their number is the methods' setting "pinholes".
+// Common renderer of the post-process methods, which blur pinhole images. Several pinholes spread over the pixel are
+// blurred one by one and averaged for antialiasing (setting "pinholes").
 
 #include <memory>
 
@@ -15,22 +15,22 @@ namespace defocus::engine {
 class PostProcess {
 public:
     virtual ~PostProcess() = default;
-    // Makes what images of this plan need. Called before draw, and again for each frame.
+    // Prepares resources for the images of this plan. Called for each frame, before draw.
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
-    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. Linear in the radiance, so that
-    // coverage is blurred by the same. Only PinholeImage::part has to be drawn.
+    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. The result must be linear in the
+    // radiance, so that the same blur applies to coverage. Only PinholeImage::part must be drawn.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
-    // false: something may be blurred more widely than the plan's lens blurs it.
+    // Returns false if the blur may exceed that of the plan's lens.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// The settings that all these methods share.
+// Settings that all these methods share.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* standard);
 
-// `options.settings` must be complete. Over a transparent background each pinhole is blurred twice: its premultiplied
-// radiance, and its coverage. So is each bucket of alpha-blended surfaces (transparency_buckets.h).
+// `options.settings` must be complete. With a transparent background each pinhole is blurred twice: its premultiplied
+// radiance, and its coverage. The same holds for each bucket of alpha-blended surfaces (transparency_buckets.h).
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 

@@ -15,10 +15,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minStep = 1;  // px of diameter
-constexpr double margin = 24;  // px: small images and pre-blurred copies have wide pixels
+constexpr double minStep = 1;  // px, in diameter
+constexpr double margin = 24;  // px: small images and pre-blurred copies have large pixels
 
-// Signed px; no more than a disk as wide as the image.
+// Returns the middle of a blur range, signed px; clamped to disks as wide as the image.
 double middleOf(const CocRange& coc, double width) {
     return 0.5 * (std::clamp(coc.nearest, -width, width) + std::clamp(coc.farthest, -width, width));
 }
@@ -30,7 +30,8 @@ bool overlapInTheImage(const ObjectPlan& a, const ObjectPlan& b, const FramePlan
     return glm::all(glm::lessThan(boxA.ndcMin, boxB.ndcMax)) && glm::all(glm::lessThan(boxB.ndcMin, boxA.ndcMax));
 }
 
-// Front to back, without those that stay with what transmits: behind it, or behind one that stays.
+// Returns the blended objects for buckets, front to back. Skips transmitting objects, and objects behind one of them or
+// behind a skipped one.
 std::vector<std::size_t> blendedObjects(const FramePlan& plan) {
     std::vector<std::size_t> blended;
     std::vector<std::size_t> staying;
@@ -54,7 +55,7 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 
     struct Step {
         double height = 0;       // px
-        std::size_t behind = 0;  // into `blended`: the nearest object behind it
+        std::size_t behind = 0;  // index into `blended` of the nearest object behind the step
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };
@@ -88,7 +89,7 @@ TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) 
         min = everywhere ? glm::dvec2(0) : glm::min(min, (box.ndcMin + 1.0) * 0.5 * size);
         max = everywhere ? size : glm::max(max, (box.ndcMax + 1.0) * 0.5 * size);
     }
-    // What is blurred in front is gathered as widely as the widest blur in front.
+    // In front of the focus, a blur may gather as widely as the largest blur there.
     for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
     const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
     min = glm::clamp(glm::floor(min - reach), glm::dvec2(0), size);

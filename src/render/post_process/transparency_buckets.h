@@ -1,6 +1,6 @@
 #pragma once
-// Which alpha-blended objects are blurred together: Garcia 2018 puts transparent surfaces into buckets by their depth,
-// and each bucket has a blur of its own.
+// Groups alpha-blended objects that are blurred together. Garcia 2018 sorts transparent surfaces into buckets by depth,
+// and blurs each bucket separately.
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +10,17 @@
 
 namespace defocus::engine {
 
-// Objects of the plan, front to back.
+// Indices of objects of the plan, front to back.
 using TransparencyBucket = std::vector<std::size_t>;
 
-// At most `most` buckets, the farthest first: runs of blended objects, parted where the blur in the middle of one
-// differs most from that of the next. Objects whose blurs differ by less than a pixel share a bucket. What may be seen
-// through a transmitting surface is in none, as that surface shows what is drawn with it; nor is anything where the
-// lens blurs nothing.
+// Returns at most `max` buckets, the farthest first. Each is a run of blended objects in depth order, split at the
+// largest differences between the mid blurs of neighbouring objects. Objects whose blurs differ by less than a pixel
+// share a bucket. Objects that may be visible through a transmitting surface are in no bucket, since that surface
+// copies the image drawn before it. Without lens blur there are no buckets.
 std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max);
 
-// The part of the image, in px from its lower left corner, where a blur may show something of a bucket; empty where
-// nothing is.
+// Returns the rectangle of the image, in px from its lower left corner, that the blurred bucket may touch. Empty for an
+// empty bucket.
 TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -10,14 +10,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double levelShare = 0.5;       // of the error aimed at: the whole is then 1.12 times the samples'
-constexpr double withoutLevelError = 4;  // times the samples expected
+constexpr double levelShare = 0.5;       // of the intended error; the total is then 1.12 times the sampling error
+constexpr double withoutLevelError = 4;  // factor on the expected samples if the level error is unknown
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
-// Two blocks make the first estimate.
+// The first estimate needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 
-// Samples rounded up to whole blocks.
+// Returns the number of samples rounded up to complete blocks.
 std::uint32_t wholeBlocks(double samples) {
     return static_cast<std::uint32_t>(std::ceil(samples / blockSamples)) * blockSamples;
 }
@@ -40,7 +40,7 @@ const char* stopReasonText(StopReason reason) {
 
 double LevelError::at(double thresholdSamples) const {
     if (!(atCoarse > 0)) return 0;
-    // Thresholds that were given don't follow: the power is 0 then.
+    // Explicit thresholds are the same for both measurements: the power is then 0.
     const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
     return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, maxLevelPower));
 }
@@ -66,7 +66,7 @@ std::uint32_t BlockSchedule::expectedSamples() const {
     return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
-// The number of samples whose default thresholds the next block gets.
+// Returns the number of samples whose default thresholds the next block uses.
 double BlockSchedule::thresholdSamples() const {
     const double expected = expectedSamples();
     if (automatic_) return expected;
@@ -77,7 +77,7 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Levels and samples err independently.
+// Returns the total error; level error and sampling error are independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }
@@ -101,17 +101,18 @@ bool BlockSchedule::endBlock(const FramePlan& plan, double seconds, const std::f
     if (levels_) levelErrorSum_ += drawn * levels_->at(thresholdSamples());
     samples_ += drawn;
 
-    // An estimate where one is due, and what it says of the samples to come.
+    // Estimate the error if due, and predict the final number of samples from it.
     if (samples_ >= nextEstimate_) {
         estimate_.add(mean(), samples_);
         const double error = estimate_.error().value_or(0);
         if (stop_.targetError && error > 0) {
-            // What the levels leave of it, at the least their share.
+            // The sampling error gets the rest of the target beside the level error, at least 44 % of it.
             const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
             const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
             expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);
         }
-        // Where it is still far, the next estimate comes late, but never so late that no half is left to compare with.
+        // Far from the target the next estimate is later, but at most at twice the samples, so that half of them can be
+        // compared.
         const double due =
             stop_.targetError ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
         nextEstimate_ = wholeBlocks(due);
@@ -134,7 +135,7 @@ std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, dou
     if (stop_.targetError && estimated && withLevels(*estimate_.error()) <= *stop_.targetError)
         return StopReason::targetError;
     if (samples_ >= stop_.sampleLimit) return StopReason::sampleCount;
-    // A block that would end too late isn't begun: half a block has not both of its levels.
+    // Don't begin a block that would end too late: an unfinished block lacks some of its levels.
     const double nextEnd = seconds + (seconds - secondsBefore_);
     if (stop_.timeLimit && nextEnd > *stop_.timeLimit) return StopReason::timeLimit;
     return {};

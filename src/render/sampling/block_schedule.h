@@ -1,10 +1,11 @@
 #pragma once
-// A frame whose number of lens samples isn't known beforehand: decides after each block of samples whether another
-// comes, and how it is planned. It holds no picture and calls no GL, so that a frame and a window's image share it.
+// Controls a frame whose number of lens samples is open. After each block of samples it decides whether another block
+// follows and how that block is planned. It holds no image and calls no GL, so stills and a window's image share it.
 //
-// Blocks that draw the same levels don't show the levels' error by differing. It is measured beforehand (LevelError),
-// and thresholds of the level of detail are chosen that keep it to half of the error aimed at: the target, or that of
-// the samples that are expected. Where it wasn't measured, they follow four times those samples.
+// Differences between blocks don't reveal the level-of-detail error if all blocks draw the same levels. That error is
+// measured beforehand (LevelError). Level-of-detail thresholds then keep it below half of the intended error. The
+// intended error is the target, or the error at the expected number of samples. Without the measurement, thresholds are
+// those for four times the expected samples.
 
 #include <functional>
 #include <optional>
@@ -15,44 +16,46 @@
 
 namespace defocus::engine {
 
-// "the estimated error is below the target"
+// Returns a phrase such as "the estimated error is below the target".
 const char* stopReasonText(StopReason reason);
 
-// RMSE between levels and full detail in the same few lens samples of a frame, as ErrorEstimate has it, by the number
-// of samples whose default thresholds choose the levels: a power law through two measurements.
+// RMSE between level of detail and full detail in the same few lens samples of a frame, as in ErrorEstimate. It is a
+// power law of the sample count whose default thresholds select the levels, fitted to two measurements.
 struct LevelError {
-    static constexpr std::uint32_t drawn = 16;    // that are drawn for each
-    static constexpr std::uint32_t coarse = 128;  // by the defaults for so many samples
+    static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
+    static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds give the coarse levels
     static constexpr std::uint32_t fine = 2048;
     double atCoarse = 0;
     double atFine = 0;
 
     [[nodiscard]] double at(double thresholdSamples) const;
-    // The fewest, `least` or more, at which it is `error` or less.
+    // Returns the smallest number of samples, at least `min`, at which the RMSE is at most `error`.
     [[nodiscard]] double samplesFor(double error, double min) const;
 };
 
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are the frame's; their number of samples isn't used. `levels`: none where they weren't measured or are
-    // not drawn.
+    // `settings`: those of the frame; their number of samples is ignored. `levels`: empty if the level error was not
+    // measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
-    // Of a frame whose number of samples is automatic, up to `most`: with the levels that as many samples would have.
+    // Returns the schedule of a frame with an automatic number of samples, up to `max`. Levels are those for `max`
+    // samples.
     static BlockSchedule automatic(const RenderSettings& settings, std::uint32_t max);
 
-    // Those of the block that comes next: its samples, as many as the limit leaves, and its thresholds.
+    // Returns the settings of the next block: its number of samples, clipped to the limit, and its thresholds.
     [[nodiscard]] RenderSettings nextBlock() const;
-    // A block is drawn: `plan` is that of nextBlock(), `seconds` the time since the frame began, and `mean` returns the
-    // frame's image so far (asked for only where an estimate is due). False when no other block comes.
+    // Reports that a block is drawn. `plan`: the block's plan, from nextBlock(). `seconds`: time since the frame began.
+    // `mean` returns the frame's current image; it is called only when an estimate is due. Returns false if no other
+    // block follows.
     bool endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // of the blocks that are drawn
-    // With which the frame is expected to end; it changes as blocks come in.
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // number of samples in the blocks drawn so far
+    // Predicted final sample count; refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
-    // Of the latest estimate, brought to the present number of samples by the sequence's exponent; that of the finished
-    // frame is its own.
+    // Returns the latest error estimate, extrapolated to the current number of samples by the sequence's exponent. A
+    // finished frame has an estimate of its own.
     [[nodiscard]] std::optional<double> estimatedError() const;
 
 private:
@@ -64,10 +67,10 @@ private:
     StopSettings stop_;
     std::optional<LevelError> levels_;
     bool automatic_ = false;
-    double levelErrorSum_ = 0;  // over the samples drawn
-    ErrorEstimate estimate_;    // of the samples' error alone
+    double levelErrorSum_ = 0;  // weighted by samples drawn
+    ErrorEstimate estimate_;    // sampling error only
     std::uint32_t samples_ = 0;
-    std::uint32_t nextEstimate_ = 0;  // samples at which it is due
+    std::uint32_t nextEstimate_ = 0;  // sample count at which it is due
     double expected_ = 0;             // samples, not rounded
     double secondsBefore_ = 0;
     std::optional<StopReason> stopped_;

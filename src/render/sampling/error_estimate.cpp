@@ -17,7 +17,7 @@ namespace {
 
 constexpr double maxPixelsSeen = 1 << 20;
 
-// Chooses the pixel of a tile that is looked at: never the same place of a pattern.
+// Returns a hash that selects the pixel of a tile. It differs from tile to tile, so regular patterns cause no bias.
 std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
     return fmix32(x * 0x9e3779b9u + y * 0x85ebca6bu + 1);
 }
@@ -74,8 +74,8 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     height_ = mean.height;
     Kept latest{samples, encodedPixels(mean)};
 
-    // Each earlier image of a quarter to three quarters of the samples says the same in another way; they share the
-    // say. Without any, the one that is nearest to half.
+    // Average the estimates from all earlier images with 25 to 75 % of the samples. Without any, use the image closest
+    // to half.
     const auto share = [&](const Kept& kept) { return static_cast<double>(kept.samples) / samples; };
     const auto squared = [&](const Kept& kept) {
         const double factor = errorOverDifference(kept.samples, samples);
@@ -95,7 +95,7 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     }
     if (count > 0) error_ = std::sqrt(sum / count);
 
-    // What a later image may still be compared with.
+    // Keep the images that later ones may be compared with.
     kept_.push_back(std::move(latest));
     while (kept_.size() > 2 && kept_[1].samples <= samples / 4) kept_.erase(kept_.begin());
 }

@@ -1,18 +1,18 @@
 #pragma once
-// Estimates how far the mean of N lens samples is from its limit, from the means of fewer samples that lead to it.
+// Estimates the error of the mean of N lens samples, from means of fewer samples of the same sequence.
 //
-// Blocks of samples of a low-discrepancy sequence aren't independent: each fills the gaps of those before, and the
-// error of n blocks isn't that of one over √n. What holds for such sequences is that k blocks in a row err as k^(−a).
-// Two stretches of blocks then differ by a known multiple of the error of their mean, whatever the scene is. With
-// s(k) = k^(−2a), m blocks before n − m others, and
-//   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)),
-// which is what the two stretches' errors have in common,
-//   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c),   E|M(n) − truth|² = s(n),
-// both times the squared error of one block. Random samples (a = 1/2) give the familiar σ/√n.
+// Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
+// blocks is not that of one divided by √n. The model is instead that the error of k successive blocks is proportional
+// to k^(−a). Two stretches of blocks then differ by a known multiple of the error of their mean, for any scene. Let
+// s(k) = k^(−2a), with m blocks followed by n − m others. The covariance of the two stretches' errors is
+//   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)).
+// Then, in units of the squared error of one block,
+//   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c), E|M(n) − truth|² = s(n).
+// Random samples (a = 1/2) give the familiar σ/√n.
 //
-// The stretches compared are the longest that there are, about half of the samples each: the step from their
-// difference to the error is then short: an exponent that is off by 0.1 changes the result by an eighth, where the
-// spread of single blocks would carry that to the power of their number.
+// The stretches compared are as long as possible, about half of the samples each. The extrapolation from their
+// difference to the error is then short: an exponent that is off by 0.1 changes the result by an eighth. An estimate
+// from single blocks would depend far more on the exponent.
 
 #include <cstdint>
 #include <optional>
@@ -22,37 +22,39 @@
 
 namespace defocus::engine {
 
-// The exponent a of lens samples in a picture. Random points have 0.5, straight edges under a well spread set 0.75; the
-// mean over four sequences and three scenes, from 64 to 1,024 samples, is 0.59 (bench/results/llvmpipe-sequences.txt).
+// The exponent a of lens samples in an image. Random points have 0.5, straight edges under a well distributed set have
+// 0.75. The mean over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
+// (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
-// |M(n) − truth| over |M(n) − M(m)|, as above; 0 < m < n.
+// Returns |M(n) − truth| over |M(n) − M(m)|, as above; 0 < m < n.
 double errorOverDifference(double m, double n, double exponent = lensSampleExponent);
 
-// Root mean square of the difference of two images of one size, of the same pixels and values as ErrorEstimate::error.
+// Returns the RMS difference of two images of equal size, over the same pixels and encoded values as
+// ErrorEstimate::error.
 double encodedDifference(const ImageView& a, const ImageView& b);
 
 class ErrorEstimate {
 public:
-    // `mean` is the image of the first `samples` samples of a frame, linear, 3 channels or more (a fourth says
-    // nothing); `samples` grows from call to call. At most a million pixels of it are looked at, one of each k × k, and
-    // kept. Throws Error for an image of another size than the one before.
+    // Adds the mean of the first `samples` samples of a frame: linear, at least 3 channels (a fourth is ignored).
+    // `samples` must grow from call to call. Uses and keeps at most about a million pixels, one of each k × k tile.
+    // Throws Error if the image size changes.
     void add(const ImageView& mean, std::uint32_t samples);
 
-    // Root mean square of the latest image's error over its pixels and channels, on display-encoded values in [0, 1] at
-    // EV 0; nothing before there are two images.
+    // Returns the RMS error of the latest image over its pixels and channels, in display-encoded values in [0, 1] at EV
+    // 0. Empty before there are two images.
     [[nodiscard]] std::optional<double> error() const { return error_; }
     [[nodiscard]] std::uint32_t samples() const { return kept_.empty() ? 0 : kept_.back().samples; }
 
 private:
     struct Kept {
         std::uint32_t samples = 0;
-        std::vector<float> encoded;  // of the pixels looked at, RGB
+        std::vector<float> encoded;  // RGB of the selected pixels
     };
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // by number of samples; those of about half the latest number, and since
+    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count on
     std::optional<double> error_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The times of a frame as RenderStats has them: set-up and frame by wall clock between finished GPU work, waves by
-// timer queries.
+// The times of a frame for RenderStats: wall-clock time of setup and frame, measured with the GPU idle, and timer
+// queries of waves.
 
 #include <chrono>
 
@@ -11,16 +11,16 @@ namespace defocus::engine {
 
 class FrameClock {
 public:
-    // Forgets the frame before.
+    // Discards the times of the previous frame.
     void beginSetup();
-    // Set-up ends and the frame begins; waits for the GPU.
+    // Ends the setup and begins the frame; waits for the GPU.
     void beginFrame();
     void beginWave() { timer_.begin(); }
     void endWave() { timer_.end(); }
-    // Waits for the GPU.
+    // Ends the frame; waits for the GPU.
     void endFrame();
 
-    // Times, device and driver; 0 for what isn't over yet.
+    // Fills in times, device and driver. Unfinished times are 0.
     void fill(RenderStats& stats);
 
 private:

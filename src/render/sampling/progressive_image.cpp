@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// All levels of the meshes that are drawn go to the GPU at once: none is uploaded in the middle of a movement.
+// Marks all levels of the drawn meshes as used, so that no upload interrupts a movement.
 FramePlan withAllLevels(FramePlan plan) {
     if (plan.settings.lod != LodMode::off)
         for (std::vector<bool>& used : plan.levelsUsed) used.assign(used.size(), true);
@@ -73,11 +73,11 @@ void ProgressiveImage::planBlock() {
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 
-// Does another block come?
+// Ends the block and returns whether another one follows.
 bool ProgressiveImage::endBlock() {
     ++block_;
     if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
-    // A block that is left smaller holds all that can be seen: nothing is blurred, or the method needs no lens.
+    // A block with fewer samples is final: nothing is blurred, or the method uses no lens samples.
     return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
 }
 

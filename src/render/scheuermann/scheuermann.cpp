@@ -20,14 +20,15 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double publishedLargest = 10;       // px, diameter
-constexpr float publishedSmallRadius = 0.4f;  // of the taps in the small image, whose pixels are 4 times as wide
-constexpr float trueSmallRadius = 0.25f;      // the same distance in both images
-constexpr int smallReduction = 4;             // of the small image, a side
+constexpr double publishedLargest = 10;  // px, diameter
+// Radius factor for taps in the small image, whose pixels are 4 times as wide.
+constexpr float publishedSmallRadius = 0.4f;
+constexpr float trueSmallRadius = 0.25f;  // same distance in both images
+constexpr int smallReduction = 4;         // factor per side
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
-// std140, of shaders/scheuermann/gather.frag.
+// Uniform block of shaders/scheuermann/gather.frag, std140.
 struct GpuTaps {
     glm::vec4 taps[maxTaps];
 };
@@ -65,7 +66,7 @@ public:
         if (!thinLens_) {
             const BlurrinessPlanes planes = withPlanesByHand(
                 blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width), byHand);
-            // A line in depth each: blurriness = slope · z + offset.
+            // Blurriness is piecewise linear in depth, with one slope on each side of the focus.
             const auto focus = static_cast<float>(planes.focus);
             glProgramUniform4f(blurriness_.name(), 1, focus, static_cast<float>(1 / (planes.focus - planes.near)),
                                static_cast<float>(1 / (planes.far - planes.focus)), static_cast<float>(planes.cutoff));
@@ -75,7 +76,7 @@ public:
 
     void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) override {
         frame.bind(0);
-        // Colour with blurriness, and its small pre-blurred copy.
+        // Store colour with blurriness, and a small pre-blurred copy.
         sharpTarget_.bind();
         pinhole.color.attach(0);
         pinhole.attachForBlur();
@@ -87,7 +88,7 @@ public:
         reduced_.attach(0);
         fullscreen_.draw(preblur_);
 
-        // The gather.
+        // Gather the taps.
         output.bind();
         sharp_.attach(0);
         small_.attach(1);
@@ -148,9 +149,9 @@ private:
         gather_ = pass("scheuermann/gather.frag", std::move(gather));
     }
 
-    // The points of the disk as they are, or where the aperture's map puts them. A pixel gathers from where its own
-    // light would not go: a blur behind the focus is the aperture, so its taps are the aperture turned by half, and
-    // in front it is the other way around.
+    // Places the taps: the disk's points, mapped to the aperture's shape if it isn't a disk. Behind the focus a blur
+    // has the shape of the aperture. Its pixels gather from the opposite direction, so the taps there are the aperture
+    // rotated by 180°; in front of the focus they are not rotated.
     void placeTaps(const Lens& lens) {
         const Aperture aperture = makeAperture(lens);
         shaped_ = !isUniformDisk(aperture);
@@ -168,14 +169,14 @@ private:
     std::uint32_t taps_;
     bool thinLens_;
     bool unlimited_;
-    bool bytes_;  // of encoded colours, as published; else half floats
+    bool bytes_;  // bytes of encoded colour, as published; false: half floats
     MethodSettings settings_;
-    std::vector<glm::vec2> points_;  // of the disk
+    std::vector<glm::vec2> points_;  // points of the disk
     bool shaped_ = false;            // the aperture isn't a disk
     float largestRadius_ = 0;        // px
     GlTexture sharp_, reduced_, small_;
     Target sharpTarget_, reducedTarget_, smallTarget_;
-    ShaderDefines defines_;  // that the programs were built with
+    ShaderDefines defines_;  // defines of the current programs
     Program blurriness_, reduce_, preblur_, gather_;
     Buffer tapBuffer_;
     Fullscreen fullscreen_;
@@ -186,9 +187,9 @@ private:
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
     const double radius = largest / width;  // in C/w
     BlurrinessPlanes planes;
-    // C(w)/w = a/w + b is −radius at the near plane and radius at the far one; a < 0.
+    // C(w)/w = a/w + b is −radius at the near plane and +radius at the far plane; a < 0.
     planes.near = -coc.a / (coc.front + radius);
-    if (std::isinf(focusDistance)) {  // nothing lies behind the focus
+    if (std::isinf(focusDistance)) {  // focus at infinity has nothing behind it
         planes.focus = 2 * planes.near;
         planes.far = std::numeric_limits<double>::infinity();
         planes.cutoff = 0;
@@ -200,7 +201,8 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);  // half the cutoff at twice the distance
+    // Blurriness is half the cutoff at twice the focus distance.
+    planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }
 

@@ -8,8 +8,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t pointTile = 8;                                // px
-constexpr std::uint32_t maxEntries = 40'000;                          // of a tile's list that a dispatch walks over
-constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
+constexpr std::uint32_t maxEntries = 40'000;                          // list entries of a tile per dispatch
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // per wave
 
 class StochasticKernel final : public VisibilityKernel {
 public:

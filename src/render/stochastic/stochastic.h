@@ -1,9 +1,8 @@
 #pragma once
-// Stochastic rasterisation: each pixel has points of its own on the lens, in the pixel and in time, and each of them
-// sees the nearest triangle there (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
-// Rasterization, whose setting this is; Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using
-// Time-Continuous Triangles, for time). What few samples miss is noise, where the accumulation shows images that are
-// laid over each other.
+// Stochastic rasterization: each pixel has its own points on the lens, in the pixel and in time, and each point sees
+// the nearest triangle (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization;
+// for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using Time-Continuous Triangles).
+// With few samples the error is noise, whereas the accumulation shows overlaid images.
 
 #include "render/methods.h"
 

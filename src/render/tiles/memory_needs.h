@@ -1,5 +1,5 @@
 #pragma once
-// How much memory a frame takes, how much there is, and whether the frame is drawn in one piece or in tiles.
+// Memory needs of a frame, available memory, and the decision to draw in one piece or in tiles.
 
 #include <cstdint>
 #include <optional>
@@ -11,38 +11,38 @@
 
 namespace defocus::engine {
 
-// What a request says of the memory and format of layers.
+// Memory and format of layers that a request sets.
 struct DrawLimits {
-    std::optional<std::uint64_t> memory;  // bytes that the process may take; none: three quarters of what is free
-    std::uint32_t wave = 0;               // K, lens samples drawn at once; 0: as memory allows
+    std::optional<std::uint64_t> memory;  // limit of the process in bytes; empty: three quarters of the free memory
+    std::uint32_t wave = 0;               // K, lens samples drawn at once; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
 };
 
-// Returns the bytes that the process may take in all, as things stand now.
+// Returns the total bytes that the process may use, from the current free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
-// Returns the bytes of layers that are worth drawing at once in one piece: RendererOptions's default, or a quarter of
-// what `limit` leaves if that is less.
+// Returns the bytes of layers to draw at once in one piece: the default of RendererOptions, or a quarter of the rest of
+// `limit` if that is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
-// Returns how many layers are drawn at once where the request gives the limit: limits.wave, or as many as fit into a
-// quarter of the memory and beside sums and images. `needs` are those before the upload.
+// Returns the number of layers drawn at once under a memory limit: limits.wave, or as many as fit into a quarter of the
+// memory beside sums and images. `needs`: those before the upload.
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
-// Returns what the whole frame needs, before its scene is on the device. A software driver keeps meshes and textures in
-// main memory, so they count. Needs a current GL context.
+// Returns the needs of the full frame before its scene is uploaded. Includes meshes and textures on software drivers,
+// which keep them in main memory. Needs a current GL context.
 TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns what the frame needs once its scene is on the device and its shaders are built: draws one row to find out.
+// Returns the needs of the frame with its scene uploaded and its shaders built. Draws one row to measure them.
 TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
                           std::uint64_t limit);
 
-// Returns whether a frame of this size certainly fits into `limit` bytes in one piece, without looking at its plan.
+// Returns whether a frame of this size certainly fits into `limit` bytes in one piece, without its plan.
 // `mapsPossible`: the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns whether the frame, of which nothing is drawn yet, must be drawn in tiles. Throws Error, as refuseTiles does,
-// if it must be and `method` cannot. Needs a current GL context if the method does.
+// Returns whether the frame, before any drawing, must be drawn in tiles. Throws Error (see refuseTiles) if so and
+// `method` can't draw tiles. Needs a current GL context if the method does.
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
                      std::uint64_t limit);
 

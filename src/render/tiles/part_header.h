@@ -1,8 +1,9 @@
 #pragma once
-// Parts of a frame that are rendered apart from each other, on several machines or one after the other, and joined into
-// one image: some of its rows with all lens samples (row_file.h), or the sums of some lens samples (sum_file.h).
+// Parts of a frame that are rendered separately and joined into one image: some rows with all lens samples
+// (row_file.h), or the sums of some lens samples (sum_file.h).
 //
-// Both are EXR files whose metadata says what the frame is made of ("defocus:settings") and which part the file holds.
+// Both are EXR files. Their metadata hold the frame's settings ("defocus:settings") and the part of the frame in the
+// file.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +14,7 @@
 
 namespace defocus::engine {
 
-// Metadata name of the text that says what a frame is made of; equal for all parts of one frame.
+// Name of the metadata attribute with the frame's settings as text; equal for all parts of one frame.
 inline constexpr const char* settingsAttribute = "defocus:settings";
 
 // Lens samples [first, end) of a frame.
@@ -22,7 +23,7 @@ struct SampleRange {
     std::uint32_t end = 0;
 };
 
-// "64:128"
+// Returns text such as "64:128".
 std::string rangeText(const SampleRange& range);
 
 // Parses "64:128". Throws Error unless both are integers, first < end, and first is a multiple of 64.
@@ -37,13 +38,13 @@ struct TileShare {
     int count = 1;
 };
 
-// Parses "1/4". Throws Error for other text.
+// Parses text such as "1/4". Throws Error for other text.
 TileShare parseTileShare(std::string_view text);
 
-// Returns a text attribute; null if the metadata has none of that name.
+// Returns a text attribute; null if there is none of this name.
 const std::string* textAttribute(const Metadata& metadata, const char* name);
 
-// Removes attributes that describe the file (compression, windows, …) and not the frame.
+// Removes attributes of the file format (compression, windows, …), which don't describe the frame.
 void dropFileAttributes(Metadata& metadata);
 
 }  // namespace defocus::engine

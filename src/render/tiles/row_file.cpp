@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* tileAttribute = "defocus:tile";  // "1/4", or "rows"
 constexpr const char* byMemory = "rows";
-constexpr int rowsAtOnce = 64;  // that are in memory while tiles are joined
+constexpr int rowsAtOnce = 64;  // rows in memory while tiles are joined
 
 RowFileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     RowFileHeader header;
@@ -43,7 +43,7 @@ std::string rowsText(const RowRange& rows) {
                                       : fmt::format("rows {} to {}", rows.first, rows.end - 1);
 }
 
-// The number of parts that the shares of all tiles agree on.
+// Returns the number of parts if all tiles are shares of the same number of parts.
 std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
     std::optional<int> count;
     for (const RowFile& tile : tiles) {
@@ -82,7 +82,7 @@ RowFileHeader readRowHeader(const fs::path& path) {
 ImageRowWriter rowFileWriter(const fs::path& path, const RowFileHeader& header, int channels) {
     Metadata metadata = header.metadata;
     metadata.erase("defocus:seconds");    // differs from run to run
-    metadata["capDate"] = std::string();  // else OpenImageIO writes the current time
+    metadata["capDate"] = std::string();  // without it, OpenImageIO writes the current time
     metadata[settingsAttribute] = header.settings;
     metadata[tileAttribute] = header.share.empty() ? byMemory : header.share;
     return {path,     header.width,   header.rows.end - header.rows.first,       channels,

@@ -1,7 +1,7 @@
 #pragma once
-// Files that hold some rows of a frame, over its whole width and with all its lens samples. Each is an EXR image whose
-// display window is the whole frame and whose data window is its rows, so that any viewer shows the rows in their
-// place. Joining copies pixels and holds a few rows at a time.
+// Files with some rows of a frame, over its full width and with all lens samples. Each is an EXR image whose display
+// window is the frame and whose data window is the rows, so viewers show the rows in position. Joining copies pixels,
+// with a few rows in memory at a time.
 
 #include <filesystem>
 #include <string>
@@ -14,12 +14,12 @@
 namespace defocus::engine {
 
 struct RowFileHeader {
-    int width = 0;  // px, of the frame
+    int width = 0;  // size of the frame, px
     int height = 0;
     RowRange rows;
-    std::string settings;  // what the frame is made of; equal for the parts of one frame
-    std::string share;     // "1/4" for a requested share of the rows; empty: rows as memory allowed
-    Metadata metadata;     // of the whole frame
+    std::string settings;  // settings of the frame; equal for all parts
+    std::string share;     // "1/4" for a requested share of the rows; empty: as many rows as memory allowed
+    Metadata metadata;     // metadata of the full frame
 };
 
 struct RowFile {
@@ -27,20 +27,20 @@ struct RowFile {
     RowFileHeader header;
 };
 
-// Returns whether the file's metadata says that it holds rows of a frame; false for a file that cannot be read.
+// Returns whether the file's metadata mark it as rows of a frame; false for an unreadable file.
 bool isRowFile(const std::filesystem::path& path);
 
-// Throws Error naming the file.
+// Returns the header of a row file. Throws Error naming the file.
 RowFileHeader readRowHeader(const std::filesystem::path& path);
 
-// Opens a file for the header's rows. `channels` as of the images that are then written.
+// Opens a file for writing the header's rows. `channels`: number of channels of the images written.
 ImageRowWriter rowFileWriter(const std::filesystem::path& path, const RowFileHeader& header, int channels);
 
-// Returns the files in the order of their rows. Throws Error naming the files for rows that overlap, are missing or
-// have other settings.
+// Returns the files sorted by rows. Throws Error naming the files if rows overlap or are missing, or if settings
+// differ.
 std::vector<RowFile> completeRows(const std::vector<std::filesystem::path>& paths);
 
-// Returns the ranges of the frame's rows that no file covers; `files` are in the order of their rows.
+// Returns the row ranges that no file covers; `files` must be sorted by rows.
 std::vector<RowRange> missingRows(const std::vector<RowFile>& files, int height);
 
 struct JoinedOutput {
@@ -48,7 +48,7 @@ struct JoinedOutput {
     WriteOptions write;
 };
 
-// Writes the frame that the files of completeRows make up to each output. Throws Error naming the file.
+// Writes the joined frame of completeRows() to each output. Throws Error naming the file.
 void joinRows(const std::vector<RowFile>& files, const std::vector<JoinedOutput>& outputs, const Metadata& metadata);
 
 }  // namespace defocus::engine

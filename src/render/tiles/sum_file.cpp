@@ -17,14 +17,13 @@ constexpr const char* firstAttribute = "defocus:firstSample";
 constexpr const char* endAttribute = "defocus:endSample";
 constexpr const char* frameSamplesAttribute = "defocus:frameSamples";
 constexpr const char* secondsAttribute = "defocus:seconds";
-constexpr const char* noBlocks = "none";  // EXR has no file without channels
+constexpr const char* noBlocks = "none";  // EXR files need at least one channel
 
 std::string layerName(std::uint32_t firstSample, const char* what) {
     return fmt::format("samples{:05}.{}", firstSample, what);
 }
 
-// ---- alpha
-// -----------------------------------------------------------------------------------------------------------
+// Helpers for the alpha channel.
 
 bool alphaIs(const Image& image, float value) {
     for (std::size_t i = 3; i < image.pixels.size(); i += 4)
@@ -46,8 +45,7 @@ Image withAlpha(const Image& image, float alpha) {
     return result;
 }
 
-// ---- reading
-// ---------------------------------------------------------------------------------------------------------
+// Helpers for reading and checking parts.
 
 template <typename Value>
 Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
@@ -68,7 +66,7 @@ struct NamedPart {
     FramePart part;
 };
 
-// One frame's parts in order: no gap, no overlap, nothing foreign.
+// Throws Error unless the sorted parts form one frame: no gap, no overlap, equal settings.
 void checkComplete(const std::vector<NamedPart>& parts) {
     const FramePart& first = parts.front().part;
     std::uint32_t next = 0;
@@ -139,7 +137,7 @@ FramePart readPart(const fs::path& path) {
 }
 
 MergedFrame mergeParts(const std::vector<fs::path>& paths) {
-    // What the parts are, in the order of their samples; their sums are read when it is their turn.
+    // Read all parts without keeping their sums, and sort them by samples. The sums are read again one part at a time.
     std::vector<NamedPart> parts;
     for (const fs::path& path : paths) {
         parts.push_back({path, readPart(path)});
@@ -150,7 +148,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
         parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
     checkComplete(parts);
 
-    // Block after block.
+    // Add the blocks in order.
     MergedFrame merged;
     merged.metadata = parts.front().part.metadata;
     BlockMerge merge;
@@ -161,7 +159,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
             seconds += std::get<double>(own->second);
         for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
     }
-    merged.metadata.try_emplace("capDate", std::string());  // as the frames of a film: no time of writing
+    merged.metadata.try_emplace("capDate", std::string());  // no time stamp, as in the frames of a video
     if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
     merged.image = merge.image();
     return merged;

@@ -1,6 +1,6 @@
 #pragma once
-// Draws bands of a frame tile by tile: the one way in which stills, films and the library draw what doesn't fit into
-// memory in one piece.
+// Draws bands of a frame tile by tile. Stills, videos and the library all use it for frames that don't fit into memory
+// in one piece.
 
 #include <functional>
 #include <vector>
@@ -13,18 +13,19 @@ namespace defocus::engine {
 
 class TileWalk {
 public:
-    // Takes the pixels of a tile that is done, of the tile's size.
+    // Receives the pixels of a finished tile, in the tile's size.
     using Sink = std::function<void(const Tile& tile, Image&& pixels)>;
 
-    // All must outlive it. `plan` is that of the whole frame; the method must draw tiles (Method::drawsTiles).
+    // All arguments must outlive this object. `plan` is that of the full frame; the method must draw tiles
+    // (Method::drawsTiles).
     TileWalk(Renderer& renderer, const FramePlan& plan, const std::vector<Band>& bands, Sink sink);
 
-    // Draws one wave of the tile that is in work; false once all tiles are done.
+    // Draws one wave of the current tile. Returns false once all tiles are finished.
     bool advance();
 
-    // Rows of the image that are done, those of the tile in work in part.
+    // Number of image rows finished, including a fraction for the current tile.
     [[nodiscard]] double rowsDone() const;
-    // Of all tiles that are done, added up.
+    // Summed over all finished tiles.
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
     [[nodiscard]] int tiles() const { return tiles_; }
 
@@ -34,17 +35,17 @@ private:
     const std::vector<Band>* bands_;
     Sink sink_;
     std::size_t band_ = 0;
-    std::size_t tile_ = 0;  // of the band
+    std::size_t tile_ = 0;  // index into the band
     bool drawing_ = false;
     double rowsDone_ = 0;
     RenderStats stats_;
     int tiles_ = 0;
 };
 
-// Copies a tile's pixels to their place among rows of the whole image, of which `rows` has those from `firstRow` on.
+// Copies a tile's pixels into `rows`, which holds rows of the full image from `firstRow` on.
 void placeTile(Image& rows, int firstRow, const Tile& tile, const Image& pixels);
 
-// `added` after `sum`, of one frame: times, triangles and the peak of both.
+// Adds the stats `added` of a tile to `sum`, both of one frame: sums times and triangles, keeps the larger peak.
 void addTileStats(RenderStats& sum, const RenderStats& added);
 
 }  // namespace defocus::engine

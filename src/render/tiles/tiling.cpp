@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint64_t maxLayers = 64;
-constexpr std::uint64_t shareOfLayers = 4;  // a quarter of the memory at most, so that bands stay high
+constexpr std::uint64_t shareOfLayers = 4;  // at most a quarter of the memory, so that bands have many rows
 constexpr int minRows = 16;
 
 std::uint64_t product(int a, int b) {
@@ -23,12 +23,12 @@ std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
     return cellsOf(needs.width, needs.height);
 }
 
-// Software drivers still hold the layers of the tile before while new ones are made.
+// Software drivers still hold the previous tile's layers while new ones are allocated.
 std::uint64_t layerCopies(const TilingNeeds& needs) {
     return needs.shared ? 2 : 1;
 }
 
-// What is left beside pictures that are kept.
+// Returns the needs with the memory of kept images subtracted.
 TilingNeeds besidePictures(TilingNeeds needs) {
     const auto take = [&](std::uint64_t& memory) { memory -= std::min(memory, needs.keptBytes); };
     take(needs.hostMemory);
@@ -36,7 +36,7 @@ TilingNeeds besidePictures(TilingNeeds needs) {
     return needs;
 }
 
-// Rows of a band, where the layers take `layers` bytes.
+// Returns the number of rows of a band if the layers take `layers` bytes.
 std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std::uint64_t layers) {
     layers *= layerCopies(needs);
     if (layers >= needs.deviceMemory) return 0;
@@ -46,8 +46,8 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
     return needs.shared ? left / (device + host) : std::min(left / device, needs.hostMemory / host);
 }
 
-// Of `length` rows, `most` of them in a band. Up to half as many more where that makes all of one height: sums of
-// another are made while drivers still hold those of before.
+// Returns the number of bands for `length` rows with at most `max` rows per band. Prefers equal heights, with up to 50
+// % more bands. For a new height, new sums are allocated while drivers still hold the old ones.
 int bandCount(int length, int max) {
     const int fewest = (length + max - 1) / max;
     for (int count = fewest; count <= fewest + fewest / 2; ++count)
@@ -59,7 +59,7 @@ int bandCount(int length, int max) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
     const std::uint64_t min = layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
-    // With a twentieth more, for what a run takes more than another.
+    // Adds 5 % for variations between runs.
     const std::string enough =
         needs.shared && needs.elsewhere > 0
             ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
@@ -68,7 +68,7 @@ int bandCount(int length, int max) {
          bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
-// The tiles of rows that lie in one row of cells.
+// Returns the band of rows that lie in one row of cells.
 Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
     Band band{rows, {}};
     for (const PixelRectangle& cell : cells)
@@ -102,7 +102,7 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // The rows of each row of cells, in equal bands but for the last: layers and sums are made anew where sizes differ.
+    // Divide each row of cells into equal bands, except for the last. A change of size reallocates layers and sums.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);

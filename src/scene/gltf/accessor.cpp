@@ -1,5 +1,4 @@
-// glTF 2.0 specification, 3.6.2 (accessors): component types, data alignment, sparse accessors, normalised integers
-// (3.11).
+// glTF 2.0 specification: accessors, data alignment and sparse accessors (3.6.2), normalised integers (3.11).
 #include "scene/gltf/accessor.h"
 
 #include <algorithm>
@@ -10,14 +9,15 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// Returns 0 for a type that glTF doesn't have, of which tinygltf knows two.
+// Returns the bytes of a component type, or 0 for types that glTF lacks. tinygltf also knows INT and DOUBLE.
 std::size_t componentBytes(int componentType) {
     if (componentType == TINYGLTF_COMPONENT_TYPE_INT || componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) return 0;
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
     return static_cast<std::size_t>(std::max(bytes, 0));
 }
 
-// An element is `columns` columns of `rows` components; a matrix's columns start on multiples of four bytes.
+// Memory layout of an accessor element: `columns` columns of `rows` components. Columns of a matrix are aligned to four
+// bytes.
 struct Layout {
     std::size_t rows = 1;
     std::size_t columns = 1;
@@ -44,7 +44,8 @@ const tinygltf::Accessor& accessorAt(const Source& source, int index) {
     return source.model.accessors[static_cast<std::size_t>(index)];
 }
 
-// `count` elements of `elementBytes`, `stride` apart from `offset`, must lie inside a buffer view.
+// Throws Error unless `count` elements of `elementBytes`, starting at `offset` and `stride` bytes apart, lie inside the
+// buffer view.
 void checkRange(const Source& source, const std::string& what, int view, std::uint64_t offset, std::uint64_t count,
                 std::uint64_t elementBytes, std::uint64_t stride) {
     const std::uint64_t available = viewBytes(source, view).size();
@@ -103,8 +104,8 @@ double loadComponent(const std::byte* bytes, int componentType) {
     }
 }
 
-// Calls store(element, component, value) for everything in the accessor: its view first, then the sparse elements over
-// it.
+// Calls store(element, component, value) for each component of the accessor: first the buffer view, then the sparse
+// elements.
 template <typename Store>
 void forEachComponent(const Source& source, int index, const std::string& what, const Store& store) {
     const tinygltf::Accessor& accessor = accessorAt(source, index);
@@ -193,7 +194,7 @@ std::vector<float> readFloats(Source& source, int accessor, int components, cons
     takeBudget(source, elementCount(source, accessor), perElement * sizeof(float), what);
     std::vector<float> result(elementCount(source, accessor) * perElement);
     const double scale = normalisationScale(source, accessor);
-    // −128/127 and −32768/32767 are clamped to −1 (3.11).
+    // Signed normalised integers are clamped to −1, such as −128/127 and −32768/32767 (3.11).
     const bool clamps = scale != 1.0;
     forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
         result[element * perElement + component] = static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);

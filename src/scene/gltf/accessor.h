@@ -1,6 +1,6 @@
 #pragma once
-// Typed reading of accessors: every component type, normalised integers, interleaving, matrices, sparse substitution,
-// and accessors without data (zeros). Internal to the loader.
+// Typed reading of accessors: all component types, normalised integers, interleaved data, matrices and sparse
+// substitution. Accessors without data read as zeros. Internal to the loader.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -13,23 +13,23 @@
 
 namespace defocus::engine::gltf {
 
-// Throws Error unless every accessor has a known type and stays inside its buffer view; nothing is read.
+// Throws Error unless every accessor has a known type and lies inside its buffer view. Reads no element.
 void checkAccessors(const Source& source);
 
 std::size_t elementCount(const Source& source, int accessor);
-int componentCount(const Source& source, int accessor);  // 1 (SCALAR), 2 … 4 (vectors), 16 (MAT4) …
+int componentCount(const Source& source, int accessor);  // 1 (SCALAR), 2 to 4 (vectors), 16 (MAT4) …
 
-// What the accessor's integers are divided by: 1 unless it is normalised.
+// Returns the divisor of the accessor's normalised integers; 1 if it is not normalised.
 double normalisationScale(const Source& source, int accessor);
 
-// All elements as floats, componentCount each; normalised integers become [0, 1] or [−1, 1]. Throws Error naming `what`
-// unless an element has `components` of them.
+// Returns all elements as floats; normalised integers become [0, 1] or [−1, 1]. Throws Error that names `what` unless
+// each element has `components` components.
 std::vector<float> readFloats(Source& source, int accessor, int components, const std::string& what);
 
-// The same for integers (indices, joints), unscaled. Throws Error for floats and negative values.
+// Same for unscaled integers (indices, joints). Throws Error for accessors of float or signed type.
 std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int components, const std::string& what);
 
-// Floats grouped into vectors.
+// Same as readFloats, grouped into vectors.
 template <typename Vector>
 std::vector<Vector> readVectors(Source& source, int accessor, const std::string& what) {
     constexpr int components = Vector::length();

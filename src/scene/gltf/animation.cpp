@@ -12,10 +12,10 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// What a channel drives.
+// Property that an animation channel drives.
 struct Target {
     ChannelPath path = ChannelPath::translation;
-    std::uint64_t index = 0;  // into the file's nodes, cameras or lights
+    std::uint64_t index = 0;  // index of the file's node, camera or light
     std::string lensValue;
 };
 
@@ -34,7 +34,7 @@ std::optional<ChannelPath> lightPathNamed(const std::string& name) {
     return std::nullopt;
 }
 
-// The parts of a JSON pointer: "/nodes/3/scale" → nodes, 3, scale.
+// Returns the parts of a JSON pointer: "/nodes/3/scale" → nodes, 3, scale.
 std::vector<std::string> pointerParts(const std::string& pointer) {
     std::vector<std::string> parts;
     for (std::size_t at = 0; at < pointer.size();) {
@@ -52,7 +52,7 @@ std::optional<std::uint64_t> numberOf(const std::string& text) {
     return number;
 }
 
-// KHR_animation_pointer: values of nodes, cameras and lights; nothing for all else.
+// Parses a pointer of KHR_animation_pointer to a node, camera or light property. Returns nullopt for other pointers.
 std::optional<Target> pointedTarget(const std::string& pointer) {
     std::vector<std::string> parts = pointerParts(pointer);
     if (parts.size() == 5 && parts[0] == "extensions" && parts[1] == "KHR_lights_punctual" && parts[2] == "lights")
@@ -70,7 +70,7 @@ std::optional<Target> pointedTarget(const std::string& pointer) {
     return path ? std::optional(Target{*path, *index, ""}) : std::nullopt;
 }
 
-// Nothing, with a note, for a channel that cannot be played.
+// Returns the property that a channel drives. Notes channels that cannot be played and returns nullopt.
 std::optional<Target> targetOf(Source& source, const nlohmann::json& json) {
     const auto path = json["path"].get<std::string>();
     if (path == "pointer") {
@@ -111,7 +111,7 @@ std::vector<float> readTimes(Source& source, int accessor, const std::string& wh
     return times;
 }
 
-// Values a key, by what the channel drives.
+// Returns the number of floats per key for the property that the channel drives.
 std::size_t valuesPerKey(const AnimationChannel& channel, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes) {
     switch (channel.path) {
         case ChannelPath::rotation:
@@ -143,13 +143,13 @@ void readKeys(Source& source, const tinygltf::AnimationSampler& sampler, std::si
         fault(source.document, "{}: its values are not finite", what);
     if (channel.path != ChannelPath::rotation || channel.interpolation == Interpolation::cubicSpline) return;
     for (std::size_t i = 0; i < channel.values.size(); i += 4) {
-        // A rotation of no length means none.
+        // A zero quaternion means no rotation.
         float* value = &channel.values[i];
         if (value[0] == 0 && value[1] == 0 && value[2] == 0 && value[3] == 0) value[3] = 1;
     }
 }
 
-// The channel's place among what is kept: −1 where it drives something that no scene shows.
+// Returns the target's index among the kept nodes, cameras or lights; −1 if the scene does not contain the target.
 int keptTarget(const Source& source, const Target& target, const Hierarchy& hierarchy, const std::string& what) {
     const bool node = ofNode(target.path);
     const bool light = target.path == ChannelPath::lightColor || target.path == ChannelPath::lightIntensity ||
@@ -235,7 +235,7 @@ std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy) {
 
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins) {
-    // The largest joint index that counts, by mesh.
+    // Largest joint index with a positive weight, per mesh.
     std::vector<std::size_t> largest(meshes.size());
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const auto look = [&](const std::vector<glm::u16vec4>& joints, const std::vector<glm::vec4>& weights) {

@@ -6,12 +6,12 @@
 
 namespace defocus::engine::gltf {
 
-// Clips over the kept nodes. Channels of other nodes are dropped; those that cannot be played are noted.
+// Returns the clips of the kept nodes. Channels of other nodes are dropped; channels that cannot be played are noted.
 std::vector<AnimationClip> readAnimations(Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes);
 
 std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy);
 
-// Throws Error when a mesh names joints that its node's skin does not have.
+// Throws Error if a mesh refers to joints that its node's skin lacks.
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins);
 

@@ -34,7 +34,7 @@ public:
         return componentCount(source_, primitive_.attributes.at(name));
     }
 
-    // Empty where the primitive doesn't have the attribute.
+    // Returns the attribute's values; empty if the primitive lacks it.
     template <typename Vector>
     std::vector<Vector> read(const std::string& name) const {
         const auto found = primitive_.attributes.find(name);
@@ -84,7 +84,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// The specification clamps colours to [0, 1].
+// Returns vertex colours as RGBA, clamped to [0, 1] as the specification requires.
 std::vector<glm::vec4> readColors(const AttributeReader& reader) {
     std::vector<glm::vec4> result;
     if (!reader.has("COLOR_0")) return result;
@@ -112,9 +112,10 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-constexpr float maxBlur = 1e6f;  // of what a vertex may ask for: a kilometre on the sensor, or so many times the lens's
+constexpr float maxBlur = 1e6f;  // limit of _COC values: mm on the sensor, or a factor on the lens's blur
 
-// A scalar of each vertex from `least` to mostBlur; empty where the primitive doesn't have it.
+// Returns one scalar per vertex; empty if the primitive lacks the attribute. Throws Error for values outside [min,
+// maxBlur].
 std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float min,
                                const std::string& what) {
     if (!reader.has(name)) return {};
@@ -130,7 +131,8 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
     return values;
 }
 
-// _COC_SCALE times the lens's blur, or times _COC, or times what goes from _COC_0 to _COC_1; plus _COC_OFFSET.
+// Returns vertex blurs: _COC_SCALE · blur + _COC_OFFSET. The blur is the lens's, or _COC, or the linear change from
+// _COC_0 to _COC_1 during the exposure.
 std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
     const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);
@@ -163,7 +165,7 @@ bool normalise(glm::vec3& vector) {
     const glm::dvec3 wide = vector;
     const double length = glm::length(wide);
     if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // A length that is one already to single precision stays as the file has it.
+    // Vectors of unit length within single precision stay unchanged.
     if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
     return true;
 }
@@ -189,7 +191,7 @@ void repairTangents(VertexBlock& block) {
     }
 }
 
-// What is no weight becomes 0; the sum that remains.
+// Sets negative and non-finite weights to 0 and returns the sum of the others.
 double usableSum(glm::vec4& weight) {
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
@@ -199,7 +201,7 @@ double usableSum(glm::vec4& weight) {
     return sum;
 }
 
-// Weights of all influences sum to 1; a vertex without any follows its first joint.
+// Normalises the weights of all influences to sum 1. Vertices without a positive weight follow their first joint.
 void repairWeights(VertexBlock& block) {
     Vertices& vertices = block.vertices;
     bool furtherCount = false;

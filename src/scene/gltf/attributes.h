@@ -7,18 +7,17 @@
 
 namespace defocus::engine::gltf {
 
-// Reads what `primitive` names; `draco` (or nullptr) holds what is compressed. All attributes must have as many
-// elements as POSITION. Normals are empty where the file has none; then its tangents are dropped too, as the standard
-// says.
+// Reads the attributes of `primitive`; `draco` (or nullptr) holds its compressed data. All attributes must have as many
+// elements as POSITION. Normals stay empty if the file has none; tangents are then dropped, as the standard requires.
 VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
                            const std::string& what);
 
-// Leaves out the triangles of which a corner is not finite; how many.
+// Removes triangles with a NaN or infinite corner and returns their number.
 std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
                            std::span<std::vector<std::uint32_t>* const> indices);
 
-// Makes every value usable where all positions are finite: normals, tangents and weights get unit length or sum, and
-// what is neither finite nor long enough is replaced.
+// Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and weights sum to 1.
+// Non-finite and near-zero vectors are replaced.
 void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 }  // namespace defocus::engine::gltf

@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.6 (URIs) and 4 (GLB). RFC 2397 (data URIs), RFC 3986 (percent coding), RFC 4648 (base64).
+// glTF 2.0 specification: URIs (3.6) and GLB (4). RFC 2397 (data URIs), RFC 3986 (percent-encoding), RFC 4648 (base64).
 #include "scene/gltf/document.h"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ struct Container {
     std::optional<Bytes> binary;
 };
 
-// tinygltf's reader is no match: it goes on to parse the JSON and to read what that names, before anything is checked.
+// Splits a .glb into its JSON and binary chunks. tinygltf's reader is not used: it parses the JSON and reads external
+// files before any check.
 Container splitGlb(const Document& document, Bytes bytes) {
     if (bytes.size() < headerBytes) fault(document, "truncated: a .glb needs a header of {} bytes", headerBytes);
     if (littleEndian32(bytes, 0) != glbMagic) fault(document, "not a .glb file: its magic number is wrong");
@@ -73,7 +74,7 @@ Container splitGlb(const Document& document, Bytes bytes) {
     return result;
 }
 
-// Names go to terminals, and are freed of what those would obey.
+// Replaces control characters in names, since names are printed to terminals.
 void freeNames(nlohmann::json& json) {
     if (json.is_object())
         if (const auto found = json.find("name"); found != json.end() && found->is_string()) {
@@ -113,7 +114,7 @@ void checkVersion(const Document& document) {
         fault(document, "glTF version {} is not supported (only 2.0)", needed != version ? needed : version);
 }
 
-// tinygltf's decoder is no match: it turns + into a space.
+// Decodes percent-encoding. tinygltf's decoder is not used because it turns + into a space.
 std::string percentDecoded(std::string_view text) {
     if (text.find('%') == std::string_view::npos) return std::string(text);
     std::string result;
@@ -128,8 +129,8 @@ std::string percentDecoded(std::string_view text) {
     return result;
 }
 
-// Returns nothing for text that is not base64. Line breaks are skipped, and padding may be missing. tinygltf's decoder
-// is no match: it takes ten times as long, and doesn't say where it stops.
+// Returns nullopt for text that is not base64. Skips line breaks and accepts missing padding. tinygltf's decoder is ten
+// times slower and does not report invalid characters.
 std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
     static const std::array<int, 256> digits = [] {
         std::array<int, 256> table{};
@@ -172,7 +173,8 @@ std::vector<std::byte> readDataUri(const Document& document, const std::string& 
     return {bytes.begin(), bytes.end()};
 }
 
-// A scheme is letters, digits, '+', '-' and '.' before a colon; a single letter is left to be a drive or a file's name.
+// Returns whether the URI has a scheme: letters, digits, '+', '-' or '.' before a colon. A single letter is not a
+// scheme but a drive or part of a file name.
 bool hasScheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string_view::npos && colon > 1 &&
@@ -187,7 +189,7 @@ std::string oneLine(std::string text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
     if (text.size() <= longestMessage) return text;
     std::size_t end = longestMessage;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // keeps UTF-8 characters intact
     return text.substr(0, end) + "…";
 }
 
@@ -205,7 +207,8 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
     if (isDataUri(uri)) return std::nullopt;
     if (hasScheme(uri)) fault(document, "{}: '{}' is not a relative path; only local files are read", what, uri);
 
-    // Some exporters write names as they are, others percent-coded as the standard says, which goes first.
+    // The standard requires percent-encoded names, so the decoded path is tried first. Some exporters write names
+    // unencoded.
     const std::filesystem::path asWritten = document.folder / uri;
     const std::filesystem::path decoded = document.folder / percentDecoded(uri);
     if (uri.empty() || uri.find('\0') != std::string::npos || std::filesystem::path(percentDecoded(uri)).is_absolute())
@@ -226,7 +229,8 @@ Document readDocument(const std::filesystem::path& path) {
     document.file = path.string();
     document.folder = path.parent_path();
 
-    // Any container is recognised by its magic number; the name only decides what a broken one should have been.
+    // GLB is recognised by its magic number, not by its extension. A broken container is treated as GLB if it is
+    // named .glb.
     const std::vector<std::byte> bytes = readFile(path);
     document.fileBytes = bytes.size();
     if (bytes.empty()) fault(document, "the file is empty: not valid JSON");

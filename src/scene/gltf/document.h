@@ -1,6 +1,6 @@
 #pragma once
-// A glTF file split into its parts, before anything in it is interpreted: the JSON, a .glb's binary chunk, and the way
-// to what lies in other files. Internal to the loader.
+// glTF file split into its parts without interpreting them: JSON, binary chunk of a .glb, and access to external files.
+// Internal to the loader.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,35 +16,36 @@
 namespace defocus::engine::gltf {
 
 struct Document {
-    std::string file;                                   // as given, for messages
-    std::filesystem::path folder;                       // URIs are relative to it
-    nlohmann::json json;                                // an object
-    std::optional<std::vector<std::byte>> binaryChunk;  // .glb only
+    std::string file;                                   // path as given by the user, for messages
+    std::filesystem::path folder;                       // base folder of relative URIs
+    nlohmann::json json;                                // always a JSON object
+    std::optional<std::vector<std::byte>> binaryChunk;  // only for .glb files
     std::uint64_t fileBytes = 0;
 };
 
-// Reads `path`; a container or JSON that breaks the standard (length, magic, version, byte order mark, nesting) is an
-// Error.
+// Reads the file at `path`. Throws Error for an invalid container or JSON: length, magic number, version, byte order
+// mark or nesting.
 Document readDocument(const std::filesystem::path& path);
 
-// How many entries the JSON's array `name` has.
+// Returns the number of entries in the JSON's array `name`.
 std::size_t entryCount(const Document& document, std::string_view name);
 
-// Whether a URI holds its data itself.
+// Returns whether the URI embeds its data ("data:").
 bool isDataUri(const std::string& uri);
 
-// The regular file, relative to the document, that a URI stands for; none for data: of its own. Throws Error where
-// there is no such file. `what` names the user in messages.
+// Returns the regular file that a URI refers to, relative to the document; nullopt for data URIs. Throws Error if the
+// file is missing. `what` names the URI's owner in messages.
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
 
-// The bytes behind a URI: data: of any media type (base64, also with line breaks, or percent-coded), or its file.
+// Returns the bytes of a data URI or file. Data URIs may have any media type, in base64 (also with line breaks) or
+// percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// `text` with control characters as spaces and cut after a few hundred bytes: names from a file must not break an error
-// into lines or bury it.
+// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
+// a file stays one short line.
 std::string oneLine(std::string text);
 
-// Throws Error "file: …", one line.
+// Throws Error "FILE: message" as one line.
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
     throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));

@@ -1,6 +1,6 @@
 #pragma once
-// KHR_draco_mesh_compression: a primitive's triangles and attributes out of one compressed buffer view. Internal to the
-// loader.
+// KHR_draco_mesh_compression: a primitive's triangles and attributes, decoded from one compressed buffer view. Internal
+// to the loader.
 
 #include <map>
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace defocus::engine::gltf {
 
-// A decoded primitive; attributes are read from it by name in place of their accessors' (absent) data.
+// Decoded primitive. Attributes are read from it by name, since their accessors have no data.
 class DracoPrimitive {
 public:
-    // Decodes the extension object `json` of a primitive. Throws Error naming `what` for data that does not decode.
+    // Decodes a primitive's extension object `json`. Throws Error that names `what` if the data is invalid.
     DracoPrimitive(Source& source, const nlohmann::json& json, const std::string& what);
     ~DracoPrimitive();
     DracoPrimitive(DracoPrimitive&&) noexcept;
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] std::size_t vertexCount() const;
     [[nodiscard]] std::vector<std::uint32_t> triangles() const;
     [[nodiscard]] bool has(const std::string& attribute) const;
-    // `components` floats a vertex, integers divided by `scale` (see normalisationScale).
+    // Returns `components` floats per vertex; integers are divided by `scale` (see normalisationScale).
     [[nodiscard]] std::vector<float> floats(const Source& source, const std::string& attribute, int components,
                                             double scale) const;
 

@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Numbers that are fine one by one can still multiply to infinity.
+// Throws Error if world matrices overflow: finite local matrices can multiply to infinity.
 void checkPlacement(const gltf::Source& source, const Scene& scene) {
     const Pose pose = unmeasuredPoseAt(scene, 0, -1);
     const auto finite = [](const glm::dmat4& matrix) {
@@ -35,10 +35,10 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
             gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
 }
 
-// What nodes share with each other they take for each of their objects once more.
+// Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
-    constexpr std::uint64_t objectBytes = 2304;                   // measured, from the pose to the picture
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // of the pose, and of the plan's
+    constexpr std::uint64_t objectBytes = 2304;                   // measured per object, over pose and rendering
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // joint matrices in the pose and in the render plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;
@@ -60,7 +60,8 @@ std::vector<std::string> extensionsOf(const gltf::Source& source) {
     return {names.begin(), names.end()};
 }
 
-// Among the extras of the asset or of the scene: "cm", or a number of metres. glTF itself has metres.
+// Returns the unit from the extras of the asset or the scene: a name such as "cm", or metres. nullopt: not given;
+// glTF's own unit is the metre.
 std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
     const nlohmann::json& json = source.document.json;
     std::vector<const nlohmann::json*> holders;
@@ -84,17 +85,16 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     Scene scene;
     scene.file = path;
 
-    // 1. Looks: materials first, since their normal maps decide which meshes need tangents.
+    // 1. Materials first: their normal maps decide which meshes need tangents.
     scene.materials = gltf::readMaterials(source);
     scene.textures = gltf::readTextures(source);
     gltf::Images images = gltf::readImages(source, progress);
     scene.images = std::move(images.images);
     scene.imageNames = std::move(images.names);
 
-    // 2. Geometry.
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 
-    // 3. Hierarchy, and what moves it.
+    // 3. Hierarchy and animation.
     gltf::Hierarchy hierarchy = gltf::readHierarchy(source);
     scene.cameras = gltf::readCameras(source);
     scene.lights = gltf::readLights(source);
@@ -106,7 +106,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.nodes = std::move(hierarchy.nodes);
     scene.roots = std::move(hierarchy.roots);
 
-    // 4. What the file holds besides.
+    // 4. Checks, unit, extensions and notes.
     checkPlacement(source, scene);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
@@ -121,7 +121,7 @@ Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
     try {
         return readScene(source, path, progress);
     } catch (const nlohmann::json::exception& exception) {
-        // checkSchema vouches for everything that is read; this is the net below it.
+        // Safety net: checkSchema should already have rejected such a file.
         gltf::fault(source.document, "not valid glTF: {}", exception.what());
     } catch (const std::bad_alloc&) {
         gltf::fault(source.document, "it does not fit into memory");

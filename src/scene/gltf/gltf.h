@@ -1,11 +1,11 @@
 #pragma once
-// glTF 2.0 files (.gltf, .glb) → Scene. Every accessor, index and size is checked before it is used: a bad file gives
-// an Error that names the file and the fault, never undefined behaviour. Unsupported *required* extensions are an Error
-// naming them; whatever is not drawn is listed in Scene::ignored with its reason.
+// Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use: an invalid file
+// throws Error with the file's name and the fault. Unsupported required extensions throw Error too; other content that
+// is not drawn is listed in Scene::ignored with its reason.
 //
-// What a file leaves out is filled in as the standard says: a primitive without normals is shaded flat on vertices of
-// its own, one whose normal map lacks tangents gets them. Vertices that no triangle uses are dropped, so a mesh may
-// have fewer than its accessors. The nodes are those of the file's default scene (else of its first, else all).
+// Missing data is completed as the standard requires. Primitives without normals are flat-shaded with unshared
+// vertices; missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer
+// vertices than its accessors. Nodes are those of the default scene, else of the first scene, else all.
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Materials, textures and their images. Internal to the loader.
+// Materials, textures and images. Internal to the loader.
 
 #include "scene/gltf/source.h"
 
@@ -7,7 +7,7 @@ namespace defocus::engine::gltf {
 
 std::vector<Material> readMaterials(Source& source);
 
-// Textures of the file, one a glTF texture; a texture without a plain image has image -1 and no material uses it.
+// Returns one Texture per glTF texture. A texture without a supported image has image -1, and no material uses it.
 std::vector<Texture> readTextures(Source& source);
 
 struct Images {
@@ -15,7 +15,7 @@ struct Images {
     std::vector<std::string> names;
 };
 
-// Decodes every image, on all cores. A broken or missing one is an Error naming it.
+// Decodes all images in parallel. Throws Error that names a broken or missing image.
 Images readImages(Source& source, const Progress& progress);
 
 }  // namespace defocus::engine::gltf

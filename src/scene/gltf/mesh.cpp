@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.7.2 (meshes): topology of strips and fans, flat normals, tangents.
+// glTF 2.0 specification, 3.7.2 (meshes): strips and fans, flat normals, tangents.
 #include "scene/gltf/mesh.h"
 
 #include <algorithm>
@@ -12,21 +12,21 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// What two primitives must have in common to share vertices.
+// Accessors of a primitive's attributes and morph targets. Primitives with equal accessors share vertices.
 struct VertexSource {
     std::map<std::string, int> attributes;
     std::vector<std::map<std::string, int>> targets;
     auto operator<=>(const VertexSource&) const = default;
 };
 
-// Primitives of one mesh over the same vertices.
+// Primitives of one mesh that share vertices.
 struct Group {
     VertexSource vertices;
-    std::vector<std::size_t> members;  // into the mesh's primitives
+    std::vector<std::size_t> members;  // indices of the mesh's primitives
     bool compressed = false;
 };
 
-// The vertices that were read last: files with one set of attributes for many meshes name them again and again.
+// Vertices that were read last: some files use one set of attributes for many meshes.
 struct LastBlock {
     VertexSource vertices;
     VertexBlock block;
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> triangleList(int mode, const std::vector<std::uint32_
         const std::uint32_t a = fan ? indices[i + 1] : indices[i];
         const std::uint32_t b = fan ? indices[i + 2] : indices[i + 1 + i % 2];
         const std::uint32_t c = fan ? indices[0] : indices[i + 2 - i % 2];
-        // Strips turn corners by triangles that repeat a vertex.
+        // Strips contain degenerate triangles, which repeat a vertex, to turn corners.
         if (a != b && b != c && c != a) result.insert(result.end(), {a, b, c});
     }
     return result;
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primiti
     return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode, indices);
 }
 
-// True for a primitive of triangles; others are noted.
+// Returns true for triangle primitives with positions; other primitives are noted.
 bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         fault(source.document, "{}: unknown mode {}", what, primitive.mode);
@@ -85,7 +85,7 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
 std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, const nlohmann::json& json,
                                    const std::string& label) {
     std::vector<Group> groups;
-    std::map<VertexSource, std::size_t> places;  // of those that aren't compressed, into `groups`
+    std::map<VertexSource, std::size_t> places;  // index into `groups`, for uncompressed primitives
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = mesh.primitives[i];
         if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i))) continue;
@@ -103,7 +103,7 @@ std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, c
     return groups;
 }
 
-// The texture coordinates of a normal map among the primitives, or −1 when none has a normal map.
+// Returns the texture coordinate set of the first normal map among the primitives; −1 without normal maps.
 int normalMapUvSet(const std::vector<Primitive>& primitives, const std::vector<Material>& materials) {
     for (const Primitive& primitive : primitives) {
         if (primitive.material < 0) continue;
@@ -140,7 +140,7 @@ public:
     }
 
 private:
-    // Reads the group's triangles and vertices and appends them to the mesh.
+    // Reads the triangles and vertices of a group and appends them to the mesh.
     std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json,
                                      const Group& group, const std::string& label) {
         const std::string what = fmt::format("{}, primitive {}", label, group.members.front());
@@ -179,7 +179,7 @@ private:
         return last_->block;
     }
 
-    // Usable values, normals, tangents.
+    // Repairs the attributes and adds missing normals and tangents.
     VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
                        const std::string& what) {
         repair(source_, block, lists);
@@ -205,7 +205,7 @@ private:
     Source& source_;
     const std::vector<Material>& materials_;
     std::optional<LastBlock> last_;
-    std::uint64_t dropped_ = 0;  // triangles of the mesh that have no place
+    std::uint64_t dropped_ = 0;  // triangles of the mesh with non-finite positions
 };
 
 }  // namespace

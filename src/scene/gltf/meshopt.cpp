@@ -1,4 +1,4 @@
-// EXT_meshopt_compression (glTF vendor extension); the codecs and filters are meshoptimizer's.
+// EXT_meshopt_compression (glTF vendor extension), decoded with the meshoptimizer library.
 #include "scene/gltf/meshopt.h"
 
 #include <meshoptimizer.h>
@@ -35,7 +35,7 @@ CompressedView compressedView(const Source& source, std::size_t index, const nlo
     return view;
 }
 
-// The limits that the extension sets and that the decoders rely on.
+// Throws Error if the view breaks the extension's limits, on which the decoders rely.
 void checkLimits(const Source& source, const CompressedView& view) {
     const bool attributes = view.mode == "ATTRIBUTES";
     if (!attributes && view.mode != "TRIANGLES" && view.mode != "INDICES")

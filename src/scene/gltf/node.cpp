@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.5 (scenes, nodes) and 3.10 (cameras); EXT_mesh_gpu_instancing; KHR_lights_punctual.
+// glTF 2.0 specification: scenes and nodes (3.5), cameras (3.10). EXT_mesh_gpu_instancing, KHR_lights_punctual.
 #include "scene/gltf/node.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 // ---- which nodes --------------------------------------------------------------------------------
 
-// Each node's parent or −1. A tree has one parent a node and no loop.
+// Returns each node's parent, or −1. Throws Error for nodes with two parents and for cycles.
 std::vector<int> parentsOf(const Source& source) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
@@ -26,7 +26,7 @@ std::vector<int> parentsOf(const Source& source) {
             parent = static_cast<int>(i);
         }
 
-    // With one parent each, whatever is not reached from a parentless node goes round in a loop.
+    // Each node has at most one parent, so nodes that cannot be reached from a root form a cycle.
     std::vector<bool> reached(nodes.size());
     std::vector<int> stack;
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -66,7 +66,7 @@ std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std
     return roots;
 }
 
-// The scene's nodes, then the joints of their skins with all ancestors.
+// Marks the nodes of the scene, and the joints of their skins with all ancestors.
 std::vector<bool> neededNodes(const Source& source, const std::vector<int>& parents, const std::vector<int>& roots) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<bool> needed(nodes.size());
@@ -140,7 +140,7 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     return static_cast<int>(light);
 }
 
-// The extras' factor on the blur of the node's mesh.
+// Returns cocScale from the node's extras, a factor on the blur of its mesh; 1 if absent.
 double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
     const auto extras = json.find("extras");
     if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
@@ -174,7 +174,8 @@ Node readNode(Source& source, std::size_t index) {
 
 // ---- cameras ------------------------------------------------------------------------------------
 
-// The numbers and truth values among the extras of a camera or of its node: Blender exports custom properties there.
+// Returns the numbers and booleans among the extras of a camera or its node. Blender exports custom properties as
+// extras.
 std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json) {
     std::map<std::string, double, std::less<>> values;
     const auto extras = json.find("extras");
@@ -186,10 +187,10 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json
     return values;
 }
 
-// The draft EXT_camera_physical, whose lengths are metres. Lens values that the extras have too stay as they are there.
+// Reads the draft extension EXT_camera_physical, whose lengths are in metres. Values from the extras take precedence.
 void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
     constexpr double millimetres = 1e3;
-    constexpr double longest = 10;  // m; no lens is as long, but 35 is often a focal length in millimetres
+    constexpr double longest = 10;  // m; a larger focal length, such as 35, was probably meant in millimetres
     const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
     if (extension == nullptr) return;
     const auto number = [&](const nlohmann::json& value, const char* name) {
@@ -211,7 +212,7 @@ void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::s
         ignore(source, label, "its EXT_camera_physical has a focal length of more than 10 m; is it in millimetres?");
 }
 
-// A path among them; empty where there is none.
+// Returns the aperture image's path from the extras; empty if there is none.
 std::string apertureImageOf(const nlohmann::json& camera) {
     const auto extras = camera.find("extras");
     if (extras == camera.end() || !extras->is_object()) return {};
@@ -219,7 +220,7 @@ std::string apertureImageOf(const nlohmann::json& camera) {
     return path != extras->end() && path->is_string() ? path->get<std::string>() : std::string();
 }
 
-// Custom properties that an artist gave to the camera's node rather than to the camera; those of the camera win.
+// Adds lens properties that the artist set on the camera's node. Properties of the camera itself take precedence.
 void addNodeExtras(const Source& source, std::vector<Camera>& cameras) {
     for (std::size_t i = 0; i < source.model.nodes.size(); ++i) {
         if (source.model.nodes[i].camera < 0) continue;
@@ -237,7 +238,8 @@ bool isFromBlender(const Source& source) {
            generator->get<std::string>().starts_with("Khronos glTF Blender I/O");
 }
 
-// Without a rotation, the middle of an edge points to the right in Blender, and a corner here.
+// Rotates the aperture blades by half a step. At rotation 0, Blender has the middle of a blade edge on the right; here
+// a corner is there.
 void turnBlades(Camera& camera) {
     const double count = camera.lensValue("bladeCount").value_or(0);
     if (count >= 3) camera.lens["bladeRotation"] += 180 / count;
@@ -250,7 +252,7 @@ Hierarchy readHierarchy(Source& source) {
     const std::vector<int> parents = parentsOf(source);
     const std::vector<int> roots = sceneRoots(source, parents, result.sceneName);
 
-    // Keep what is needed, in the order of the file.
+    // Keep the needed nodes, in file order.
     const std::vector<bool> needed = neededNodes(source, parents, roots);
     result.kept.assign(parents.size(), -1);
     for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -259,7 +261,7 @@ Hierarchy readHierarchy(Source& source) {
         result.nodes.push_back(readNode(source, i));
     }
 
-    // Links between the kept.
+    // Link the kept nodes.
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (!needed[i] || parents[i] < 0) continue;
         const int parent = result.kept[static_cast<std::size_t>(parents[i])];

@@ -1,19 +1,20 @@
 #pragma once
-// The hierarchy of the chosen scene: nodes, instances, cameras and lights. Internal to the loader.
+// Hierarchy of the chosen scene: nodes, instances, cameras and lights. Internal to the loader.
 
 #include "scene/gltf/source.h"
 
 namespace defocus::engine::gltf {
 
-// The nodes that are kept: those of the file's default scene (else its first, else all), and what skins need of others.
+// Kept nodes: those of the default scene, else of the first scene, else all. Joints outside that scene and their
+// ancestors are kept too.
 struct Hierarchy {
     std::vector<Node> nodes;
     std::vector<int> roots;
-    std::vector<int> kept;  // glTF node → index into nodes, or -1
+    std::vector<int> kept;  // maps glTF nodes to indices into `nodes`, or -1
     std::string sceneName;
 };
 
-// Throws Error for loops, nodes with two parents, and instances of unequal counts.
+// Throws Error for cycles, for nodes with two parents, and if instance attributes differ in count.
 Hierarchy readHierarchy(Source& source);
 
 std::vector<Camera> readCameras(Source& source);

@@ -1,4 +1,4 @@
-// glTF 2.0 specification, chapter 5 (properties reference), and the specifications of the supported extensions.
+// glTF 2.0 specification, chapter 5 (properties reference), and the supported extensions' specifications.
 #include "scene/gltf/schema.h"
 
 #include <algorithm>
@@ -19,22 +19,22 @@ enum class Kind {
     strings,
     boolean,
     number,
-    numbers,    // array; `length` entries unless that is 0
+    numbers,    // array; must have `length` entries unless `length` is 0
     size,       // integer ≥ 0
-    index,      // integer that refers to an entry of the top-level array `target`
-    indices,    // array of such
-    indexMap,   // object whose values are such
-    indexMaps,  // array of such objects
-    object,     // with `properties`
-    objects,    // array of such
+    index,      // integer index into the top-level array `target`
+    indices,    // array of indices
+    indexMap,   // object whose values are indices
+    indexMaps,  // array of index maps
+    object,     // object with the given `properties`
+    objects,    // array of objects
 };
 
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};               // index, indices, indexMap, indexMaps
-    std::span<const Property> properties = {};  // object, objects
-    std::size_t length = 0;                     // numbers
+    std::string_view target = {};               // for Kind::index, indices, indexMap, indexMaps
+    std::span<const Property> properties = {};  // for Kind::object, objects
+    std::size_t length = 0;                     // for Kind::numbers
     bool required = false;
 };
 
@@ -203,7 +203,7 @@ constexpr Property perspectiveProperties[] = {{"aspectRatio", Kind::number},
                                               required({"znear", Kind::number})};
 constexpr Property orthographicProperties[] = {
     {"xmag", Kind::number}, {"ymag", Kind::number}, {"zfar", Kind::number}, {"znear", Kind::number}};
-// Draft, of the glTF repository's proposal (July 2026); lengths in metres.
+// EXT_camera_physical, draft of July 2026 in the glTF repository; lengths in metres.
 constexpr Property physicalCameraProperties[] = {required({"focalLength", Kind::number}),
                                                  required(numbers("sensorSize", 2)),
                                                  {"fStop", Kind::number},
@@ -252,7 +252,7 @@ constexpr Property rootProperties[] = {
 
 // ---- the walk -----------------------------------------------------------------------------------
 
-// Integers beyond 2^53 are not exact in JSON; indices must also fit an int.
+// JSON numbers are exact integers only up to 2^53. Indices must also fit an int.
 constexpr std::uint64_t largestSize = 1ull << 53;
 
 class Checker {

@@ -27,12 +27,11 @@ constexpr std::array<std::string_view, 17> supportedExtensions = {
     "KHR_texture_transform",
 };
 
-// How a model looks without an extension that is often met.
+// Rendering without a common extension that is not supported.
 struct Fallback {
     std::string_view extension;
     std::string_view look;
-    bool
-        mayBeRequired;  // the geometry is complete without it, so that a file which requires it is drawn with a warning
+    bool mayBeRequired;  // the geometry is complete without it, so a warning suffices
 };
 constexpr std::array<Fallback, 6> fallbacks = {{
     {"KHR_materials_iridescence", "not supported; drawn without iridescence", true},
@@ -92,7 +91,8 @@ void readBuffers(Source& source, const Progress& progress) {
     }
 }
 
-// A buffer may have no data (the standard leaves it to the application): a fault only where something reads it.
+// Checks that views lie inside their buffers. The standard allows buffers without data; reading from such a buffer is
+// the error.
 void checkViews(const Source& source) {
     for (std::size_t i = 0; i < source.model.bufferViews.size(); ++i)
         if (!source.unpackedViews[i] && source.buffers[static_cast<std::size_t>(source.model.bufferViews[i].buffer)])
@@ -115,21 +115,21 @@ bool UnpackBudget::take(std::uint64_t count, std::uint64_t elementBytes) {
 Source openSource(const std::filesystem::path& path, const Progress& progress) {
     Source source;
 
-    // 1. The container, and the JSON against the schema.
+    // 1. Read the container and validate its JSON.
     source.document = readDocument(path);
     source.budget.grant(source.document.fileBytes);
     checkSchema(source.document);
     checkExtensions(source);
 
-    // 2. The structure.
+    // 2. Parse the structure.
     source.model = readStructure(source.document);
 
-    // 3. Buffers; views that need unpacking are unpacked.
+    // 3. Read the buffers and decompress views.
     readBuffers(source, progress);
     unpackMeshoptViews(source);
     checkViews(source);
 
-    // 4. No accessor leaves its view.
+    // 4. Check that accessors lie inside their views.
     checkAccessors(source);
     return source;
 }

@@ -1,7 +1,6 @@
 #pragma once
-// A document with its buffers read and its JSON as tinygltf's structures: what all readers of the loader work on.
-// tinygltf only sees JSON that passed checkSchema, and never touches files, images or binary data. Internal to the
-// loader.
+// Document with its buffers and its JSON as tinygltf structures; input of all readers of the loader. tinygltf parses
+// only JSON that passed checkSchema, and never reads files, images or binary data. Internal to the loader.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,15 +20,15 @@
 
 namespace defocus::engine::gltf {
 
-// How much memory may still be taken for the scene, so that a few bytes that claim billions of vertices, pixels or
-// objects are refused instead of filling it. Sharing, compression and zero-filled accessors make real scenes larger
-// than their files, but not this much.
+// Memory that the scene may still take. It rejects small files that claim billions of vertices, pixels or objects. The
+// limit leaves room for real scenes, which exceed their file's size through sharing, compression and zero-filled
+// accessors.
 class UnpackBudget {
 public:
-    // A file that is read, once each, allows more.
+    // Raises the limit for a file that is read. Call it once per file.
     void grant(std::uint64_t fileBytes);
-    [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // of all that were granted
-    // False when the file may not take another `count` elements of `elementBytes`.
+    [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total of all granted files
+    // Takes `count` elements of `elementBytes` each. Returns false if they exceed the limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
 
 private:
@@ -41,40 +40,40 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;                                             // as readStructure gives it
-    std::vector<std::optional<std::vector<std::byte>>> buffers;        // empty: has no data of its own (fallbacks)
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by buffer view: EXT_meshopt_compression
+    tinygltf::Model model;                                             // JSON parsed by readStructure
+    std::vector<std::optional<std::vector<std::byte>>> buffers;        // empty entry: fallback buffer without data
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // per buffer view; EXT_meshopt_compression
     UnpackBudget budget;
-    std::set<std::filesystem::path> files;  // those beside the document that the budget was granted for
+    std::set<std::filesystem::path> files;  // external files already granted to the budget
     std::vector<Ignored> ignored;
-    std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // what and reason → into `ignored`
+    std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // (what, reason) → index into `ignored`
 };
 
-// Steps 1 to 4 of loading: container, schema, extensions, structure, buffers (compressed views unpacked), accessors in
-// range.
+// Reads and checks a file: container, schema, extensions, structure, buffers, compressed views and accessor ranges.
+// Throws Error if any step fails.
 Source openSource(const std::filesystem::path& path, const Progress& progress);
 
-// The bytes of a buffer view. Throws Error when it has none or leaves its buffer.
+// Returns the bytes of a buffer view. Throws Error if it has no data or exceeds its buffer.
 std::span<const std::byte> viewBytes(const Source& source, int view);
 
-// Takes `count` elements of `elementBytes` from the budget, or throws Error naming `what`.
+// Takes `count` elements of `elementBytes` from the budget. Throws Error that names `what` if they exceed it.
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
-// Lets the file behind a URI count for the budget, if it is one.
+// Raises the budget by the size of the URI's file. Data URIs and repeated files have no effect.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
-// Notes something that is not drawn; equal things are counted in one entry.
+// Notes content that is not drawn; equal notes share one entry.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
-// The same of what can't be drawn as it is because the file is damaged there.
+// Same for content that cannot be drawn correctly because the file is damaged.
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);
 
-// The object `name` among the "extensions" of a JSON object, or nullptr.
+// Returns the extension `name` of a JSON object, or nullptr.
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name);
 
-// "mesh 3 'Wheel'" for messages.
+// Returns a label for messages, such as "mesh 3 'Wheel'".
 std::string labelOf(const char* kind, std::size_t index, const std::string& name);
 
-// A double from the file as a finite float.
+// Converts to float and clamps to its finite range.
 float toFloat(double value);
 
 }  // namespace defocus::engine::gltf

@@ -1,5 +1,5 @@
-// tinygltf's interface takes text, and would parse it once more: its readers of one object each are called instead,
-// which only this file sees, as it compiles them.
+// Calls tinygltf's per-object parsers directly, since its public interface would parse the JSON text again. Only this
+// file can call them because it compiles tinygltf's implementation.
 #define TINYGLTF_IMPLEMENTATION
 #include "scene/gltf/structure.h"
 
@@ -9,9 +9,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr bool keepText = false;  // of extras and extensions, which the readers find in the JSON
+constexpr bool keepText = false;  // extras and extensions as text; the readers use the JSON instead
 
-// Reads each entry of the array `name`, where there is one, into an object of `objects`.
+// Parses each entry of the array `name`, if it exists, into `objects`.
 template <typename Object, typename Read>
 void readEach(const Document& document, const Json& owner, const char* name, std::vector<Object>& objects,
               const Read& read) {
@@ -23,7 +23,7 @@ void readEach(const Document& document, const Json& owner, const char* name, std
         if (!read(objects[i], error, (*entries)[i])) fault(document, "not valid glTF: {}", error);
 }
 
-// A primitive that tinygltf can't read it leaves out.
+// Throws Error for primitives that tinygltf cannot read, since it drops them silently.
 void checkPrimitives(const Document& document, const tinygltf::Model& model) {
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
         if (model.meshes[m].primitives.size() != document.json["meshes"][m]["primitives"].size())

@@ -1,13 +1,13 @@
 #pragma once
-// A document's JSON → tinygltf's structures. Internal to the loader.
+// Converts a document's JSON to tinygltf structures. Internal to the loader.
 
 #include "scene/gltf/document.h"
 #include "scene/gltf/tinygltf.h"
 
 namespace defocus::engine::gltf {
 
-// Everything but buffers, images, materials and scenes, which their readers take from the JSON. The document must have
-// passed checkSchema. Throws Error for what tinygltf can't read.
+// Converts all parts except buffers, images, materials and scenes, which are read from the JSON directly. The document
+// must have passed checkSchema. Throws Error if tinygltf cannot parse a part.
 tinygltf::Model readStructure(const Document& document);
 
 }  // namespace defocus::engine::gltf

@@ -1,8 +1,8 @@
 #pragma once
-// tinygltf's structures, under a name of their own: its functions are compiled into this library (structure.cpp), and
-// a program that links it may bring its own. Internal to the loader.
+// tinygltf's structures in a renamed namespace. tinygltf is compiled into this library (structure.cpp), and the new
+// name avoids clashes with a program's own copy. Internal to the loader.
 
-#include <fstream>  // which tinygltf leaves out here, but uses
+#include <fstream>  // tinygltf needs it, but does not include it with TINYGLTF_NO_FS
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE

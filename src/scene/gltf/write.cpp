@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.6 (buffers and accessors), 3.7.2 (meshes).
+// glTF 2.0 specification: buffers and accessors (3.6), meshes (3.7.2).
 
 #include "scene/gltf/write.h"
 
@@ -29,10 +29,10 @@ namespace tinygltf = gltf::tinygltf;
 
 constexpr std::uint32_t unused = 0xffffffffu;
 
-// The vertices and triangles that are written.
+// Vertices and triangles to write.
 struct Written {
-    std::vector<std::uint32_t> vertices;                // of the mesh, in their new order
-    std::vector<std::vector<std::uint32_t>> triangles;  // new numbers, one list a primitive that has any
+    std::vector<std::uint32_t> vertices;                // indices into the mesh's vertices, in output order
+    std::vector<std::vector<std::uint32_t>> triangles;  // output vertex indices; one list per primitive with triangles
 };
 
 Written chooseTriangles(const Mesh& mesh) {
@@ -64,7 +64,7 @@ Written chooseTriangles(const Mesh& mesh) {
     return written;
 }
 
-// Unit length also after rounding to floats.
+// Returns the normal at unit length, computed in double precision; +y for zero or non-finite normals.
 glm::vec3 unitNormal(const glm::vec3& normal) {
     const glm::dvec3 wide = normal;
     const double length = glm::length(wide);
@@ -72,8 +72,8 @@ glm::vec3 unitNormal(const glm::vec3& normal) {
     return glm::vec3(wide / length);
 }
 
-// Appends the bytes of `values` as a buffer view of their own with an accessor, and returns the latter's number. `type`
-// is TINYGLTF_TYPE_….
+// Appends `values` as a new buffer view with an accessor, and returns the accessor's index. `type` is a TINYGLTF_TYPE_…
+// constant.
 template <typename T>
 int append(tinygltf::Model& model, const std::vector<T>& values, int type, int componentType, int target) {
     static_assert(sizeof(T) % 4 == 0);
@@ -119,12 +119,12 @@ std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices verti
         if (!uv.empty()) attributes[name] = appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
-    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
+    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF requires consecutive set numbers
     if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
     return attributes;
 }
 
-// Replaces what isn't UTF-8, at which nlohmann's writer would throw.
+// Replaces invalid UTF-8, since nlohmann's writer throws on it.
 std::string utf8(const std::string& text) {
     using Json = nlohmann::json;
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();

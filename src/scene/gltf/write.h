@@ -1,10 +1,10 @@
 #pragma once
-// A mesh as a binary glTF 2.0 file (.glb) of its own, for other programs to look at: its triangles with positions,
-// normals, texture coordinates and colours, one primitive a primitive of the mesh, on one node. Materials, skins and
-// morph targets are not written.
+// Exports a mesh as a binary glTF 2.0 file (.glb) with one node, for inspection in other programs. The file has
+// positions, normals, texture coordinates, colours, and one primitive per primitive of the mesh. Materials, skins and
+// morph targets are not exported.
 //
-// What the standard forbids is mended: triangles with a corner that isn't finite are left out, as are primitives
-// without triangles and vertices that no triangle uses; normals get unit length (+y where they have none).
+// Invalid data is repaired. Triangles with non-finite corners, primitives without triangles, and unused vertices are
+// dropped. Normals get unit length, or +y if they are zero or non-finite.
 
 #include <filesystem>
 
@@ -12,8 +12,8 @@
 
 namespace defocus::engine {
 
-// Writes the file, all or nothing. Throws Error with the path, or with the mesh's name when no triangle is left to
-// write, an index is beyond the vertices, or the file would be larger than the format holds (4 GiB).
+// Writes the file atomically. Throws Error with the path if writing fails. Throws Error with the mesh's name if no
+// triangle is left, an index is out of range, or the file would exceed 4 GiB.
 void writeGlb(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// defocus bench: what is wrong with its command line is one line.
+// defocus bench: an error in the command line yields one line.
 
 #include "cli/commands/bench_commands.h"
 #include "cli/program.h"
@@ -42,7 +42,8 @@ TEST_F(Bench, convergenceRefusesListsThatAreNone) {
     expectOf("x", "--methods", "accumulation:x=1");
     expectOf("lit", "--shading", "dim");
     expectFault(2, "--method",
-                {"convergence", "quads.gltf", "--method", "accumulation"});  // it goes through them itself
+                // the bench iterates over the methods itself
+                {"convergence", "quads.gltf", "--method", "accumulation"});
 }
 
 TEST_F(Bench, whatIsGivenTwiceIsNamed) {
@@ -66,9 +67,10 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
         EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
     }
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
-    EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));  // only a table on the terminal
+    // without a folder the table goes to the terminal only
+    EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));
     EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
-    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // not built in a checkout
+    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // the program was not built from a checkout
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// defocus bench convergence, whole: its files, a killed run taken up again, and the report.
+// defocus bench convergence, end to end: its files, resuming after a kill, and the report.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ protected:
         return run(arguments);
     }
 
-    // Rows of a CSV by their first `keys` columns; each key once.
+    // Rows of a CSV file by their first `keys` columns; each key occurs once.
     std::map<std::string, std::vector<std::string>> rowsOf(const std::string& file, std::size_t first,
                                                            std::size_t keys) const {
         std::istringstream text(textOf(folder() / file));
@@ -51,8 +51,8 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
-    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // two settings and a preset, two numbers of samples
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // two settings and a preset, two sample counts
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs each
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
     EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());
@@ -89,7 +89,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
 }
 
 TEST_F(BenchConvergence, resumesNothingButTheSame) {
-    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // twice given
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // --runs is given twice
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const std::string journal = textOf(folder() / "out/runs.csv");
     const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
@@ -98,7 +98,7 @@ TEST_F(BenchConvergence, resumesNothingButTheSame) {
     EXPECT_EQ(textOf(folder() / "out/runs.csv"), journal);
 }
 
-// What took long to make is lost only to those who say so.
+// Existing results are overwritten only with --overwrite.
 TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const auto contents = [&] {
@@ -119,9 +119,9 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("holds 12 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
     expectRefused("holds another scene", {"--focus-distance", "3"});
     expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
-    expectRefused("holds another scene", {"--resume", "--seed", "7"});  // whose reference is the same
+    expectRefused("holds another scene", {"--resume", "--seed", "7"});  // the reference image is the same
 
-    // A reference without frames, as a run leaves that was killed between the two.
+    // A reference without measured runs, as left by a bench that was killed before the first run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");
     const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
@@ -136,8 +136,8 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
 }
 
-// Nothing is fetched from elsewhere, links lead into the page or to the data beside it, and every picture has a text in
-// its place.
+// Expects a self-contained page. It loads nothing from other hosts, its links lead into the page or to the data beside
+// it, and every picture has alternative text.
 void expectWholePage(const std::string& page) {
     const std::regex outside(
         "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
@@ -161,7 +161,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
 
-    // Pictures to show beside.
+    // Pictures for a side-by-side comparison.
     std::ofstream(folder() / "page/strips.json")
         << R"([{"title": "A leak", "text": "of <colour>", "images": [{"label": "one", "file": "one.png"}]}])";
     fs::copy(folder() / "out/images/reference.png", folder() / "page/one.png");
@@ -171,7 +171,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     EXPECT_GT(strips.size(), page.size());
 }
 
-// One page of all benches that wrote into the folder: two that run, two of committed runs.
+// The report is one page for all benches that wrote into the folder: two that run here, and two committed results.
 TEST_F(BenchConvergence, reportHasASectionForEachBench) {
     fs::create_directory(folder() / "page");
     for (const char* name : {"scaling", "stability"})
@@ -213,8 +213,8 @@ protected:
     }
 };
 
-// The published algorithm first, then what a call without the preset measures. What is given beside the preset is the
-// preset's: here it takes its levels away.
+// The bench measures the published algorithm first, then the call without the preset. Options beside the preset change
+// the preset: here they switch off its levels.
 TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});
     ASSERT_EQ(plain.size(), 3u);

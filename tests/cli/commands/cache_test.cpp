@@ -1,4 +1,4 @@
-// The cache as the command line shows it: --cache-dir, --no-cache, defocus cache list and clear.
+// The cache on the command line: --cache-dir, --no-cache, defocus cache list and clear.
 
 #include <regex>
 
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class Cache : public ProgramTest {
 protected:
-    // A plan of two small fish, which are simplified for it. `--verbose` says how many pyramids came from the cache.
+    // Plans two small fish, which need pyramids. `--verbose` prints how many pyramids came from the cache.
     Outcome plan(std::vector<std::string> arguments = {}, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"plan", "--fish", "2", "--fish-triangles", "2000"});
         const Outcome outcome = run(arguments, maxFileBytes);
@@ -86,7 +86,7 @@ TEST_F(Cache, listShowsFilesAndTheirTotal) {
     const Outcome outcome = run({"cache", "list", "--cache-dir", "here"});
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
-    // The total is that of the lines.
+    // The printed total is the sum of the lines.
     const std::regex line(R"(([0-9a-f]{16}\.pyramid) +[0-9.]+ MB  \d{4}-\d\d-\d\d \d\d:\d\d +(\d+)\n)");
     std::size_t files = 0;
     std::uint64_t triangles = 0;

@@ -1,4 +1,4 @@
-// defocus capture, whole: frames, their order, resuming, sharing, and what goes wrong.
+// defocus capture, end to end: frames, their order, resuming, sharing, and errors.
 
 #include <algorithm>
 #include <cstdlib>
@@ -28,7 +28,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
         EXPECT_FALSE(metadata.contains("defocus:seconds"));
-        // fStop: the smooth step in stops, from f/1.4 to f/2.8 a factor of two.
+        // f-stop: a smooth step in stops, from f/1.4 to f/2.8 (a factor of two).
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
         if (frame == 0) {
@@ -43,7 +43,8 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
-// The same bits alone, in the sequence, from another shard, in another format's company, and whatever the wave.
+// A frame has the same bits when rendered alone, in the sequence, by another shard, with a second format, or with
+// another wave size.
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
@@ -102,10 +103,10 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     EXPECT_EQ(rendered({"--samples", "9", "--overwrite"}), 0);
     EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--overwrite"}), 2);
     EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--fstop", "2", "--overwrite"}), 2);
-    expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // there is nothing to resume
+    expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // --overwrite leaves nothing to resume
 }
 
-// A picture of something else that has a frame's name is no frame to replace unasked.
+// --resume never replaces a foreign picture that has a frame's name.
 TEST_F(Capture, resumeKeepsForeignPictures) {
     writeImage(folder() / "a0.png", Image(4, 4, 3));
     expectOneLine(run({"capture", "shot.json", "--range", "0", "--resume", "-o", "a#.png"}), 1);
@@ -125,8 +126,8 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
-// The camera goes 0.6 m nearer to the square in the image's middle: its focus is that of each frame's moment, whichever
-// frames are rendered with it.
+// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at its own time,
+// whichever frames are rendered with it.
 TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     json dolly = shot();
     dolly.erase("focus");
@@ -149,7 +150,7 @@ TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     EXPECT_TRUE(bytesOf("alone5.exr") == bytesOf("p5.exr"));
     ASSERT_EQ(capture({"--shard", "1/3", "-o", "shard#.exr", "--focus-auto"}).exitCode, 0);
     EXPECT_TRUE(bytesOf("shard4.exr") == bytesOf("a4.exr"));
-    // A shot's pixel is one of its own size.
+    // A shot's pixel coordinates refer to the size in the shot.
     ASSERT_EQ(capture({"--range", "5", "-o", "small#.exr", "--size", "32x24"}).exitCode, 0);
     EXPECT_NEAR(focusOf("small#.exr", 5), 2 - 0.6 * 5 / 7, 1e-5);
     expectOneLine(capture({"--range", "0", "--focus-pixel", "0,0"}), 1);
@@ -272,7 +273,8 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
 }
 
-// Frame by frame as many samples as its own error asks for: the same alone, in the sequence and on another shard.
+// Each frame takes the samples that its own error requires: the same number alone, in the sequence and in another
+// shard.
 TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     const std::vector<std::string> asked = {"--target-error", "0.01", "--samples", "1024"};
     const auto with = [&](std::vector<std::string> more) {
@@ -297,7 +299,7 @@ TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     expectOneLine(capture({"--target-error", "0.01", "--sample-range", "0:64", "-o", "a/####.exr"}), 2);
 }
 
-// The time limit is the run's: it ends between frames, one is rendered at least, and nothing is lost.
+// The time limit applies to the run. The run ends between frames, renders at least one, and loses none.
 TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
     ASSERT_EQ(capture({"-o", "whole/####.exr"}).exitCode, 0);
     for (int run = 0; run < 7; ++run) {
@@ -311,7 +313,7 @@ TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
         EXPECT_TRUE(bytesOf(name(frame)) == bytesOf("whole/000" + std::to_string(frame) + ".exr")) << frame;
 }
 
-// Programs of a folder of ours come before the system's.
+// Puts programs of the test's own folder before the system's on PATH.
 class FakeFfmpeg {
 public:
     FakeFfmpeg(const fs::path& folder, const std::string& script) : path_(std::getenv("PATH")) {
@@ -328,7 +330,7 @@ private:
     std::string path_;
 };
 
-// ffmpeg takes what comes before a colon for a protocol.
+// ffmpeg reads the text before a colon as a protocol.
 TEST_F(Capture, filmsMayHaveAnyName) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     for (const char* name : {"12:30.mp4", "pipe:1.mp4"}) {
@@ -338,7 +340,7 @@ TEST_F(Capture, filmsMayHaveAnyName) {
     }
 }
 
-// On a full disk ffmpeg ends with success, and its film has no end.
+// On a full disk, ffmpeg exits with success although the video is truncated.
 TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     const FakeFfmpeg cut(folder() / "bin",

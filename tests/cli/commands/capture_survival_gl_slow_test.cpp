@@ -1,4 +1,4 @@
-// A capture that is killed at any moment leaves whole frames under their names or none, and is resumed to the same
+// A capture that is killed at any moment leaves complete frames or none under their names. Resuming it yields the same
 // bits.
 
 #include <fcntl.h>
@@ -20,7 +20,7 @@ constexpr int frames = 24;
 
 class Survival : public Capture {
 protected:
-    // Becomes the capture, in a process of its own.
+    // Turns a forked process into the capture.
     void become() const {
         const int nothing = ::open("/dev/null", O_WRONLY);
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
@@ -55,7 +55,7 @@ protected:
         return there;
     }
 
-    // Returns when at least `count` frames are finished, or the child has ended.
+    // Returns when at least `count` frames are finished or the child has ended.
     void waitForFrames(int count, pid_t child) const {
         siginfo_t ended{};
         while (framesThere() < count && ended.si_pid == 0)
@@ -71,7 +71,7 @@ protected:
 #define DEFOCUS_TRACED_OR_SKIP(child) \
     if (!(child).traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)"
 
-// Killed before a write into one of the next frames, or before one gets its name.
+// The capture is killed before a write into one of the next frames, or before a frame is renamed.
 TEST_F(Survival, killedFiftyTimesAndResumed) {
     const Outcome whole = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(whole.exitCode, 0) << whole.err;
@@ -85,7 +85,7 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half is still to be done.
+        // More than half of the frames are still missing.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
@@ -105,8 +105,9 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     expectNothingHalf();
 }
 
-// Each has temporary files of its own, leaves those of the other alone, and renames whole frames of the same bits. All
-// begin at once, or each when the one before has finished some frames.
+// Several captures write the same frames at once. Each has its own temporary files, ignores the others', and renames
+// complete frames with the same bits. They start together, or each starts after the previous one has finished some
+// frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {
@@ -123,7 +124,7 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     }
 }
 
-// Interrupted while it writes the first frame.
+// The capture is interrupted while it writes the first frame.
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     TracedChild child = startTraced();
     DEFOCUS_TRACED_OR_SKIP(child);
@@ -138,7 +139,7 @@ TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     EXPECT_TRUE(fs::exists(folder() / frame("frames", 23)));
 }
 
-// A real full disk: a file system of 200 kB.
+// The disk is full: a file system of 200 kB.
 TEST_F(Survival, fullFileSystemKeepsWholeFrames) {
     std::ofstream(folder() / "inside.sh") << "mount -t tmpfs -o size=200k tmpfs small || exit 9\n"
                                              "'" DEFOCUS_PROGRAM

@@ -33,7 +33,7 @@ protected:
         std::filesystem::remove_all(folder, ignored);
     }
 
-    // The command's output; `arguments` after "compare", with six, five and small for the files.
+    // Returns the command's output. `arguments` follow "compare"; the words six, five and small stand for the files.
     std::string run(std::string arguments) const {
         for (const char* name : {"six", "five", "small", "none"}) {
             const std::string word = std::string("@") + name;
@@ -54,7 +54,7 @@ protected:
     }
 
     std::filesystem::path folder;
-    mutable std::string output;  // of the last run
+    mutable std::string output;  // output of the last run
 };
 
 TEST_F(Compare, printsJsonWithTheStatedKeys) {

@@ -29,7 +29,7 @@ std::string info(const std::string& arguments) {
     return testing::internal::GetCapturedStdout();
 }
 
-// A square that three nodes draw, and a triangle; an optional extension that nobody knows.
+// A file with a square that three nodes draw, a triangle, and an unknown optional extension.
 TEST(Info, jsonHoldsWhatTheFileHolds) {
     GltfBuilder builder;
     const int corners = builder.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
@@ -66,7 +66,7 @@ TEST(Info, jsonOfARealFile) {
     EXPECT_TRUE(json["ignored"].empty());
 }
 
-// A square, one of its triangles once more, one without area, and a fin on its diagonal.
+// A mesh with a square, a duplicate of one of its triangles, a degenerate triangle, and a fin on the diagonal.
 TEST(Info, countsWhatIsRepairedBeforeSimplification) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1})}}},
@@ -125,7 +125,7 @@ TEST(Info, builtInSchoolWithoutAFile) {
     EXPECT_GE(json["meshes"].size(), 3u);
 }
 
-// 50 mm at f/2 on 36 x 27 mm, focused at 2 m: H = 2500/(2·0.03) mm = 41.667 m; near, far = H·s/(H ± s).
+// 50 mm at f/2 on 36 × 27 mm, focused at 2 m: H = 2500/(2·0.03) mm = 41.667 m; near and far limits are H·s/(H ± s).
 TEST(Info, cameraAnswersWhatPhotographersAsk) {
     const nlohmann::json json = nlohmann::json::parse(
         info("--camera --fish 1 --fish-triangles 200 --focal-length 50 --fstop 2 --focus-distance 2 --size 1000x750 "

@@ -1,4 +1,4 @@
-// Parts of a frame's samples, merged: the bits of a single run; and what doesn't belong together is refused.
+// Merging the parts of a frame's samples gives the bits of a single run; parts that do not belong together are refused.
 
 #include <algorithm>
 
@@ -55,13 +55,13 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     ASSERT_EQ(
         run({"merge", "--quiet", "f2.part00000-00064.exr", "f2.part00064-00128.exr", "-o", "merged.exr"}).exitCode, 0);
     EXPECT_TRUE(bytesOf("merged.exr") == whole);
-    // As a finished frame it is kept.
+    // The merged file counts as a finished frame and is kept.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});
     EXPECT_NE(resumed.err.find("1 of them there before"), std::string::npos) << resumed.err;
 }
 
-// The camera turns while the shutter is open: each sample has its own moment, in whichever part it is.
+// The camera turns while the shutter is open. Each sample has its own time, whichever part contains the sample.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;

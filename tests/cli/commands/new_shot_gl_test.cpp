@@ -1,4 +1,4 @@
-// A new shot is one that capture takes, whose schema lies beside it.
+// capture accepts a new shot, whose schema lies beside the file.
 
 #include <nlohmann/json.hpp>
 

@@ -25,7 +25,7 @@ std::string pyramid(std::vector<std::string> arguments) {
     global.quiet = true;
     addPyramidCommand(program, global);
     arguments.insert(arguments.begin(), "pyramid");
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects reversed arguments
     testing::internal::CaptureStdout();
     try {
         program.parse(arguments);
@@ -97,7 +97,7 @@ TEST(PyramidCommand, ExportedLevelsReadBackAsTheyAre) {
     }
 }
 
-// A mesh named so that its name, taken as it is, would leave the folder.
+// A mesh whose name, used as a path, would leave the folder.
 TEST(PyramidCommand, NoNameLeavesTheFolder) {
     const ScratchFolder folder;
     for (const char* name : {"../../evil", "/etc/evil", "..", ".hidden", "a\nb", "\xc3\xa9t\xc3\xa9"}) {
@@ -121,7 +121,7 @@ TEST(PyramidCommand, TextHasALineALevel) {
     EXPECT_NE(text.find(std::to_string(expected.levels.back().triangleCount)), std::string::npos) << text;
 }
 
-// What the cache has isn't built again, and says the same of the levels.
+// Pyramids from the cache are not rebuilt, and the command prints the same levels.
 TEST(PyramidCommand, KeepsLevelsInTheFolderThatItIsGiven) {
     const ScratchFolder folder;
     const std::string cache = (folder / "cache").string();

@@ -1,4 +1,4 @@
-// defocus render, whole: files, metadata, statistics, and what happens when the disk is full.
+// defocus render, end to end: files, metadata, statistics, and a full disk.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "cli/gl_program.h"
 #include "cli/two_quads.h"
 #include "defocus/renderer.h"
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 #include "frame/settings/settings.h"
 #include "image/image_io.h"
 #include "plan/lens_cells/lens_cells.h"
@@ -47,7 +47,7 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
     EXPECT_TRUE(fs::exists(folder() / "out.exr"));
 }
 
-// The public API's image is the program's, bit for bit, whatever is asked for.
+// The public API and the program render the same bits, for every set of options.
 TEST_F(Render, isWhatTheLibraryRenders) {
     const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
         std::vector<std::string> arguments = {"render", "--no-cache", "-o", "a.exr"};
@@ -76,7 +76,8 @@ TEST_F(Render, isWhatTheLibraryRenders) {
     expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
 }
 
-// How many samples, how far off and why no more: in the line, the metadata and --stats.
+// The printed line, the metadata and --stats give the number of samples, the remaining error and the reason for
+// stopping.
 TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
     const auto rendered = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--fstop", "1", "-o", "a.exr",
@@ -148,7 +149,7 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
     EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
 
-    // A file's own, and --exposure, which wins.
+    // Exposure stored in the file; --exposure overrides it.
     json scene = json::parse(textOf(folder() / "quads.gltf"));
     scene["cameras"][0]["extras"] = {{"fStop", 2}, {"exposureTime", 0.125}, {"iso", 200}};
     std::ofstream(folder() / "own.gltf") << scene.dump();
@@ -162,7 +163,8 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NE(own({"--exposure", "0"}), readImage(folder() / "a.png").pixels);
 }
 
-// The camera's own image, beside the file, is the one of the option; one that can't be read is left out with a warning.
+// The camera's aperture image lies beside the file and equals the one given by the option. An unreadable image is
+// ignored with a warning.
 TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
     Image image(8, 8, 1);
     *image.at(6, 3) = 1;
@@ -197,7 +199,7 @@ TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
     EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
 }
 
-// OpenEXR: camera space is left-handed and looks along +z; NDC's (0, 0) is the image's upper left corner.
+// OpenEXR: camera space is left-handed and looks along +z; (0, 0) in NDC is the upper left corner of the image.
 TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);
     Metadata metadata;
@@ -222,7 +224,7 @@ TEST_F(Render, aDashIsStandardOutput) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
 }
 
-// The same bytes as a file would have, but for the times in them.
+// Standard output gets the same bytes as a file, except for the times in them.
 TEST_F(Render, aDashIsStandardOutputForImages) {
     ASSERT_EQ(render({"-o", "a.png", "-o", "a.exr"}).exitCode, 0);
     const auto pixels = [&](const char* name) { return readImage(folder() / name).pixels; };
@@ -240,7 +242,8 @@ TEST_F(Render, aDashIsStandardOutputForImages) {
     expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
 }
 
-// Without a number the picture decides: few where little is blurred, more where much is, and the same bits each time.
+// Without --samples the picture determines the number: few where blur is small, more where it is large,
+// deterministically.
 TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
         options.insert(options.begin(),
@@ -262,7 +265,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     static_cast<void>(readImage(folder() / "much.exr", metadata));
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
 
-    // The library's default is the program's.
+    // The library and the program have the same default.
     Request request;
     request.scene = folder() / "quads.gltf";
     request.size.width = 128;
@@ -271,7 +274,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     request.focus = FocusDistance{1};
     EXPECT_TRUE(defocus::render(request).pixels == readImage(folder() / "much.exr").pixels);
 
-    // A part of a number needs the number.
+    // --sample-range requires --samples.
     const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
     expectOneLine(part, 2);
     EXPECT_NE(part.err.find("--samples N"), std::string::npos) << part.err;
@@ -310,8 +313,8 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
     EXPECT_EQ(*level.at(10, 80), -1);
 }
 
-// What is in focus needs all pixels. Where images aren't blurred as lens cells, all groups of four samples share the
-// far square, which is in focus.
+// Regions in focus need all pixels. Without lens-cell blur, groups of four samples share the far square, which is in
+// focus.
 TEST_F(Render, ratesAreThePixelsAndImagesThatALensSampleNeeds) {
     ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
                    "--focus-distance", "8", "--fstop", "0.1"})
@@ -354,7 +357,7 @@ TEST_F(Render, sweptWorkIsOfBoundsOverTheLens) {
     EXPECT_NE(outcome.err.find("swept work: "), std::string::npos) << outcome.err;
     EXPECT_TRUE(fs::exists(folder() / "a.swept-work.png"));
     const Image work = readImage(folder() / "a.swept-work.exr");
-    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of Near have its bounds
+    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of Near have its bounding box
     EXPECT_EQ(*work.at(10, 80), 0);
 }
 

@@ -1,4 +1,4 @@
-// The pages that are made from the table of settings are those in docs/.
+// The pages in docs/ match those generated from the table of settings.
 
 #include <nlohmann/json.hpp>
 

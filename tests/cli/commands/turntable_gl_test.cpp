@@ -1,4 +1,4 @@
-// defocus pyramid --turntable: does each cell show the level that stands beside it?
+// defocus pyramid --turntable: each cell shows the level that its label names.
 
 #include <array>
 #include <cmath>
@@ -17,9 +17,9 @@
 namespace defocus::engine {
 namespace {
 
-constexpr std::array<double, 4> radii = {1, 0.8, 0.55, 0.3};  // m, of the levels
+constexpr std::array<double, 4> radii = {1, 0.8, 0.55, 0.3};  // radius of each level in m
 
-// White spheres that glow evenly, each level smaller than the one before, over nothing.
+// White emissive spheres on an empty background, each level smaller than the previous one.
 struct ShrinkingSphere {
     ShrinkingSphere() {
         Mesh mesh = sphere(96, 48);
@@ -44,7 +44,8 @@ struct ShrinkingSphere {
     Object object;
 };
 
-// How many pixels of the cell the object covers: it is 1, and the paper is what the cell's corner shows.
+// Number of pixels that the object covers in the cell. The object has the value 1, and the cell's corner gives the
+// background.
 double coverage(const Image& image, const TurntableCell& cell) {
     const double paper = image.at(cell.x, cell.y)[0];
     double sum = 0;
@@ -64,7 +65,7 @@ TEST(Turntable, CellsShowTheLevelsAsLargeAsTheyAre) {
     const View view = turntableView(subject.scene.meshes[0], subject.object).view;
     const TurntableSheet sheet = turntableSheet(subject.world, subject.object, "sphere");
     ASSERT_EQ(sheet.cells.size(), radii.size());
-    // A sphere of radius r at distance d is seen as a disk of tangent r / √(d² − r²).
+    // A sphere of radius r at distance d projects to a disk whose half angle has the tangent r / √(d² − r²).
     const double distance = glm::length(glm::dvec3(view.worldFromCamera[3]));
     const double pixels = view.width / (2 * tanHalfHorizontalFov(view.lens));
     for (std::size_t l = 0; l < radii.size(); ++l)
@@ -76,7 +77,7 @@ TEST(Turntable, CellsShowTheLevelsAsLargeAsTheyAre) {
         }
 }
 
-// A board from the front is a square, from 60° aside as wide as its cosine says, and never cut off.
+// A board seen from the front is a square. From 60° aside its width shrinks by the cosine, and the frame never cuts it.
 TEST(TurntableView, FramesTheObjectFromEverySide) {
     Mesh mesh = flatGrid(4);
     for (glm::vec3& position : mesh.vertices.positions) position = 7.0f * position + glm::vec3(1e4f, -20, 3);

@@ -1,4 +1,4 @@
-// Completions and the manual page know every command and option of --help, and the shells and groff take them.
+// Completions and the manual page contain every command and option of --help; the shells and groff accept them.
 
 #include <set>
 
@@ -27,7 +27,7 @@ protected:
         std::ofstream(folder() / "defocus.1") << run({"man"}).out;
     }
 
-    // What a command of the shell prints, on stdout and stderr.
+    // Standard output and standard error of a shell command.
     [[nodiscard]] std::string said(const std::string& command) const {
         const fs::path out = folder() / "said";
         const std::string line = "cd '" + folder().string() + "' && { " + command + "; } >said 2>&1 </dev/null";
@@ -35,7 +35,7 @@ protected:
         return textOf(out);
     }
 
-    // What bash offers for the last of the words.
+    // Words that bash offers as completions of the last word.
     [[nodiscard]] Words offered(const std::string& words) const {
         std::ofstream(folder() / "try") << "source ./bash\nCOMP_WORDS=(" << words
                                         << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_defocus\n"
@@ -112,7 +112,7 @@ TEST_F(Pages, allKnowEveryOption) {
     EXPECT_GT(options, 500u);
 }
 
-// --help shows what most people use, and --help-all the rest.
+// --help lists the common options, and --help-all the rest too.
 TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
     const auto optionLines = [](const std::string& help) {
         static const std::regex line("\\n  (-[a-z],)?--[a-z]");

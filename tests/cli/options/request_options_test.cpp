@@ -1,4 +1,4 @@
-// From options to camera and lens, through the program: defocus plan --json.
+// Options that set the camera and the lens, on the command line: defocus plan --json.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -49,7 +49,7 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
 }
 
 TEST_F(SceneOptionsTest, focusDefaultsToWhatTheMiddleShows) {
-    EXPECT_NEAR(lens("focusDistance", {}), 2, 1e-6);  // the nearer of the two, not the middle between them
+    EXPECT_NEAR(lens("focusDistance", {}), 2, 1e-6);  // the nearer of the two quads, not the middle between them
 }
 
 TEST_F(SceneOptionsTest, focusOnANode) {
@@ -58,11 +58,11 @@ TEST_F(SceneOptionsTest, focusOnANode) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
-    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7, Far's at column (1 + 3/(8·0.36))/2 · 1024 = 1045: its
-    // left part is in the image.
+    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's is at column (1 + 3/(8·0.36))/2 · 1024 = 1045,
+    // so that its left part is in the image.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
-    // Near's upper edge lies at y = 0.5, row 28.4; its left one at x = −0.2, column 369.8.
+    // Near's upper edge lies at y = 0.5, row 28.4; its left edge at x = −0.2, column 369.8.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,29"}), 2, 1e-6);
     EXPECT_EQ(run({"plan", "two quads ❤.gltf", "--focus-pixel", "511,27"}).exitCode, 1);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "370,170"}), 2, 1e-6);
@@ -84,7 +84,7 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
                                    {"vertices", "surviving"},
                                    {"blurThreshold", 0.25},
                                    {"sizeThreshold", 3.3},
-                                   {"lightThreshold", 0.0}}));  // no metric of edges has one
+                                   {"lightThreshold", 0.0}}));  // edge-based metrics have no light threshold
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
              {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {

@@ -1,4 +1,4 @@
-// bench convergence on a small world: what is measured, checked, left out and taken up again.
+// bench convergence on a small world: what it measures, checks, skips and resumes.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace defocus::engine {
 namespace {
 
-// A method that claims more than it does.
+// A renderer that claims capabilities it lacks.
 class Pretender final : public Renderer {
 public:
     explicit Pretender(float colour, std::uint32_t claimed, int width = 64) : image_(width, 48, 4), claimed_(claimed) {
@@ -43,7 +43,7 @@ private:
 
 class Convergence : public testing::Test {
 protected:
-    // Rendered once: it takes longer than most of what is compared with it.
+    // Renders the reference once, since that takes longer than most of the images compared with it.
     static void SetUpTestSuite() {
         context_ = createHeadlessContext();
         const std::unique_ptr<SmallWorld> small = smallSpheres();
@@ -99,7 +99,7 @@ protected:
 
 TEST_F(Convergence, moreLensSamplesComeCloser) {
     options_.lods = {LodMode::off};
-    options_.plan.keepAll = true;  // which clusters no sample sees hangs on how many there are
+    options_.plan.keepAll = true;  // otherwise the set of culled clusters depends on the sample count
     const std::vector<ConvergenceRun> runs = measure();
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_LT(runs[1].error.mse, runs[0].error.mse);
@@ -135,7 +135,7 @@ TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     EXPECT_LT(runs[1].triangles, runs[0].triangles);
     EXPECT_EQ(runs[1].pyramidMilliseconds, 12);
 
-    // Thresholds of nothing are full detail, pixel by pixel.
+    // Zero thresholds give full detail, pixel for pixel.
     ASSERT_TRUE(runs[2].bias);
     EXPECT_EQ(runs[2].bias->mse, 0);
     EXPECT_EQ(runs[2].imageHash, runs[0].imageHash);
@@ -154,7 +154,7 @@ TEST_F(Convergence, runsTakeTurnsAndGiveTheSameImage) {
     EXPECT_EQ(runs[1].error.mse, runs[3].error.mse);
     ASSERT_TRUE(runs[3].bias);
     EXPECT_EQ(runs[1].bias->mse, runs[3].bias->mse);
-    EXPECT_EQ(images_, 2);  // with the first frames only
+    EXPECT_EQ(images_, 2);  // images of the first frames only
 }
 
 TEST_F(Convergence, takesUpWhatIsThere) {
@@ -211,7 +211,7 @@ TEST_F(Convergence, aMethodThatFailsIsLeftOutAndOthersGoOn) {
     EXPECT_EQ(leftOut_.at("failing"), "not in this scene");
 }
 
-// Where a scene asks for more than a method can draw, its image says nothing about the method.
+// A method that lacks a feature of the scene is skipped, since its image would say nothing about the method.
 TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     const auto make = [](const World&, const RendererOptions&) { return std::make_unique<Pretender>(0.5f, 4); };
     registerMethod(
@@ -238,13 +238,13 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
 
     for (Material& material : small_->scene.materials) material.unlit = true;
     EXPECT_EQ(namesLeftOut(), "frozen ");
-    small_->world.shutter.poses = {small_->world.pose, small_->world.pose};  // open, and nothing moves
+    small_->world.shutter.poses = {small_->world.pose, small_->world.pose};  // the shutter is open, but nothing moves
     EXPECT_EQ(namesLeftOut(), "");
     small_->scene.materials[0].alphaMode = AlphaMode::mask;
     EXPECT_EQ(namesLeftOut(), "unshaded ");
 }
 
-// Spheres that move by a fifth of a metre while the shutter is open.
+// Spheres move by 0.2 m while the shutter is open.
 TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

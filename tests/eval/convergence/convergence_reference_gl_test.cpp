@@ -1,4 +1,4 @@
-// The reference image: what it is the mean of, how well it knows its own error, and when it is used again.
+// The reference image: the mean that it stores, the accuracy of its error estimate, and its reuse.
 
 #include <gtest/gtest.h>
 
@@ -54,15 +54,15 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
         ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));
 }
 
-// The estimate, half the difference between the halves, is the error itself where the halves err independently. They
-// don't quite: each fills the other's gaps, so that the mean is better.
+// Half the difference between the two halves estimates the error if the halves err independently. They are not quite
+// independent: each fills the gaps of the other, so that the mean is better than estimated.
 TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const ReferenceImage coarse = reference(16);
     const ReferenceImage fine = reference(512);
     const double error = compareImages(fine.image, coarse.image).rmse;
     EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
     EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
-    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // better than random samples would
+    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // better than the error of random samples
     EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
 }
 
@@ -103,7 +103,7 @@ TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
     writeFile(folder_ / "reference-half.exr", "");
     EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file is no loss";
-    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // somebody's own
+    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // another image under the reference's name
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
 }
 

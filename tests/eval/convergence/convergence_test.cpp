@@ -1,4 +1,5 @@
-// Rows, fronts, floors, the journal, the cases and the crops of bench convergence: all that needs no GPU.
+// Rows, Pareto fronts, error floors, the journal, the cases and the crops of bench convergence: all parts without a
+// GPU.
 
 #include "eval/convergence/convergence.h"
 
@@ -21,7 +22,7 @@
 namespace defocus::engine {
 namespace {
 
-// ---- Pareto's front -------------------------------------------------------------------------------------------------
+// ---- Pareto front ---------------------------------------------------------------------------------------------------
 
 // error
 //  4 | a
@@ -51,7 +52,7 @@ ConvergenceRow rowOf(const std::string& method, const std::string& setting, doub
     return row;
 }
 
-// Errors that are powers of the time, whose inverses are known, met at times other than those measured.
+// Errors that are powers of the time, so that the inverse is known between the measured times.
 TEST(EqualError, isExactForPowersOfTheTime) {
     std::vector<ConvergenceRow> rows;
     for (const double ms : {3.0, 48.0, 768.0}) {
@@ -59,7 +60,7 @@ TEST(EqualError, isExactForPowersOfTheTime) {
         rows.push_back(rowOf("accumulation", "lod=off", ms, 0.3 / ms));
         rows.push_back(rowOf("accumulation", "lod=fractional", ms / 4, 0.3 / ms));
         rows.back().bias.emplace();
-        rows.push_back(rowOf("accumulation", "lod=fractional", ms, 0.4 / ms));  // beaten: counts for nothing
+        rows.push_back(rowOf("accumulation", "lod=fractional", ms, 0.4 / ms));  // dominated, so it is ignored
         rows.back().bias.emplace();
     }
     const std::vector<double> errors = {0.05, 0.01};
@@ -128,10 +129,10 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 10, 0.5), runOf("a", "x", 16, 0, 20, 0.25),
                                         runOf("b", "x", 8, 0, 15, 0.2), runOf("b", "x", 16, 0, 1, 0.001)};
     runs[3].fault = "pixels that are no numbers";
-    runs[1].error.flip = 0.01;  // FLIP may see it otherwise
+    runs[1].error.flip = 0.01;  // FLIP may rank images differently
     const std::vector<ConvergenceRow> rows = convergenceRows(runs);
     EXPECT_TRUE(rows[0].front);
-    EXPECT_FALSE(rows[1].front);  // b at 8 is faster and closer
+    EXPECT_FALSE(rows[1].front);  // b with 8 samples is faster and more accurate
     EXPECT_TRUE(rows[1].frontOfMethod);
     EXPECT_TRUE(rows[1].frontByFlip);
     EXPECT_TRUE(rows[2].front);
@@ -139,7 +140,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_NE(convergenceLine(rows[3]).find("no numbers"), std::string::npos);
 }
 
-// RMSE 0.1 and FLIP 0.02 are what the reference may be off by itself.
+// The reference itself may be off by RMSE 0.1 and FLIP 0.02.
 TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     std::vector<ConvergenceRun> runs;
     for (const auto& [mse, flip] : {std::pair{0.02, 0.03}, {0.009, 0.03}, {0.02, 0.01}, {0.009, 0.01}}) {
@@ -162,7 +163,8 @@ TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     }
 }
 
-// Two seeds in turn: the error is their mean, each seed counts once, and only runs of one seed must be one image.
+// Two alternating seeds: the error is the mean over the seeds, and each seed counts once. Only runs with the same seed
+// must give the same image.
 TEST(ConvergenceRows, errorsAreMeansOverSeeds) {
     const std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 1, 0.25), runOf("a", "x", 8, 1, 1, 0.75),
                                               runOf("a", "x", 8, 2, 1, 0.25)};
@@ -251,7 +253,7 @@ TEST(ConvergenceFiles, csvAndJsonHoldEveryRow) {
 
     const nlohmann::json json = nlohmann::json::parse(convergenceJson(rows, {}, {}));
     ASSERT_EQ(json["rows"].size(), 3u);
-    EXPECT_TRUE(json["rows"][1]["psnr"].is_null());  // no difference
+    EXPECT_TRUE(json["rows"][1]["psnr"].is_null());  // null, since the images are equal
     EXPECT_DOUBLE_EQ(json["rows"][1]["bias"]["mse"].get<double>(), 1.0 / 7);
     EXPECT_EQ(json["rows"][2]["samples"], 4);
     EXPECT_EQ(json["biasFloors"].size(), 1u);
@@ -289,7 +291,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "accumulation lod=off 16", "accumulation lod=nearest metric=error thresholds=0.5 16",
                                   "rays standard 16", "embree standard 16"}));
 
-    // Full detail and the ray tracer are there, asked for or not; without a list, every method of the table is.
+    // Full detail and the ray tracer are always included. Without a list, every method of the table is included.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};
@@ -301,7 +303,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     EXPECT_EQ(names.size(), methods().size());
 }
 
-// A method with standard settings has a row for each form, one with its own is as it is.
+// A method with standard settings has a row for each form; a method with its own settings has a single row.
 TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",
                     .description = "",
@@ -363,7 +365,7 @@ TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {
 // ---- crops ----------------------------------------------------------------------------------------------------------
 
 // 0 0 0 0 0      the 2 × 2 square with the largest sum begins at (3, 1): 1 + 4;
-// 0 0 0 1 0      beside it, the first of those with 3 begins at (0, 1).
+// 0 0 0 1 0      outside that square, the first square with the sum 3 begins at (0, 1).
 // 3 0 0 0 4
 TEST(ConvergenceCrops, areWhereTheSumIsLargest) {
     Image values(5, 3, 1);
@@ -379,7 +381,7 @@ TEST(ConvergenceCrops, areWhereTheSumIsLargest) {
     EXPECT_EQ(second->x, 0);
     EXPECT_EQ(second->y, 1);
     EXPECT_FALSE(largestSquare(values, 4));
-    EXPECT_FALSE(largestSquare(values, 3, Crop{"", 2, 1, 1, 1}));  // the middle column is in each
+    EXPECT_FALSE(largestSquare(values, 3, Crop{"", 2, 1, 1, 1}));  // every square contains the middle column
 }
 
 TEST(ConvergenceCrops, mayTouch) {

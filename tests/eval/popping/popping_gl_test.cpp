@@ -38,7 +38,7 @@ protected:
 };
 std::unique_ptr<GlContext> Popping::context_;
 
-// Pyramids of one level leave nothing to choose: each mode is full detail, and differs from it by nothing.
+// With pyramids of one level every mode draws full detail, so the modes do not differ.
 TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
     for (Pyramid& pyramid : small_->world.pyramids) pyramid = fullDetail(small_->scene.meshes[0]);
     options_.movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
@@ -46,9 +46,9 @@ TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
     measure();
     ASSERT_EQ(frames_.size(), 3u * 2 * poppingModes.size());
     for (const PoppingFrame& frame : frames_) {
-        EXPECT_LT(frame.change.image.rmse, 1e-7);  // float sums
+        EXPECT_LT(frame.change.image.rmse, 1e-7);  // rounding of sums in float
         EXPECT_EQ(frame.step.image.rmse, 0);
-        EXPECT_LT(frame.change.image.flip, 1e-6);  // display values there and back
+        EXPECT_LT(frame.change.image.flip, 1e-6);  // rounding of the conversion to display values and back
         EXPECT_EQ(frame.speed, 0);
     }
     EXPECT_TRUE(steps_.empty());
@@ -72,8 +72,8 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// A full level's pop is the sum of the N steps: each is at least 1/N of it (the triangle inequality, in the mean), and
-// the steps of unlike samples add up as random ones do at most: 1/√N.
+// A whole level's pop is the sum of N steps. By the triangle inequality each step is at least 1/N of it in the mean.
+// Steps of different samples add up at most like random ones: 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -52,7 +52,7 @@ TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
     for (const auto& [view, pose] : frames) {
         const glm::dvec3 eye = view.worldFromCamera[3];
         EXPECT_NEAR(glm::length(eye - centre), glm::length(centre), 1e-9);
-        // The middle stays where it is in the picture.
+        // The centre of the scene stays at the same place in the picture.
         const glm::dvec4 seen = glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1);
         EXPECT_NEAR(glm::length(glm::dvec3(seen) - centre), 0, 1e-9);
     }
@@ -61,7 +61,7 @@ TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
                 1e-9);
 }
 
-// A clip of 2 s in which the first sphere climbs 1 m a second.
+// A clip of 2 s in which the first sphere climbs at 1 m/s.
 TEST(PoppingPaths, aClipPlaysOnceBeforeACameraThatStandsStill) {
     const auto small = spheres();
     Node climber;
@@ -92,7 +92,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
     EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "nothing to be seen";
 }
 
-// Of a stretch's frames the nearest levels change as often as in any other of its length.
+// The busiest stretch has the max number of changes of the nearest level among all stretches of its length.
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
     const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
@@ -124,7 +124,8 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
 
 // ---- the objects' pixels --------------------------------------------------------------------------------------------
 
-// A pixel with a blur of 6 px marks the disk of radius 3 around it; behind it nothing counts, however blurred.
+// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing, whatever
+// its blur.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);
@@ -144,7 +145,7 @@ TEST(PoppingPixels, growByHalfTheBlur) {
 
 // ---- summaries ------------------------------------------------------------------------------------------------------
 
-// 101 changes with steps of 0 … 100 (nearest) and half of it (fractional): the 99th percentile is the last but one.
+// 101 changes with steps of 0 … 100 (nearest) and half of that (fractional): the 99th percentile is the second largest.
 std::vector<PoppingFrame> ramp() {
     std::vector<PoppingFrame> frames;
     for (int i = 0; i <= 100; ++i)

@@ -1,4 +1,4 @@
-// What pyramids expect of their levels, against what is rendered of them.
+// Compares the errors that pyramids predict for their levels with those of rendered images.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Of plaster, with bumps and stripes; what a pyramid knows of its look is all there is.
+// A plaster ball with bumps and stripes: a pyramid's model covers all of its appearance.
 std::vector<PredictionRow> rowsOfABall() {
     Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)
@@ -42,13 +42,13 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
         if (!row.used) continue;
         ++used;
         EXPECT_LE(row.rendered, 2 * row.predicted) << predictionLine(row);
-        // Samples of what is smooth err by less than those of edges, after which they are predicted.
+        // Full detail is excluded: predictions assume edges, and samples on smooth parts err less.
         if (row.level > 0) {
             EXPECT_LE(row.predicted, 2 * row.rendered) << predictionLine(row);
         }
     }
     EXPECT_GE(used, 3) << "the samples, and levels";
-    // Level by level, more of the light is wrong.
+    // The share of misplaced light increases from level to level.
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].level > 1) {
             EXPECT_GT(rows[i].predicted, rows[i - 1].predicted);

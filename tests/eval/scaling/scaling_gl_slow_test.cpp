@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// The smallest scenes: one fish, up to 10,000 times.
+// The smallest scenes: one fish, in up to 10,000 instances.
 TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options;
@@ -34,11 +34,11 @@ TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
             EXPECT_GT(rows[i].triangles, rows[i - 2].triangles);
         }
     }
-    // Full detail draws each instance whole, for each sample.
+    // Full detail draws every triangle of each instance for each sample.
     EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
 }
 
-// What the two large ones tell, of small ones.
+// Small versions of the two large scenes.
 TEST(LargeScenes, areMeasuredAsTheyAre) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const LargeSceneRow instances = measureLargeScene({"instances", 30, 300, true}, {});

@@ -28,7 +28,7 @@ TEST(ScalingFit, ofAPowerIsItsExponent) {
     }
 }
 
-// 1, 10, 100, 1000: the upper half begins at √1000.
+// For 1, 10, 100 and 1000 the upper half begins at √1000.
 TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     const std::optional<PowerLaw> law = fittedPowerLaw(Points{{1000, 50}, {1, 900}, {100, 5}, {10, 900}});
     ASSERT_TRUE(law);
@@ -36,7 +36,8 @@ TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     EXPECT_NEAR(law->exponent, 1, 1e-12);
 }
 
-// Three points at ln x = 0, 1, 2 with ln y = 0, 3, 0: a level line at 1, from which they lie 1, 2 and 1 away.
+// Three points at ln x = 0, 1, 2 with ln y = 0, 3, 0: the fit is the horizontal line at 1, with residuals of 1, 2 and
+// 1.
 TEST(ScalingFit, leavesTheResidualOfLeastSquares) {
     const double e = std::exp(1);
     const std::optional<PowerLaw> law =
@@ -73,7 +74,7 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "parts that overlap leave nothing";
 }
 
-// Each run leaves its own rest: 5, 7 and 6 ms.
+// The unexplained time differs from run to run: 5, 7 and 6 ms.
 TEST(ScalingParts, spreadAsTheirRunsDo) {
     ScalingRow row;
     setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
@@ -85,13 +86,13 @@ TEST(ScalingParts, spreadAsTheirRunsDo) {
 }
 
 TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
-    // One run, which says nothing about its noise: 23.5 against 24.1 ms of 60 is too close.
+    // A single run gives no estimate of its noise: 23.5 and 24.1 ms of 60 ms are too close to rank.
     EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
     EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
               (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
 
-    // Layers at 30 and fill at 40 ms, once far apart in all runs, once crossing.
+    // Layers take about 30 ms and fill 40 ms: first separated in all runs, then overlapping.
     ScalingRow row;
     setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
     EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});
@@ -180,7 +181,7 @@ TEST(ScalingWorlds, aSchoolHasAboutTheTrianglesAskedFor) {
     }
 }
 
-// Every instance lies whole within the view, as large as its cell, and the layers lie between 2 and 6 m.
+// Every instance lies completely within the view and fills its cell; the layers lie between 2 and 6 m.
 TEST(ScalingWorlds, aGridFillsTheSameView) {
     for (const int instances : {1, 8, 100, 1000}) {
         const ScalingWorld grid = gridOf(instances, 300, {});

@@ -42,12 +42,12 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_EQ(row.runs, 2);
         EXPECT_GT(row.setupMilliseconds, 0);
         EXPECT_EQ(row.pyramidMilliseconds, row.mode == LodMode::off ? 0 : 12);
-        // The reference has the row's lens, and eight times the most samples that are measured with it.
+        // The reference has the row's lens, and eight times the max number of measured samples.
         ASSERT_TRUE(row.fromReference);
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
         EXPECT_GT(row.referenceRemaining.rmse, 0);
-        // Two runs, two seeds: other samples err otherwise, and the error told is their mean.
+        // Two runs use two seeds. Their errors differ, and the reported errors average both.
         ASSERT_EQ(row.ofSeeds.size(), 2u);
         const double first = row.ofSeeds[0].rmse, second = row.ofSeeds[1].rmse;
         EXPECT_NE(first, second);
@@ -55,11 +55,11 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_NEAR(row.fromReference->flip, (row.ofSeeds[0].flip + row.ofSeeds[1].flip) / 2, 1e-12);
     }
     EXPECT_LT(rows[1].triangles, rows[0].triangles);
-    // Which clusters face away from all samples depends on where on the lens they are: not quite in proportion.
+    // Culled clusters depend on the samples' lens positions, so triangles are not quite proportional to samples.
     const double ofOneSample = static_cast<double>(rows[0].triangles) / 4;
     EXPECT_NEAR(static_cast<double>(rows[3].triangles) / 9, ofOneSample, 0.01 * ofOneSample);
 
-    // Another lens than the row's would be farther off than too few samples are.
+    // A different lens would cause a larger error than too few samples do.
     View wide = small->view;
     View narrow = small->view;
     narrow.lens.fStop *= 8;
@@ -69,7 +69,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     EXPECT_LT(rows[3].fromReference->rmse, apart / 2);
     EXPECT_LT(rows[6].fromReference->rmse, apart / 2);
 
-    // Both files hold every row.
+    // The CSV and JSON files contain every row.
     const std::string csv = speedupCsv(rows);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
     const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
@@ -97,7 +97,7 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     });
 }
 
-// Each threshold alone draws at least as much as both, and what it draws is what a plan of its own says.
+// Each threshold alone draws at least as many triangles as both together, and exactly as many as its own plan.
 TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -105,7 +105,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     options.sampleCounts = {8};
     options.runs = 1;
     options.referenceSamples = 0;
-    // Spheres in focus have levels by their size, the others by their blur.
+    // Spheres in focus are simplified by size, the others by blur.
     RenderSettings plan;
     plan.thresholds = {2, 3};
     const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
@@ -138,7 +138,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// Each form is compared with its own full detail: at the same samples, which differ between the two.
+// Each form is compared with full detail at the same samples; the two forms use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -168,8 +168,8 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
-    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // it stands in CSV
-    EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole's image has no blur to hide levels
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // it is a field of the CSV file
+    EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole image has no blur that could hide levels
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);
     EXPECT_NE(speedupLine(rows[0]).find("published"), std::string::npos);

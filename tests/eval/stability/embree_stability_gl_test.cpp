@@ -1,4 +1,4 @@
-// The cases of the stability benchmark whose truth is the ray tracer, where it is built.
+// Cases of the stability benchmark whose ground truth is the ray tracer, in builds with Embree.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Holds every case of the stability benchmark to its limit.
+// Checks every case of the stability benchmark against its limit.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(LensHonesty, theAccumulationFollowsTheLens) {
     EXPECT_GT(count, 10);
 }
 
-// Each method with each of its settings: a setting that needs another one comes with it.
+// Combines each method with each of its settings, and adds the settings that a setting requires.
 TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     const auto context = createHeadlessContext();
     World world;
@@ -53,7 +53,8 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     }
 }
 
-// Segments that the driver's shared memory can't hold, as llvmpipe's can't, are said, and the others go on.
+// Segments may exceed the driver's shared memory, as with llvmpipe. The benchmark reports this and continues with the
+// other methods.
 TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
     const auto context = createHeadlessContext();
     std::vector<HonestyRow> rows;

@@ -20,7 +20,8 @@ TEST(StabilityText, everyLineFitsIntoAHundredColumns) {
         const StabilityRow before{cases[i == 0 ? 0 : i - 1]};
         std::istringstream lines(stabilityLine(row, i == 0 ? nullptr : &before));
         for (std::string line; std::getline(lines, line);) {
-            const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; });  // of UTF-8
+            // counts UTF-8 code points
+            const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; });
             EXPECT_LE(columns, 100) << line;
         }
         EXPECT_TRUE(names.insert(cases[i].name + cases[i].measured).second) << cases[i].name;

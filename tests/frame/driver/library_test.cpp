@@ -1,4 +1,4 @@
-// The public API where it needs no GPU: scenes, settings, plans, and requests that nobody should make.
+// The public API without a GPU: scenes, settings, plans, and invalid requests.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(planJson(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// What a struct may hold and no text could say; the name is how the message begins.
+// A request with an invalid member that no text could set. The error message begins with the member's name.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;
@@ -137,7 +137,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
         {"fishCount", [](Request& r) { r.fishCount = -1; }},
         {"exposure", [](Request& r) { r.exposure = ExposureValue{nan}; }},
         {"method", [](Request& r) { r.method = "none such"; }},
-        {"method", [](Request& r) { r.methodSettings["far-components"] = "5"; }},  // not of this method
+        {"method", [](Request& r) { r.methodSettings["far-components"] = "5"; }},  // a setting of another method
     };
     for (const BadValue& value : values) {
         Request request = request_;
@@ -148,7 +148,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
     }
 }
 
-// Members set to whatever: a plan or an Error, and numbers in the plan.
+// Random members give either an Error or a plan with finite numbers.
 TEST_F(Library, anyRequestIsPlannedOrRefused) {
     std::mt19937 generator(3);
     const std::vector<double> numbers = {nan,  infinity, -infinity, 0, -0.0, -1,  1e-300,

@@ -1,4 +1,4 @@
-// SceneRenderer: frame after frame of a scene, in a context of its own.
+// SceneRenderer renders several frames of a scene in its own OpenGL context.
 
 #include <epoxy/egl.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     ASSERT_EQ(whole.width, 96);
     ASSERT_EQ(whole.height, 72);
     ASSERT_EQ(whole.channels, 4);
-    EXPECT_GT(std::set<float>(whole.pixels.begin(), whole.pixels.end()).size(), 100u);  // something is shown
+    EXPECT_GT(std::set<float>(whole.pixels.begin(), whole.pixels.end()).size(), 100u);  // the image is not empty
 
     SceneRenderer renderer(smallRequest());
     EXPECT_EQ(renderer.samples(), 0u);
@@ -75,7 +75,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     EXPECT_FALSE(statistics.device.empty());
 }
 
-// One after the other, of one renderer: each is the image of a renderer of its own.
+// Each frame of one renderer equals the image of a fresh renderer.
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
@@ -86,7 +86,8 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    requests[8].levelVertices = LevelVertices::surviving;  // other pyramids, then those of before
+    // This request needs other pyramids; the next one needs the earlier pyramids again.
+    requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
     for (std::size_t i = 0; i < requests.size(); ++i)
@@ -96,7 +97,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     EXPECT_NE(render(requests[0]).pixels, render(requests[8]).pixels);
 }
 
-// The published levels are a picture of their own; without thresholds nothing of them is drawn.
+// Published levels differ from full detail. Without thresholds they equal it.
 TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     Request published = smallRequest();
     setSetting(published, "preset", "jeong2011");
@@ -106,7 +107,7 @@ TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     EXPECT_NE(render(published).pixels, fullDetail.pixels);
     published.blurThreshold = published.sizeThreshold = 0;
     EXPECT_EQ(render(published).pixels, fullDetail.pixels);
-    // Nor where nothing is blurred and size alone would pick levels.
+    // Without blur, size alone does not select levels either.
     published.lens.dofEnabled = sharp.lens.dofEnabled = false;
     published.blurThreshold = 0.25;
     EXPECT_EQ(render(published).pixels, render(sharp).pixels);
@@ -132,7 +133,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
     EXPECT_GT(renderer.statistics().pyramidMilliseconds, before);
     EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});
     EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
-    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // both kinds are kept
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // the renderer keeps both kinds of pyramids
 }
 
 TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
@@ -148,13 +149,13 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     EXPECT_EQ(renderer.render().pixels, whole.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
-    // While levels are made for the first time, too.
+    // The same holds while levels are built for the first time.
     Request sharp = smallRequest();
     sharp.lod = LodMode::off;
     SceneRenderer late(sharp);
     const Image sharpImage = late.render();
     EXPECT_THROW(late.render(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
-    EXPECT_EQ(late.image().pixels, sharpImage.pixels);  // the frame before is still there
+    EXPECT_EQ(late.image().pixels, sharpImage.pixels);  // the previous frame is still available
     EXPECT_EQ(late.render(smallRequest()).pixels, whole.pixels);
 }
 
@@ -179,11 +180,11 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     EXPECT_THROW(static_cast<void>(renderer.aovs()), Error);
     EXPECT_THROW(static_cast<void>(renderer.planJson()), Error);
     renderer.start();
-    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample yet
+    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample has been rendered
     const Image whole = renderer.render();
 
     std::vector<Request> bad(5, smallRequest());
-    bad[0].fishCount = 3;  // another scene
+    bad[0].fishCount = 3;  // a different scene
     bad[1].camera = NamedCamera{"none such"};
     bad[2].samples = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
@@ -217,14 +218,14 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // enough blur that the lens isn't left out
+    request.lens.fStop = 0.2;  // enough blur that the lens is not skipped
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();
     const Aovs aovs = renderer.aovs();
     EXPECT_EQ(aovs.depth.width, 64);
     EXPECT_EQ(aovs.depth.channels, 1);
-    // "Near" fills the column of the middle above the axis: 0.3 m at 2 m is 13 px above the centre's row.
+    // "Near" covers the middle column above the axis: 0.3 m at 2 m is 13 px above the centre row.
     EXPECT_NEAR(*aovs.depth.at(32, 11), 2, 1e-4);
     EXPECT_EQ(*aovs.depth.at(2, 45), std::numeric_limits<float>::infinity());
     EXPECT_EQ(*aovs.level.at(2, 45), -1);
@@ -249,7 +250,7 @@ TEST_F(SceneRendererTest, theCallersContextIsCurrentAfterEachCall) {
     ASSERT_NE(own, EGL_NO_CONTEXT);
     const auto check = [&](const char* call) { EXPECT_EQ(eglGetCurrentContext(), own) << call; };
     {
-        // Progress may be told by a worker, which has no context.
+        // A worker without an OpenGL context may report progress.
         const std::thread::id caller = std::this_thread::get_id();
         SceneRenderer renderer(smallRequest(), [&](auto...) {
             if (std::this_thread::get_id() == caller) check("progress of the constructor");
@@ -333,7 +334,7 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
     EXPECT_EQ(second.pixels, other.pixels);
 }
 
-// A frame for which the memory is too little in one piece: the same bits, from the top.
+// A frame that exceeds the memory limit in one piece has the same bits in tiles, from the top row on.
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
     Request request = smallRequest();
@@ -342,7 +343,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.wave.reset();
     request.samples = 4;
     (void)render(smallRequest());
-    const std::uint64_t held = residentMemory();  // before there was a large image, of which drivers keep memory
+    const std::uint64_t held = residentMemory();  // before the first large image, whose memory the driver keeps
     Image whole;
     std::vector<std::string> warnings;
     {
@@ -353,7 +354,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
 
     // In one piece the pixels alone take 370 MiB.
     constexpr std::uint64_t little = std::uint64_t{300} << 20;
-    request.memory = held + little;
+    request.memory = std::min(held, residentMemory()) + little;  // a driver may have freed memory since
     SceneRenderer other(request);
     other.start();
     EXPECT_EQ(other.sampleTotal(), 4u);
@@ -374,13 +375,13 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     other.write(folder_ / "image.exr", other.image());
     EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == whole.pixels);
 
-    // Another of the size, drawn as the one before.
+    // Another frame of the same size is drawn in the same way.
     Request moved = request;
     moved.cameraPosition = movedRequest().cameraPosition;
     const Image movedImage = other.render(moved);
     moved.memory.reset();
     EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
-    // A small one fits, and so it does beside what the large one took.
+    // A small frame fits, even beside the memory that the large frame occupied.
     Request small = request;
     small.size.width = 96;
     small.size.height = 72;

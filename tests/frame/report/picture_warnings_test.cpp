@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// The left part of the columns has one value, the right part another.
+// An image with `leftValue` in its first `left` columns and another value in the rest.
 Image twoParts(int left, float leftValue, float rightValue) {
     Image image(100, 4, 3);
     for (int y = 0; y < image.height; ++y)

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Quads of 2 m at these depths, before a uniform background, focused at 4 m.
+// Quads of 2 m at these depths, in front of a uniform background, focused at 4 m.
 std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -53,7 +53,7 @@ TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
     small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
     RenderSettings settings;
     const double blur = planFrame(small->world, small->view, settings).largestBlur;
-    EXPECT_GT(blur, 0.02 * small->view.width / 1.7);  // rounded to 1, 2 or 5
+    EXPECT_GT(blur, 0.02 * small->view.width / 1.7);  // the warning rounds to 1, 2 or 5
     EXPECT_LT(blur, 0.02 * small->view.width * 1.7);
     EXPECT_TRUE(warningsOf(*small).empty());
 }
@@ -103,7 +103,7 @@ TEST(PlanWarnings, copiesAreNamedWithANumberOfSamplesAndAScaleThatFill) {
     EXPECT_TRUE(warningsOf(*small, 32).empty());
 }
 
-// They fill gaps as wide as they are blurred.
+// Lens cells fill gaps as wide as their blur.
 TEST(PlanWarnings, lensCellsNeedFewerSamples) {
     const auto small = quadsAt({0.5, 4});
     small->view.lens.fStop = 0.2;

@@ -1,4 +1,4 @@
-// The meter against what photographers know: grey cards, snow, and a lamp in the dark.
+// Compares the exposure meter with photographic practice: grey cards, snow, and a lamp in the dark.
 
 #include "frame/setup/exposure.h"
 
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Rows of these greys, all of them covered but for the first `empty`.
+// Rows with these grey values. The first `empty` rows have no coverage.
 Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
     Image image(10, static_cast<int>(greys.size()), 4);
     for (std::size_t y = 0; y < greys.size(); ++y)
@@ -22,10 +22,10 @@ Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
 }
 
 TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
-    // Log-average 2 · 0.18, brightest between 40 % and white.
+    // The log average is 2 · 0.18, and the brightest value lies between 40 % and white.
     const Image image = stripes({0.09f, 0.36f, 1.44f});
     EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
-    // Stops go through it.
+    // Scaling the light shifts the exposure by the same number of stops.
     EXPECT_NEAR(meteredExposure(stripes({0.09f * 1024, 0.36f * 1024, 1.44f * 1024})), -11, 1e-6);
 }
 

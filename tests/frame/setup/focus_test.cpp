@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Points on the plane w + tan(swing)·X + tan(tilt)·Y = s give back what it was made of.
+// Points on the plane w + tan(swing)·X + tan(tilt)·Y = s yield the swing, tilt and distance that the plane was made
+// with.
 TEST(FocusThrough, findsThePlaneOfThreePoints) {
     std::mt19937 generator(1);
     const auto random = [&](double min, double max) {
@@ -40,8 +41,8 @@ TEST(FocusThrough, findsThePlaneOfThreePoints) {
 TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     const Lens before;
     const std::array<std::array<glm::dvec3, 3>, 3> impossible = {{
-        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // a line
-        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // holds the view axis
+        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // points on a line
+        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // a plane that contains the view axis
         {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // behind the camera
     }};
     for (const std::array<glm::dvec3, 3>& points : impossible) {
@@ -53,7 +54,7 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     }
 }
 
-// A focus surface as the lens has it, s(n) = s/(1 + κ·r² + t·n), is found from points that lie on it.
+// Points on a focus surface of the lens, s(n) = s/(1 + κ·r² + t·n), yield that surface.
 TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     std::mt19937 generator(2);
     const auto random = [&](double min, double max) {
@@ -78,7 +79,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
         }
         Lens lens;
         focusThrough(points, lens, "test");
-        // Four points may lie almost on a circle.
+        // Four points may be almost concyclic.
         const double tolerance = count == 4 ? 1e-5 : 1e-7;
         EXPECT_NEAR(lens.focusDistance / truth.focusDistance, 1, tolerance);
         EXPECT_NEAR(lens.focusSwing, truth.focusSwing, tolerance);
@@ -90,7 +91,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     }
 }
 
-// Of points that no such surface holds, the sum of the squares of the blurs is least: any change makes it larger.
+// If no such surface contains the points, the sum of the squared blurs is minimal: any change increases it.
 TEST(FocusThrough, leavesTheMinBlur) {
     const std::vector<glm::dvec3> points = {{-0.6, 0.2, -2}, {0.5, 0.4, -3},   {0.1, -0.3, -1.5}, {0.9, -0.4, -2.5},
                                             {-0.2, 0.5, -4}, {-0.8, -0.5, -3}, {0.3, 0.1, -2.2}};
@@ -115,7 +116,7 @@ TEST(FocusThrough, leavesTheMinBlur) {
         }
 }
 
-// All on the view's vertical middle: nothing says how it swings, so it doesn't.
+// All points lie on the vertical middle line of the view, which leaves the swing open; it is 0.
 TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     const std::vector<glm::dvec3> points = {{0, -0.5, -2}, {0, 0, -2.2}, {0, 0.6, -2.5}, {0, 0.9, -3}};
     Lens lens;
@@ -124,8 +125,8 @@ TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     EXPECT_LT(lens.focusTilt, -0.01) << "its top lies farther away";
 }
 
-// A box is sharp at its front, not in its middle, which nobody sees. Where the image's middle shows nothing, the
-// scene's centre counts.
+// The default focus on a box is its visible front, not its centre. If the middle of the image is empty, the scene's
+// centre is in focus.
 TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -144,7 +145,7 @@ TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
     chooseFocus({}, own, small.scene, small.world.pose, small.view);
     EXPECT_EQ(small.view.lens.focusDistance, 7);
 
-    small.view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(100, 0, 0));  // beside all
+    small.view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(100, 0, 0));  // the view misses all objects
     chooseFocus({}, {}, small.scene, small.world.pose, small.view);
     EXPECT_NEAR(small.view.lens.focusDistance, 6, 1e-6);
 }

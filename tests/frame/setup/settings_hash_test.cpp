@@ -1,4 +1,4 @@
-// The hash that tells a frame which is there already: what changes the picture changes it, and nothing else does.
+// The hash that identifies finished frames: settings that change the picture change the hash, and no others do.
 
 #include "frame/setup/settings_hash.h"
 

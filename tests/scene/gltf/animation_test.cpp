@@ -1,4 +1,4 @@
-// Clips, skins and animated cameras and lights from small files written here.
+// Clips, skins, and animated cameras and lights from small files that the tests write.
 
 #include "scene/animation.h"
 
@@ -21,7 +21,7 @@ json attributesOf(GltfBuilder& builder) {
     return {{"POSITION", builder.positions(unitTriangle)}};
 }
 
-// A sampler that goes from `first` to `last` in two seconds.
+// Adds a channel whose sampler goes from `first` to `last` in two seconds.
 int addChannel(GltfBuilder& builder, json& animation, const std::vector<float>& values, const char* type,
                const json& target) {
     const std::size_t components = values.size() / 2;
@@ -53,10 +53,10 @@ TEST(GltfSkin, eightInfluencesAreReadAndSumToOne) {
     EXPECT_EQ(vertices.weights[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[1], glm::vec4(0.25f, 0.25f, 0, 0));
-    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // none at all: the first joint
+    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // no weights: the first joint counts fully
     EXPECT_EQ(vertices.joints1[0], glm::u16vec4(2));
     EXPECT_TRUE(scene.ignored.empty());
-    // No inverseBindMatrices: identities.
+    // Without inverseBindMatrices, all matrices are the identity.
     EXPECT_EQ(scene.skins[0].inverseBindMatrices, std::vector<glm::mat4>(3, glm::mat4(1)));
 }
 
@@ -73,7 +73,7 @@ TEST(GltfSkin, furtherInfluencesOutOfRangeAreRefused) {
     EXPECT_THROW((void)builder.load(), Error);
 }
 
-// A triangle without normals whose target lifts one corner: its normals turn with it.
+// A triangle without normals whose morph target lifts one corner: the flat normals follow.
 TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     GltfBuilder builder;
     const int target = builder.positions({0, 0, 0, 0, 0, 1, 0, 0, 0});  // (1, 0, 0) becomes (1, 0, 1)
@@ -84,7 +84,7 @@ TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     EXPECT_LT(glm::length(lifted - glm::normalize(glm::vec3(-1, 0, 1))), 1e-6f);
 }
 
-// Three numbers a tangent: the handedness stays.
+// Tangent offsets of morph targets have three components; the handedness stays constant.
 TEST(GltfMorph, tangentsAndNormalsAreRead) {
     GltfBuilder builder;
     json attributes = attributesOf(builder);
@@ -155,8 +155,8 @@ TEST(GltfAnimation, pointersDriveCamerasLightsAndNodes) {
     EXPECT_FLOAT_EQ(pose.lights.at(0).light.intensity, 15);
     EXPECT_FLOAT_EQ(pose.lights[0].light.color.r, 0.5f);
     EXPECT_DOUBLE_EQ(pose.lights[0].position.y, 4);
-    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");  // materials keep their values
-    EXPECT_EQ(scene.cameras[0].yfov, 0.5);                     // the file's own stay as they are
+    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");  // materials are not animated
+    EXPECT_EQ(scene.cameras[0].yfov, 0.5);                     // the camera keeps the value of the file
 }
 
 TEST(GltfAnimation, pointersToWhatIsMissingAreRefused) {
@@ -176,7 +176,7 @@ TEST(Clips, areFoundByNameAndNumber) {
     scene.clips[0].name = "Survey";
     scene.clips[1].name = "2";
     EXPECT_EQ(clipNamed(scene, "Survey"), 0);
-    EXPECT_EQ(clipNamed(scene, "2"), 1);  // a name goes before a number
+    EXPECT_EQ(clipNamed(scene, "2"), 1);  // a name precedes a number
     EXPECT_EQ(clipNamed(scene, "1"), 1);
     for (const char* wrong : {"3", "-1", "1.0", "", "Walk"})
         EXPECT_THROW((void)clipNamed(scene, wrong), Error) << wrong;

@@ -1,5 +1,5 @@
 #pragma once
-// Small glTF files written by hand: JSON beside binary data, saved as .glb.
+// Builds small glTF files: JSON and binary data, saved as .glb.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,7 @@ public:
         return add("accessors", entry);
     }
 
-    // Tightly packed floats.
+    // Adds an accessor to tightly packed floats.
     int floats(const std::vector<float>& values, const char* type, std::size_t components) {
         return accessor(view(values), gltfFloat, type, values.size() / components);
     }
@@ -54,7 +54,7 @@ public:
         return accessor(view(values), gltfUnsignedShort, "SCALAR", values.size());
     }
 
-    // A mesh of primitives on a node of its own in the scene; returns the mesh.
+    // Adds a mesh of these primitives with a scene node of its own; returns the mesh's index.
     int mesh(const nlohmann::json& primitives, const nlohmann::json& node = nlohmann::json::object()) {
         const int index = add("meshes", {{"primitives", primitives}});
         nlohmann::json entry = {{"mesh", index}};
@@ -80,7 +80,7 @@ public:
         return file.replace(8, 4, word(file.size()));
     }
 
-    // Saves and loads.
+    // Saves the file and loads it.
     [[nodiscard]] Scene load() const {
         const ScratchFolder folder;
         save(folder / "built.glb", glb());

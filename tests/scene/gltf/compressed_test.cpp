@@ -1,4 +1,4 @@
-// Draco and meshopt against the scenes that were compressed (tests/data/compressed).
+// Compares Draco and meshopt files with the scenes that they were made from (tests/data/compressed).
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// The first object as its pose has it, in world space.
+// Posed vertices of the first object, in world space.
 struct Posed {
     Mesh mesh;
     std::vector<glm::dvec3> positions;
@@ -43,8 +43,9 @@ double areaOf(const Posed& posed) {
     return area;
 }
 
-// How far the most distant vertex of `from` is from the nearest of `to` that has its colour, at most two of 255 off in
-// any channel, and its normal, at most three degrees off: seams have several vertices in one place.
+// Max distance from a vertex of `from` to the nearest matching vertex of `to`. Vertices match if each colour channel
+// differs by at most 2 of 255 and the normals by at most 3°. The match separates the vertices that share a position on
+// a seam.
 double farthest(const Posed& from, const Posed& to) {
     double max = 0;
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
@@ -68,8 +69,8 @@ struct CompressedCase {
 
 class Compressed : public testing::TestWithParam<CompressedCase> {};
 
-// glTF-Transform keeps 14 bits of a position over the longest side: the rounding of a corner is at most √3/2 of a step.
-// A skin's matrices, which undo the steps, and a morph target's offsets are rounded too.
+// glTF-Transform keeps 14 bits of a position over the longest side: rounding moves a point by at most √3/2 of a step.
+// Skin matrices, which include the scale of the steps, and offsets of morph targets are rounded too.
 TEST_P(Compressed, isTheOriginalToItsPrecision) {
     const std::filesystem::path path = modelPath(std::filesystem::path("tests/data/compressed") / GetParam().file);
     const std::filesystem::path originalPath = modelPath(std::filesystem::path("meshes") / GetParam().original);

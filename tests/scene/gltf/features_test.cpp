@@ -1,4 +1,4 @@
-// What core glTF 2.0 and the supported extensions can say, each in a file of a few triangles.
+// Features of core glTF 2.0 and of the supported extensions, each in a file of a few triangles.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using IndexList = std::vector<std::uint32_t>;
 
-// The positions of the first mesh's triangles, in order.
+// Positions of the first mesh's triangle corners, in order.
 std::vector<glm::vec3> corners(const Scene& scene) {
     std::vector<glm::vec3> result;
     for (const Primitive& primitive : scene.meshes.at(0).primitives)
@@ -25,7 +25,7 @@ std::vector<glm::vec3> corners(const Scene& scene) {
     return result;
 }
 
-// Five vertices whose x is their number.
+// Five vertices whose x coordinate is their index.
 const std::vector<float> numbered = {0, 0, 0, 1, 0, 1, 2, 0, 0, 3, 0, 1, 4, 0, 0};
 
 std::vector<int> cornerNumbers(const Scene& scene) {
@@ -44,7 +44,8 @@ TEST(GltfTopology, stripsDropTheirStitches) {
     GltfBuilder builder;
     const int indices = builder.indices({0, 1, 2, 2, 3, 4});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(numbered)}}}, {"indices", indices}, {"mode", 5}}});
-    // Triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3: the last is the fourth, so it is turned.
+    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate ones are dropped. The last is the
+    // fourth, so its winding is reversed.
     EXPECT_EQ(cornerNumbers(builder.load()), (std::vector<int>{0, 1, 2, 2, 4, 3}));
 }
 
@@ -99,7 +100,7 @@ TEST(GltfTopology, missingAttributesOfOnePrimitiveAreNeutral) {
 }
 
 TEST(GltfNormals, areFlatWhenTheFileHasNone) {
-    // A square folded along its diagonal: the fold's vertices must not be shared, or it would shade smooth.
+    // A square folded along its diagonal. The fold must not share vertices, which would make its shading smooth.
     GltfBuilder builder;
     const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1});
     builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", builder.indices({0, 1, 2, 1, 3, 2})}}});
@@ -147,7 +148,7 @@ TEST(GltfMesh, trianglesWithoutAPlaceAreLeftOutAndCounted) {
 }
 
 TEST(GltfAccessor, normalisedIntegersOfEveryType) {
-    // Texture coordinates are the plainest place where all forms are allowed.
+    // Texture coordinates allow every component type.
     const auto load = [](int type, const auto& values, bool normalized) {
         GltfBuilder builder;
         const int positions = builder.positions(unitTriangle);
@@ -171,7 +172,7 @@ TEST(GltfAccessor, normalisedIntegersOfEveryType) {
 
 TEST(GltfAccessor, interleavedAttributesShareAView) {
     GltfBuilder builder;
-    // position, normal, uv: 32 bytes a vertex
+    // 32 bytes a vertex: position, normal and uv
     const int view =
         builder.view(std::vector<float>{0, 0, 0, 0, 0, 1, 7, 8, 1, 0, 0, 0, 0, 1, 9, 10, 0, 1, 0, 0, 0, 1, 11, 12}, 32);
     const int positions = builder.accessor(view, gltfFloat, "VEC3", 3);
@@ -323,8 +324,8 @@ TEST(GltfMaterial, layersOfTheExtensions) {
     EXPECT_FALSE(plain.transmits() || plain.hasClearcoat() || plain.hasSheen() || plain.hasOwnReflectance());
 }
 
-// Where both colours are greys there is a metallic-roughness material that reflects the same:
-// s = 0.04·(1 − m) + b·m and d·(1 − s) = (1 − 0.04)·b·(1 − m).
+// If both colours are greys, a metallic-roughness material with the same reflection exists: s = 0.04·(1 − m) + b·m and
+// d·(1 − s) = (1 − 0.04)·b·(1 − m).
 TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
     for (const double diffuse : {0.0, 0.1, 0.5, 0.8})
         for (const double specular : {0.04, 0.1, 0.5, 0.9}) {
@@ -348,7 +349,7 @@ TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
         }
 }
 
-// A dielectric keeps its colour, and so does a metal.
+// Dielectrics and metals both keep their colour.
 TEST(GltfMaterial, specularGlossinessKeepsColours) {
     const auto materialOf = [](const nlohmann::json& extension) {
         GltfBuilder builder;
@@ -405,7 +406,7 @@ nlohmann::json physicalCamera(const nlohmann::json& extension) {
             {"extensions", {{"EXT_camera_physical", extension}}}};
 }
 
-// The example of the draft.
+// The example in the draft of the extension.
 TEST(GltfScene, physicalCamerasAreInMetresAndExtrasWin) {
     GltfBuilder builder;
     builder.json["extensionsUsed"] = {"EXT_camera_physical"};
@@ -452,7 +453,7 @@ TEST(GltfScene, impossiblePhysicalCamerasAreFaults) {
     EXPECT_EQ(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}}), "");
 }
 
-// Millimetres, as of a draft's reader that didn't read on.
+// A file in millimetres, from an exporter that misread the draft's unit.
 TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     GltfBuilder builder;
     builder.json["cameras"] = {physicalCamera({{"focalLength", 35}, {"sensorSize", {36, 24}}})};
@@ -462,7 +463,8 @@ TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     EXPECT_NE(scene.ignored[0].reason.find("millimetres"), std::string::npos);
 }
 
-// Blender's custom properties: those of the camera's data are the camera's extras, those of the object its node's.
+// Custom properties in Blender: those of the camera's data become the camera's extras, and those of the object become
+// its node's extras.
 TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     GltfBuilder builder;
     builder.json["cameras"] = {
@@ -475,7 +477,7 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
 }
 
-// Cycles' polygon has the middle of an edge where ours has a corner: half a blade's angle between them.
+// Cycles' polygon has an edge's middle where this project's has a corner: they differ by half a blade's angle.
 TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     GltfBuilder builder;
     const auto camera = [](const nlohmann::json& extras) -> nlohmann::json {
@@ -527,7 +529,7 @@ TEST(GltfMesh, scalesOfTheBlurThatAreNoneAreFaults) {
     EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of 0 or more"), std::string::npos);
 }
 
-// A triangle with further attributes, one number a vertex.
+// A triangle with additional attributes, one number for each vertex.
 GltfBuilder ownBlurs(const std::vector<std::pair<std::string, std::vector<float>>>& attributes) {
     GltfBuilder builder;
     nlohmann::json all = {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}};
@@ -593,7 +595,7 @@ TEST(GltfScene, instancesCombineTranslationRotationAndScale) {
     GltfBuilder builder;
     const int positions = builder.positions(unitTriangle);
     const int translation = builder.positions({1, 0, 0, 0, 0, 5});
-    // A quarter turn about z as a normalised short, and none.
+    // A quarter turn about z as normalised shorts, and the identity.
     const int rotation = builder.accessor(builder.view(std::vector<std::int16_t>{0, 0, 23170, 23170, 0, 0, 0, 32767}),
                                           gltfShort, "VEC4", 2, {{"normalized", true}});
     const int scale = builder.positions({2, 2, 2, 1, 1, 1});
@@ -604,7 +606,7 @@ TEST(GltfScene, instancesCombineTranslationRotationAndScale) {
                      {{"attributes", {{"TRANSLATION", translation}, {"ROTATION", rotation}, {"SCALE", scale}}}}}}}});
     const Pose pose = poseAt(builder.load(), 0);
     ASSERT_EQ(pose.objects.size(), 2u);
-    // (1, 0, 0) is doubled, turned to (0, 2, 0), moved to (1, 2, 0) and with the node to (1, 12, 0).
+    // (1, 0, 0) is scaled by 2, rotated to (0, 2, 0), moved to (1, 2, 0), and moved by the node to (1, 12, 0).
     EXPECT_LT(glm::length(glm::dvec3(pose.objects[0].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 12, 0)),
               1e-4);
     EXPECT_LT(glm::length(glm::dvec3(pose.objects[1].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 10, 5)),

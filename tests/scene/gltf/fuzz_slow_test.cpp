@@ -1,4 +1,4 @@
-// Real files with pseudo-random damage: loading ends in a scene or an Error, never in anything else. Meant for the
+// Loads real files with pseudo-random damage: each load returns a scene or throws Error. Intended for runs with
 // sanitizers.
 
 #include <gtest/gtest.h>
@@ -15,14 +15,14 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int damagedCopies = 300;  // a file
+constexpr int damagedCopies = 300;  // copies of each file
 
 class Damage {
 public:
     explicit Damage(std::uint32_t seed) : random_(seed) {}
 
-    // One of: flipped bits, other digits in the JSON, a stretch removed, the end cut off; GLB lengths are mended, so
-    // that the fault lies deeper than the container.
+    // Damages a file in one of four ways: flipped bits, changed digits in the JSON, a removed range, or truncation. The
+    // lengths of a GLB are then corrected, so that the fault lies deeper than the container.
     std::string apply(std::string file) {
         const bool glb = file.starts_with("glTF");
         switch (below(4)) {
@@ -88,7 +88,7 @@ TEST_P(DamagedModel, loadsOrIsAnError) {
             EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
         }
     }
-    // Damage that nothing notices, or that everything refuses, would test little.
+    // The test would be weak if no copy were refused, or if all were.
     EXPECT_LT(loaded, damagedCopies);
     EXPECT_GT(loaded, 0);
 }

@@ -1,4 +1,4 @@
-// Broken and hostile files: one line that names the file and the fault, whatever they hold.
+// Broken and hostile files: the error is one line that names the file and the fault, whatever the content.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(InvalidGltf, wrongTypesAreNamedByPlace) {
     expectFault(errorOf(builder), "built.glb", "meshes must be an array");
 }
 
-// JSON has one type of number, so 3.0 is an integer.
+// JSON has a single number type, so 3.0 is an integer.
 TEST(InvalidGltf, integersMayBeWrittenAsFloats) {
     GltfBuilder builder = triangle();
     builder.json["accessors"][0]["count"] = 3.0;
@@ -130,7 +130,7 @@ TEST(InvalidGltf, buffersWithoutDataAreAFaultWhereTheyAreRead) {
     EXPECT_EQ(errorOf(folder / "unused.gltf"), "");
 }
 
-// A picture of a gigabyte in a hundred bytes, and three that share one.
+// A file of a hundred bytes that declares an image of a gigabyte, and three that share one image.
 TEST(InvalidGltf, imagesAreCountedBeforeTheyAreDecoded) {
     GltfBuilder builder = triangle();
     Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -149,7 +149,7 @@ TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
         expectFault(errorOf(builder), "built.glb", "elements");
     }
     GltfBuilder builder = triangle();
-    builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // over a real buffer view
+    builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // more elements than the real buffer view holds
     expectFault(errorOf(builder), "built.glb", "leave buffer view 0");
     builder = triangle();
     builder.json["accessors"][0]["byteOffset"] = (std::uint64_t{1} << 53) - 1;

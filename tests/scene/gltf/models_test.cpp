@@ -1,4 +1,4 @@
-// Real models, against the figures of their README and what is known of them.
+// Compares real models with the figures in their README and with known properties.
 
 #include "models.h"
 
@@ -19,8 +19,8 @@ namespace {
 
 struct ModelFacts {
     const char* file;
-    std::size_t triangles;         // each mesh once
-    std::size_t trianglesInScene;  // once a node that draws it
+    std::size_t triangles;         // counts each mesh once
+    std::size_t trianglesInScene;  // counts a mesh for each node that draws it
 };
 
 class Model : public testing::TestWithParam<ModelFacts> {};
@@ -97,7 +97,7 @@ constexpr ModelFacts models[] = {
 INSTANTIATE_TEST_SUITE_P(Readme, Model, testing::ValuesIn(models),
                          [](const auto& tested) { return testNameOf(tested.param.file); });
 
-// The project's own scenes, against the counts that their accessors state.
+// The project's own scenes have the triangle counts that their accessors state.
 TEST(OwnScenes, haveTheTrianglesTheirAccessorsState) {
     int read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(modelPath("meshes"))) {
@@ -136,7 +136,7 @@ TEST(Models, pointsAndLinesAreCountedAsIgnored) {
     EXPECT_EQ(ignoredCount(scene, "lines"), 3u);
 }
 
-// The same cube, once with floats and once quantised, whose node undoes the quantisation.
+// The same cube with floats and quantised; the quantised cube's node undoes the quantisation.
 TEST(Models, quantisedCubeEqualsThePlainOne) {
     DEFOCUS_MODEL_OR_SKIP(plainPath, "AnimatedMorphCube.glb");
     DEFOCUS_MODEL_OR_SKIP(quantisedPath, "AnimatedMorphCube-Quantized.glb");
@@ -151,8 +151,7 @@ TEST(Models, quantisedCubeEqualsThePlainOne) {
 
 TEST(Models, sparsePositionsReplaceTheBase) {
     DEFOCUS_MODEL_OR_SKIP(path, "SimpleSparseAccessor.gltf");
-    // From the model's description: vertices 8, 10 and 12 of a strip 6 wide and 1 high are lifted to heights 2, 3
-    // and 4.
+    // By the model's description, vertices 8, 10 and 12 of a strip 6 wide and 1 high rise to the heights 2, 3 and 4.
     EXPECT_EQ(glm::vec3(loadGltf(path).meshes.at(0).bounds().maximum), glm::vec3(6, 4, 0));
 }
 
@@ -164,7 +163,7 @@ TEST(Models, instancesBecomeObjects) {
     EXPECT_NE(pose.objects[0].worldFromObject[3], pose.objects[124].worldFromObject[3]);
 }
 
-// Its markers say where the diagonal arrow of the texture must appear: 45° in the texture, whatever the transform.
+// The model's markers show where the texture's diagonal arrow must appear: at 45° in the texture, for every transform.
 TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     DEFOCUS_MODEL_OR_SKIP(path, "TextureTransformTest/TextureTransformTest.gltf");
     const Scene scene = loadGltf(path);
@@ -183,7 +182,7 @@ TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     EXPECT_NEAR(scaled.x, 0.7778, 1e-3);
     EXPECT_NEAR(scaled.y, 0.7778, 1e-3);
     const glm::vec3 all = transformed("All", "All - Correct");
-    EXPECT_NEAR(all.x, 0.7778, 0.05);  // set by hand there
+    EXPECT_NEAR(all.x, 0.7778, 0.05);  // the model's author placed this marker by hand
     EXPECT_NEAR(all.y, 0.7778, 0.05);
 }
 

@@ -1,5 +1,5 @@
-// Files that hold very many of one thing: each is right, and none takes the square of their number (which at these
-// numbers would end in the tests' time-out). What nodes share is counted for each of them.
+// Files with very many elements of one kind load correctly. None takes quadratic time, which would exceed the tests'
+// time limit. Data that nodes share counts for each node.
 
 #include <gtest/gtest.h>
 

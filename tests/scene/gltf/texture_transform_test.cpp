@@ -1,4 +1,4 @@
-// KHR_texture_transform: the coordinates are scaled, then turned counter-clockwise (v grows downwards), then moved.
+// KHR_texture_transform scales the coordinates, rotates them counter-clockwise (v points down), then translates them.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ void expectPlaced(const nlohmann::json& transform, const glm::dvec2& from, const
 TEST(GltfTextureTransform, movesTurnsAndScales) {
     expectPlaced({{"offset", {0.25, -0.5}}}, {0.5, 0.5}, {0.75, 0});
     expectPlaced({{"scale", {2, 3}}}, {0.5, 0.5}, {1, 1.5});
-    expectPlaced({{"rotation", std::acos(0.0)}}, {1, 0}, {0, -1});  // to the right becomes up
+    expectPlaced({{"rotation", std::acos(0.0)}}, {1, 0}, {0, -1});  // right becomes up
     expectPlaced({{"rotation", std::acos(0.0)}}, {0, 1}, {1, 0});
     const double angle = 0.4;
     expectPlaced({{"offset", {0.1, 0.2}}, {"rotation", angle}, {"scale", {2, 3}}}, {1, 1},

@@ -16,7 +16,7 @@
 namespace defocus::engine {
 namespace {
 
-// Two primitives over five vertices, of which the first isn't used; values that no short decimal holds.
+// Two primitives with five vertices, the first of which is unused. The values have no short decimal form.
 Mesh twoPrimitives() {
     Mesh mesh;
     mesh.name = "bent \"sheet\"";
@@ -75,7 +75,7 @@ std::uint32_t wordAt(const std::vector<std::byte>& bytes, std::size_t offset) {
     return word;
 }
 
-// As the standard describes the container, apart from our loader.
+// Splits a GLB container by the standard, independently of the loader.
 Glb parts(const std::vector<std::byte>& file) {
     EXPECT_EQ(wordAt(file, 0), 0x46546c67u);
     EXPECT_EQ(wordAt(file, 4), 2u);
@@ -124,8 +124,8 @@ TEST(GltfWrite, LeavesOutWhatTheStandardForbids) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     Mesh mesh = twoPrimitives();
     mesh.vertices.positions[4].x = nan;      // both triangles of the second primitive
-    mesh.vertices.normals[1] = {0, 0, 0};    // no direction
-    mesh.vertices.normals[2] = {nan, 1, 0};  //
+    mesh.vertices.normals[1] = {0, 0, 0};    // zero length
+    mesh.vertices.normals[2] = {nan, 1, 0};  // NaN
     mesh.vertices.uv0[3] = {std::numeric_limits<float>::infinity(), 0};
     const Mesh read = readBack(mesh);
     ASSERT_EQ(read.primitives.size(), 1u);

@@ -1,4 +1,4 @@
-// What a window keeps from one run to the next: recent scenes and saved views.
+// Files that a window keeps between runs: recent scenes and saved views.
 
 #include "view/document/kept_files.h"
 
@@ -104,7 +104,7 @@ TEST_F(WindowMemory, viewsWithoutSenseAreLeftOutAndNoJsonIsAFault) {
     EXPECT_EQ(readSavedViews(views(), "a").size(), 1u);
     std::ofstream(views()) << "[";
     EXPECT_THROW(readSavedViews(views(), "a"), Error);
-    EXPECT_THROW(writeSavedViews(views(), "a", {view}), Error);  // what others keep there isn't thrown away
+    EXPECT_THROW(writeSavedViews(views(), "a", {view}), Error);  // files of other programs are not overwritten
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ std::optional<LoadedScene> waitedFor(SceneLoader& loader) {
     return std::nullopt;
 }
 
-// Whenever it ends: also between two looks of one call at it.
+// The loader returns the scene exactly once, even if the loading ends between two checks in one call.
 TEST(SceneLoader, handsOverWhatItOpenedOnce) {
     SceneLoader loader;
     Request absent;

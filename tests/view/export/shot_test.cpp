@@ -1,4 +1,4 @@
-// Key frames of a window, read back as `defocus capture` reads them.
+// Key frames of a window, as `defocus capture` reads them back.
 
 #include "view/export/shot.h"
 
@@ -80,7 +80,7 @@ TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
-// A camera that turns on through upside down is not sent back the long way.
+// A camera that rolls on through upside down does not turn back the long way.
 TEST(ViewShot, rollGoesTheShortWay) {
     std::vector<ShotKey> keys(3, keyAt({0, 1, 5}, 2, 2));
     const double degrees[] = {170, 190, 350};
@@ -93,7 +93,7 @@ TEST(ViewShot, rollGoesTheShortWay) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(camera.rolls[i].value, degrees[i], 1e-9);
 }
 
-// What the file says of a key, over the lens that the scene's camera has.
+// The lens at a key: the values in the file override those of the scene camera's lens.
 Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
     for (const auto& [name, track] : shot.lens)
         setLensField(lens, *lensFieldNamed(name), track.keys[track.keys.size() == 1 ? 0 : key].value);
@@ -101,7 +101,7 @@ Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
     return lens;
 }
 
-// What a shot file says of them.
+// Expects that the request read from a shot file equals `options` in everything that the file stores.
 void expectSameOfShot(const Request& read, const Request& options) {
     EXPECT_EQ(read.scene.filename(), options.scene);
     EXPECT_EQ(read.time, options.time);
@@ -128,7 +128,7 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         SCOPED_TRACE(seed);
         Dice dice(seed);
         Request options = randomOptions(dice);
-        options.environment.clear();  // made absolute, as the scene is
+        options.environment.clear();  // the path becomes absolute, as the scene's does
         Lens cameraLens;
         changeFields(cameraLens, dice);
         std::vector<ShotKey> keys(static_cast<std::size_t>(dice.whole(1, 3)));
@@ -165,7 +165,7 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
                 const bool brightness =
                     field.name == std::string_view("exposureTime") || field.name == std::string_view("iso");
                 if (brightness && !ofLens) continue;
-                // No limit is the largest that a file can say.
+                // An unlimited value is stored as the max value that a file can hold.
                 EXPECT_DOUBLE_EQ(std::min(field.max, lensFieldValue(again, field)),
                                  std::min(field.max, lensFieldValue(keys[i].view.lens, field)))
                     << field.name;

@@ -35,7 +35,7 @@ TEST(CameraControls, orbitKeepsPivotAndDistance) {
     expectNear(camera.pivot(), pivot, 1e-9);
     EXPECT_NEAR(glm::length(camera.position() - pivot), example().pivotDistance, 1e-9);
     expectRigid(camera);
-    EXPECT_NEAR(camera.worldFromCamera[0].y, 0, 1e-9);  // the horizon stays level
+    EXPECT_NEAR(camera.worldFromCamera[0].y, 0, 1e-9);  // the horizon stays horizontal
 }
 
 TEST(CameraControls, aWholeOrbitEndsWhereItBegan) {

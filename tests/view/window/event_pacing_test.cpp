@@ -31,7 +31,7 @@ WindowEvent button(bool pressed, double x) {
     return event;
 }
 
-// How many events each frame takes.
+// Number of events that each frame consumes.
 std::vector<std::size_t> frames(std::deque<WindowEvent> queue, bool interfaceHasHand) {
     std::vector<std::size_t> counts;
     const EventPace pace{interfaceHasHand, {100, 100}};
@@ -67,7 +67,7 @@ TEST(EventPacing, aWordIsOneFrameAndADoubledLetterTwo) {
         word.push_back(text(static_cast<char32_t>(letter)));
         word.push_back(key(letter - 'a' + 'A', false));
     }
-    EXPECT_EQ(frames(word, true), (Counts{12, 3}));  // the second e
+    EXPECT_EQ(frames(word, true), (Counts{12, 3}));  // the second e waits
 }
 
 TEST(EventPacing, whoTakesTheKeysIsKnownAFrameAfterAClick) {
@@ -88,7 +88,7 @@ TEST(EventPacing, nothingIsLostNorPutOutOfOrder) {
         queue.push_back(kind == 0   ? button(i % 2 == 0, i % 3 * 60)
                         : kind == 1 ? text(static_cast<char32_t>(i))
                                     : key(i * 31 % 400, i % 3 != 0, i % 7 == 0));
-        queue.back().scroll.x = i;  // its number
+        queue.back().scroll.x = i;  // index of the event
     }
     int next = 0;
     while (!queue.empty()) {

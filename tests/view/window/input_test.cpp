@@ -17,7 +17,7 @@ protected:
         event.control = control;
         input.handle(event, context, state, actions);
     }
-    // How far a tenth of a second takes the camera.
+    // Distance that the camera moves in a tenth of a second.
     double flown() {
         const glm::dvec3 before = state.camera.position();
         input.fly(context, 0.1, state);
@@ -38,7 +38,7 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     key(key::leftShift, true);
     EXPECT_NEAR(flown(), 4 * slow, 1e-12 * slow);
     key(key::leftShift, false);
-    key('S', true);  // against each other
+    key('S', true);  // opposite keys
     EXPECT_EQ(flown(), 0);
     key('S', false);
     EXPECT_NEAR(flown(), slow, 1e-12 * slow);
@@ -46,7 +46,8 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     EXPECT_EQ(flown(), 0);
 }
 
-// A still and the view would differ by some millimetres, depending on when a frame looks at the keyboard.
+// Otherwise an exported still and the view would differ by some millimetres, depending on when a frame reads the
+// keyboard.
 TEST_F(ViewInputKeys, commandsDontFlyWhicheverKeyIsLetGoFirst) {
     key(key::leftControl, true);
     key('E', true, true);

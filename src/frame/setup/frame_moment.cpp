@@ -1,4 +1,4 @@
-#include "frame/driver/frame_moment.h"
+#include "frame/setup/frame_moment.h"
 
 namespace defocus::engine {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The state of a scene, its lights and its camera for one frame: all that changes between frames of a film.
+// State of the scene, lights and camera for one frame: everything that changes between the frames of a film.
 
 #include <vector>
 
@@ -10,19 +10,19 @@
 namespace defocus::engine {
 
 struct FrameMoment {
-    int frame = 0;    // number in its film
-    double time = 0;  // s into the animation clip
-    Pose pose;        // in the middle of the exposure
+    int frame = 0;    // frame number in the film
+    double time = 0;  // seconds in the animation clip
+    Pose pose;        // pose in the middle of the exposure
     Shutter shutter;
     std::vector<PlacedLight> lights;
     View view;
     RenderSettings settings;
 };
 
-// Returns the moment that a prepared frame shows.
+// Returns the state of a prepared frame at the request's time.
 FrameMoment momentOf(const PreparedFrame& frame, const Request& request);
 
-// Moves the world to the moment.
+// Sets the world's pose, shutter and lights to those of the moment.
 void applyMoment(const FrameMoment& moment, World& world);
 
 }  // namespace defocus::engine

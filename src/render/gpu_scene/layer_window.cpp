@@ -1,4 +1,4 @@
-#include "render/sampling/layer_window.h"
+#include "render/gpu_scene/layer_window.h"
 
 namespace defocus::engine {
 

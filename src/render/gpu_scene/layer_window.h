@@ -1,21 +1,21 @@
 #pragma once
-// Which pixels of a frame's layers are drawn and summed, and where the layers lie in the image. OpenGL's order: row 0
-// is the bottom row.
+// The pixels of a frame's layers that are drawn and summed, and the position of the layers in the image. Row 0 is the
+// bottom row, as in OpenGL.
 
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
 struct LayerWindow {
-    // Of the layers, px.
+    // Size of the layers, px.
     int layerWidth = 0;
     int layerHeight = 0;
-    // What is summed: a rectangle of the layers, px.
+    // Rectangle of the layers that is summed, px.
     int left = 0;
     int bottom = 0;
     int width = 0;
     int height = 0;
-    // Where pixel (0, 0) of the layers lies in the image, and the image's size, px.
+    // Position of the layers' pixel (0, 0) in the image, and size of the image, px.
     int imageLeft = 0;
     int imageBottom = 0;
     int imageWidth = 0;
@@ -25,7 +25,8 @@ struct LayerWindow {
     bool operator==(const LayerWindow&) const = default;
 };
 
-// Of the plan's tile, or of the whole image. What transmits may show any pixel of a layer, so nothing is cut then.
+// Returns the window of the plan's tile, or of the full image. With transmission `cut` is false, since such surfaces
+// may show any pixel of a layer.
 LayerWindow layerWindow(const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-#include "frame/report/program_facts.h"
+#include "frame/program_facts.h"
 
 #include <filesystem>
 #include <iterator>
