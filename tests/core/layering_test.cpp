@@ -146,7 +146,7 @@ TEST(Layering, foreignLibrariesStayInTheirPlace) {
         {R"(#\s*include\s*[<"](imgui|backends/imgui))", "^view/"},
         {R"(#\s*include\s*<GLFW/|\bglfw[A-Z])", "^(gl/window|view/window/interface)\\."},
         {R"(#\s*include\s*"gl/window\.h")", "^(gl/window\\.|view/)"},
-        {R"(#\s*include\s*"view/)", "^(view/|cli/view\\.)"},
+        {R"(#\s*include\s*"view/)", "^(view/|cli/commands/view\\.)"},
     };
     const std::vector<Line> lines = sourceLines();
     for (const Place& place : places) {
