@@ -15,8 +15,8 @@ def span(values, digits):
 
 def by_size_only(bench_has):
     """Returns the sentence under a table that no command of the current program repeats."""
-    return (f"\nLevels were chosen by size, which was the default then. {bench_has} no option for it, so only the program of that time "
-            "measures them again.\n")
+    return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
+            "repeats the figures.\n")
 
 
 def scaling():
@@ -55,13 +55,35 @@ def distance(rows):
             f"{100 * every[4] / every[1]:.0f} % of the levels; {every[3]:.1f} at worst ({worst})")
 
 
+def pyramid_sections():
+    return [section.splitlines() for section in "\n".join(line.strip() for line in lines_of("llvmpipe-pyramids")).split("\n\n")]
+
+
+def pyramid_memory():
+    """Returns the text on the peak memory of building pyramids."""
+    times = pyramid_sections()[0]
+    timed = ending_in_numbers(times, 12)
+    large = [(name, values) for name, values in timed if values[0] >= 50_000]
+    bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
+    return (f"{span([values[1] for name, values in large if 'flat' not in name], 0)} bytes a triangle; with flat shading "
+            f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
+            f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)")
+
+
+def memory():
+    peaks = {line.split("  ")[0]: re.split(r"\s{2,}", line.strip())[-1] for line in lines_of("llvmpipe-demo")}
+    rows = [*([f"the school of fish, 1024 × 768, 64 lens samples, {mode}", peaks[mode], "demo", "scripts/demo"]
+              for mode in ("full detail", "fractional levels")),
+            ["building pyramids", pyramid_memory(), "pyramids", "defocus_pyramid_bench --million MODEL…"]]
+    return table(["what", "peak memory", "command"], [
+        [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}.txt))"] for what, figure, run, command in rows])
+
+
 def pyramids():
-    sections = "\n".join(line.strip() for line in lines_of("llvmpipe-pyramids")).split("\n\n")
-    times, distances, looks, normals = (section.splitlines() for section in sections)
+    times, distances, looks, normals = pyramid_sections()
     timed = ending_in_numbers(times, 12)
     large = [(name, values) for name, values in timed if values[0] >= 50_000]
     fish = min((values for name, values in timed if name == "fish"), key=lambda values: values[0])
-    bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
     fitted = [values for _, values in ending_in_numbers(normals, 9)]
     loads = [numbers(line)[5] / 1000 for line in lines_of("llvmpipe-cache") if re.match(r" *\d+ ", line)]
     rows = [
@@ -75,10 +97,6 @@ def pyramids():
          f"{span([values[10] for _, values in large], 1)} times as fast; {fish[4]:.2f} s for a fish of 90 k triangles"],
         ["time of whole pyramids of the same meshes, with all that is fitted and measured, against DecimaterT alone",
          f"{span([values[11] for _, values in large], 1)} times as fast; {fish[2]:.2f} s for the fish"],
-        ["peak memory of building the same pyramids",
-         f"{span([values[1] for name, values in large if 'flat' not in name], 0)} bytes a triangle; with flat shading "
-         f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
-         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
         ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{span(loads, 2)} s"]]
     return table(["what", "figure"], rows) + source(
         "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
@@ -122,10 +140,11 @@ def stability():
                      "each case has its own truth and a limit that stands in the source")
 
 
-def honesty():
+def honesty(every_setting=True):
     methods = {}
     for row in run_of("llvmpipe-stability")["lensHonesty"]:
-        methods.setdefault(row["method"], []).append(row)
+        if every_setting or ":" not in row["method"]:
+            methods.setdefault(row["method"], []).append(row)
     rows = []
     for method, cases in methods.items():
         if cases[-1].get("leftOut"):
@@ -150,6 +169,53 @@ def sequences():
         rows.append([f"`{name}`", *(f"{value / 1000:.5f}" for value in numbers(values)[2:16:4])])
     return table(["RMSE, school of fish", "16 samples", "64", "256", "1,024"], rows) + source(
         "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
+
+
+# Method and setting, samples, milliseconds, PSNR, FLIP.
+METHOD_ROW = re.compile(r"[*+f ]{3}(\S.*?)\s+(\d+)\s+([\d.]+)\s+[\d.]+ to [\d.]+\s+\d+\s+\d+\s+([\d.]+)\s+[\d.]+\s+([\d.]+)")
+
+
+def method_rows(name):
+    """Returns {scene: {(method and setting, samples): (milliseconds, PSNR, FLIP)}} of the first table of each scene in a text of
+    `bench convergence`."""
+    scenes = {}
+    for line in lines_of(name):
+        if scene := re.match(r"(.+), \d+ x \d+ px, \d+ runs", line):
+            rows = {}
+            scenes.setdefault(scene[1], rows)
+        elif row := METHOD_ROW.match(line):
+            rows[row[1], int(row[2])] = tuple(map(float, row.groups()[2:]))
+    return scenes
+
+
+def command_in(name, scene):
+    """Returns the first command in a text of `bench convergence` whose arguments contain a text."""
+    return next(line[2:] for line in lines_of(name) if line.startswith("$ ") and scene in line)
+
+
+def few_images():
+    """Errors of methods that draw few images, as published, by default and at their best."""
+    name = "llvmpipe-circular"
+    forms = {"published": "as published", "best": "at its best", None: "default"}
+    rows = []
+    for (method, images), (_, psnr, flip) in method_rows(name)["fish school"].items():
+        if setting := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, standard|, lod=off)", method):
+            rows.append([f"`{setting[1]}`", forms[setting[2]], images, f"{psnr:.1f} dB", f"{flip:.4f}"])
+    return table(["method", "form", "images or samples", "PSNR", "FLIP"], rows) + source(
+        command_in(name, "--fish 10"), "scene, camera, lens, image size, reference, process", f"{name}.txt")
+
+
+def layers():
+    """Times and errors of layers and of the accumulation over the number of lens samples."""
+    methods = ("accumulation, lod=off", "layered, lod=off", "layered, pinholes=1 lod=off")
+    scene = method_rows("llvmpipe-layered")["fish school"]
+    counts = sorted({count for _, count in scene})
+    rows = [[count, *(f"{scene[method, count][0] / 1000:.1f} s" for method in methods),
+             *(f"{scene[method, count][1]:.1f} dB" for method in methods)] for count in counts]
+    return table(["lens samples", "accumulation", "`layered`", "`layered:pinholes=1`", "PSNR, accumulation", "`layered`",
+                  "`layered:pinholes=1`"], rows) + source(
+        command_in("llvmpipe-layered", "--size 512x384"),
+        "scene, camera, lens, full detail, image size, reference, process", "llvmpipe-layered.txt")
 
 
 def parts():
@@ -229,4 +295,5 @@ def lens_level_table():
 
 
 TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": truth, "shadows": shadows, "stability": stability, "honesty": honesty,
+          "lens equation": lambda: honesty(every_setting=False), "memory": memory, "few images": few_images, "layers": layers,
           "sequences": sequences, "parts": parts, "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_level_table}

@@ -54,13 +54,29 @@ def measured():
                            "times that, levels"], rows)
 
 
+def levels():
+    """Times and errors of levels by measured error, without the parts."""
+    rows = [[count, *times(modes), f"{modes['fractional']['speedUp']:.1f}", *error_ratios(modes)] for count, modes in samples_sweep(OWN)]
+    return run_table(OWN, ["lens samples", "full detail", "levels", "times as fast", "times the RMSE", "times the FLIP"], rows)
+
+
+def published_ratios():
+    """Speed-up and error of levels as published and by default."""
+    def ratios(modes):
+        return [f"{modes['fractional']['speedUp']:.1f}", error_ratios(modes)[0]]
+
+    own = dict(samples_sweep(OWN))
+    rows = [[count, *ratios(theirs), *ratios(own[count])] for count, theirs in samples_sweep(OWN, "jeong2011")]
+    return run_table(OWN, ["lens samples", "`jeong2011`: times as fast", "times the RMSE", "default: times as fast", "times the RMSE"], rows)
+
+
 def published():
     """The published algorithm and the defaults: frame times over lens samples, as in Figure 2 of the paper."""
     own = dict(samples_sweep(OWN))
     rows = [[count, name, *times(modes), *speed_ups(modes["fractional"]), f"{modes['off']['fromReference']['rmse']:.4f}",
              f"{modes['fractional']['fromReference']['rmse']:.4f}", error_ratios(modes)[0]]
             for count, theirs in samples_sweep(OWN, "jeong2011")
-            for name, modes in (("`jeong2011`, Halton", theirs), ("today's default, Sobol", own[count]))]
+            for name, modes in (("`jeong2011`, Halton", theirs), ("default, Sobol", own[count]))]
     return run_table(OWN, ["lens samples", "settings", "full detail", "levels", "times as fast", "size only", "blur only",
                            "RMSE, full detail", "RMSE, levels", "times the error"], rows)
 
@@ -164,4 +180,4 @@ def gpu_equal_error():
 
 TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
-          "published": published, "lenses": lenses, "popping": popping, "rates": rates}
+          "levels": levels, "published ratios": published_ratios, "published": published, "lenses": lenses, "popping": popping, "rates": rates}

@@ -1,4 +1,4 @@
-"""Writes the tables of README.md and docs/ from the results under bench/results.
+"""Writes the tables of README.md, docs/results.md and bench/results from the results under bench/results.
 
     scripts/figures tables            write them
     scripts/figures tables --check    exit code 1 if a page differs
@@ -20,7 +20,8 @@ from figures.results import command_of, run_of
 from figures.rows import time_to_error
 
 TABLES = speed_tables.TABLES | bench_tables.TABLES
-PAGES = {"README.md": False, "docs/results.md": False, "bench/results/llvmpipe-methods.md": True}  # whether methods show all rows
+PAGES = {"README.md": False, "docs/results.md": False, "bench/results/details.md": False,
+         "bench/results/llvmpipe-methods.md": True}  # whether methods show all rows
 BLOCK = re.compile(rf"(<!-- ({'|'.join(['methods', 'equal error', *TABLES])})(?:: ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
 LEVELS = {"lod=off": "full detail", "lod=fractional metric=measured thresholds=1": "levels",
           "lod=fractional metric=size thresholds=1": "fractional levels"}
@@ -87,13 +88,18 @@ def block_text(kind, paths, everything):
     return equal_error_table(names) if kind == "equal error" else TABLES[kind]()
 
 
+def links_from(page, text):
+    """Returns the text with links to results that resolve from a page, which lies in docs/ or in bench/results/."""
+    return text.replace("](../bench/results/", "](") if page.startswith("bench/results/") else text
+
+
 def main(words):
     parser = parser_of("tables", __doc__)
     parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if a page differs")
     arguments = parser.parse_args(words)
     for page, everything in PAGES.items():
         text = (ROOT / page).read_text()
-        written = BLOCK.sub(lambda block: block[1] + block_text(block[2], block[3], everything) + block[4], text)
+        written = BLOCK.sub(lambda block: block[1] + links_from(page, block_text(block[2], block[3], everything)) + block[4], text)
         if written == text:
             continue
         if arguments.check:

@@ -186,7 +186,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"cacheFolder", {{"--cache-dir", "kept"}, {}, true}},
         {"noCache", {{"--no-cache"}, {}, true}},
         {"method", {{"--method", "circular"}, blurred}},
-        {"layerFormat", {{"--layer-format", "rgba8"}, {}}},
+        {"layerFormat", {{"--layer-format", "rgba32f"}, {}}},
         {"lodMetric", {{"--lod-metric", "error"}, {"--fstop", "0.3"}, true}},
         {"levelVertices", {{"--level-vertices", "surviving"}, {"--fstop", "0.3"}, true}},
         {"preset", {{"--preset", "jeong2011"}, {"--fstop", "0.3"}, true}},
