@@ -19,13 +19,15 @@ def by_size_only(bench_has):
             "repeats the figures.\n")
 
 
-def scaling():
+def scaling(with_parts=True):
     axes = {"triangles": "triangles, 100 k to 10 M", "instances": "instances, 1 to 10,000", "samples": "lens samples, 2 to 64",
             "pixels": "pixels, 640 × 480 to 3840 × 2160", "blur": "blur, f/16 to f/1"}
     curves = {(curve["axis"], curve["lod"]): curve for curve in run_of("llvmpipe-scaling")["curves"]}
     rows = [[name, *(f"{curves[axis, lod]['time']['exponent']:.2f}" for lod in ("off", "fractional")),
              curves[axis, "fractional"]["bounds"]] for axis, name in axes.items()]
     header = ["what grows", "exponent, full detail", "exponent, levels", "what takes the time, with levels"]
+    if not with_parts:
+        return run_table("llvmpipe-scaling", header[:-1], [row[:-1] for row in rows])
     return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
 
 
@@ -60,32 +62,40 @@ def pyramid_sections():
 
 
 def pyramid_memory():
-    """Returns the text on the peak memory of building pyramids."""
+    """Returns the peak bytes a triangle of building pyramids: of large meshes, and {name: bytes} of all."""
     times = pyramid_sections()[0]
     timed = ending_in_numbers(times, 12)
-    large = [(name, values) for name, values in timed if values[0] >= 50_000]
     bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
-    return (f"{span([values[1] for name, values in large if 'flat' not in name], 0)} bytes a triangle; with flat shading "
-            f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
-            f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)")
+    return span([values[1] for name, values in timed if values[0] >= 50_000 and 'flat' not in name], 0), bytes_each
 
 
 def memory():
     peaks = {line.split("  ")[0]: re.split(r"\s{2,}", line.strip())[-1] for line in lines_of("llvmpipe-demo")}
-    rows = [*([f"the school of fish, 1024 × 768, 64 lens samples, {mode}", peaks[mode], "demo", "scripts/demo"]
-              for mode in ("full detail", "fractional levels")),
-            ["building pyramids", pyramid_memory(), "pyramids", "defocus_pyramid_bench --million MODEL…"]]
+    rows = [[f"frame of the school, {mode}", peaks[mode], "demo", "scripts/demo"] for mode in ("full detail", "fractional levels")]
+    large, bytes_each = pyramid_memory()
+    rows.append(["building pyramids", f"{large} bytes a triangle; {bytes_each['fish, flat-shaded']:.0f} with flat shading", "pyramids",
+                 "defocus_pyramid_bench --million MODEL…"])
     return table(["what", "peak memory", "command"], [
         [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}.txt))"] for what, figure, run, command in rows])
 
 
-def pyramids():
+def pyramids(summary=False):
     times, distances, looks, normals = pyramid_sections()
     timed = ending_in_numbers(times, 12)
     large = [(name, values) for name, values in timed if values[0] >= 50_000]
     fish = min((values for name, values in timed if name == "fish"), key=lambda values: values[0])
     fitted = [values for _, values in ending_in_numbers(normals, 9)]
     loads = [numbers(line)[5] / 1000 for line in lines_of("llvmpipe-cache") if re.match(r" *\d+ ", line)]
+    if summary:
+        every = dict(ending_in_numbers(distances, 5))["all"]
+        gains = [values[4] - values[5] for _, values in ending_in_numbers(looks, 8)]
+        return table(["against", "what", "figure"], [
+            ["meshoptimizer", "PSNR under the blur that picks the level, equal triangles", f"{mean(gains):+.1f} dB in the mean"],
+            ["meshoptimizer", "distance to the mesh, equal triangles", f"{every[2]:.2f} times in the mean"],
+            ["DecimaterT", "speed of simplification, one thread", f"{span([values[10] for _, values in large], 1)} times as fast"],
+            ["DecimaterT", "speed of whole pyramids, one thread", f"{span([values[11] for _, values in large], 1)} times as fast"]
+        ]) + source("defocus_pyramid_bench --million MODEL…", "mesh and number of triangles", "llvmpipe-pyramids.txt")
+    memory_of_large, bytes_each = pyramid_memory()
     rows = [
         ["PSNR against meshoptimizer's level of as many triangles, under the blur that picks the level",
          gain([values[4] - values[5] for _, values in ending_in_numbers(looks, 8)])],
@@ -97,6 +107,10 @@ def pyramids():
          f"{span([values[10] for _, values in large], 1)} times as fast; {fish[4]:.2f} s for a fish of 90 k triangles"],
         ["time of whole pyramids of the same meshes, with all that is fitted and measured, against DecimaterT alone",
          f"{span([values[11] for _, values in large], 1)} times as fast; {fish[2]:.2f} s for the fish"],
+        ["peak memory of building the same pyramids",
+         f"{memory_of_large} bytes a triangle; with flat shading "
+         f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
+         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
         ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{span(loads, 2)} s"]]
     return table(["what", "figure"], rows) + source(
         "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
@@ -143,7 +157,7 @@ def stability():
 def honesty(every_setting=True):
     methods = {}
     for row in run_of("llvmpipe-stability")["lensHonesty"]:
-        if every_setting or ":" not in row["method"]:
+        if every_setting or not re.search(":|embree", row["method"]):
             methods.setdefault(row["method"], []).append(row)
     rows = []
     for method, cases in methods.items():
@@ -196,29 +210,28 @@ def command_in(name, scene):
 def few_images():
     """Errors of methods that draw few images, as published, by default and at their best."""
     name = "llvmpipe-circular"
-    forms = {"published": "as published", "best": "at its best", None: "default"}
+    forms = {"published": "published", "best": "best", None: "default"}
     rows = []
     for (method, images), (_, psnr, flip) in method_rows(name)["fish school"].items():
         if setting := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, standard|, lod=off)", method):
-            rows.append([f"`{setting[1]}`", forms[setting[2]], images, f"{psnr:.1f} dB", f"{flip:.4f}"])
-    return table(["method", "form", "images or samples", "PSNR", "FLIP"], rows) + source(
+            rows.append([f"`{setting[1]}`", forms[setting[2]], images, f"{psnr:.1f}", f"{flip:.4f}"])
+    return table(["method", "form", "images or samples", "PSNR, dB", "FLIP"], rows) + source(
         command_in(name, "--fish 10"), "scene, camera, lens, image size, reference, process", f"{name}.txt")
 
 
 def layers():
     """Times and errors of layers and of the accumulation over the number of lens samples."""
-    methods = ("accumulation, lod=off", "layered, lod=off", "layered, pinholes=1 lod=off")
+    methods = ("accumulation, lod=off", "layered, lod=off")
     scene = method_rows("llvmpipe-layered")["fish school"]
     counts = sorted({count for _, count in scene})
-    rows = [[count, *(f"{scene[method, count][0] / 1000:.1f} s" for method in methods),
-             *(f"{scene[method, count][1]:.1f} dB" for method in methods)] for count in counts]
-    return table(["lens samples", "accumulation", "`layered`", "`layered:pinholes=1`", "PSNR, accumulation", "`layered`",
-                  "`layered:pinholes=1`"], rows) + source(
+    rows = [[count, *(f"{scene[method, count][0] / 1000:.1f}" for method in methods),
+             *(f"{scene[method, count][1]:.1f}" for method in methods)] for count in counts]
+    return table(["lens samples", "accumulation, s", "`layered`, s", "accumulation, dB", "`layered`, dB"], rows) + source(
         command_in("llvmpipe-layered", "--size 512x384"),
         "scene, camera, lens, full detail, image size, reference, process", "llvmpipe-layered.txt")
 
 
-def parts():
+def parts(summary=False):
     def fastest(sky):
         rows = [line.split() for line in lines_of("llvmpipe-waves") if line.startswith(sky) and " rgba16f " in line]
         return min(float(row[3]) for row in rows)
@@ -231,6 +244,16 @@ def parts():
     clusters = [numbers_after(lines[:at], levels) for levels in ("off", "fractional")]
     hidden = [numbers_after(lines[at:], f"hidden, {levels}") for levels in ("off", "fractional")]
     elisions = lines_of("llvmpipe-elisions")
+    if summary:
+        out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
+                              ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
+        return table(["what is left out: times as fast", "full detail", "levels"], [
+            ["clusters that face away or lie outside, school of fish", *(f"{row[6]:.2f}" for row in clusters)],
+            ["hidden parts, on the CPU, twenty FlightHelmets", *(f"{row[4]:.2f}" for row in hidden)],
+            ["objects that no lens sample sees, most fish out of view", "", out_of_view],
+            ["48 of 64 samples where no blur reaches half a pixel (f/64)", "", sharp]
+        ]) + ("\nCommand: `defocus_cluster_bench` ([run](../bench/results/llvmpipe-clusters.txt)), `defocus_elision_bench` "
+              "([run](../bench/results/llvmpipe-elisions.txt)).\n")
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     rows = [
         ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
@@ -296,4 +319,6 @@ def lens_level_table():
 
 TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": truth, "shadows": shadows, "stability": stability, "honesty": honesty,
           "lens equation": lambda: honesty(every_setting=False), "memory": memory, "few images": few_images, "layers": layers,
+          "exponents": lambda: scaling(with_parts=False), "pyramid summary": lambda: pyramids(summary=True),
+          "parts summary": lambda: parts(summary=True),
           "sequences": sequences, "parts": parts, "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_level_table}

@@ -1,4 +1,4 @@
-"""Draws the plots of docs/results.md from the results under bench/results, as SVG files under docs/plots. Needs matplotlib
+"""Draws the plots of bench/results/details.md from the results under bench/results, as SVG files under docs/plots. Needs matplotlib
 (Debian: python3-matplotlib).
 
     scripts/figures plots

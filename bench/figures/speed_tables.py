@@ -4,7 +4,8 @@ import re
 import textwrap
 
 from figures.markdown import run_source, run_table, source, table
-from figures.results import accumulation_rows, error_ratio, lines_of, numbers, numbers_after, rmse, run_of, samples_sweep, seconds
+from figures.results import (accumulation_rows, command_of, error_ratio, lines_of, numbers, numbers_after, rmse, run_of, samples_sweep,
+                             seconds)
 
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
@@ -55,9 +56,14 @@ def measured():
 
 
 def levels():
-    """Times and errors of levels by measured error, without the parts."""
-    rows = [[count, *times(modes), f"{modes['fractional']['speedUp']:.1f}", *error_ratios(modes)] for count, modes in samples_sweep(OWN)]
-    return run_table(OWN, ["lens samples", "full detail", "levels", "times as fast", "times the RMSE", "times the FLIP"], rows)
+    """Times and errors of levels by measured error on two machines, without the parts."""
+    def own_times(modes):
+        return [*(f"{seconds(modes[mode]):.2f}" for mode in ("off", "fractional")), f"{modes['fractional']['speedUp']:.1f}"]
+
+    card = dict(samples_sweep(H200))
+    rows = [[count, *own_times(modes), *error_ratios(modes), *own_times(card[count])] for count, modes in samples_sweep(OWN)]
+    return run_table(OWN, ["lens samples", "full detail, s", "levels, s", "times as fast", "times the RMSE", "times the FLIP",
+                           "H200: full detail, s", "levels, s", "times as fast"], rows)
 
 
 def published_ratios():
@@ -67,7 +73,8 @@ def published_ratios():
 
     own = dict(samples_sweep(OWN))
     rows = [[count, *ratios(theirs), *ratios(own[count])] for count, theirs in samples_sweep(OWN, "jeong2011")]
-    return run_table(OWN, ["lens samples", "`jeong2011`: times as fast", "times the RMSE", "default: times as fast", "times the RMSE"], rows)
+    return run_table(OWN, ["lens samples", "`jeong2011`: times as fast", "times the RMSE", "default: times as fast", "times the RMSE"],
+                     rows)
 
 
 def published():
@@ -102,7 +109,7 @@ def speed_sentence():
         f"{error_ratio(drawn, 'flip'):.2f} times). On {run_of(FISH)['machine']['threads']} CPU cores without a GPU this takes "
         f"{seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. Coarser levels "
         f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast, at {error_ratio(by_size):.1f} times the "
-        "error. [Results](docs/results.md) has all measurements, also against a CPU ray tracer and on [a "
+        "error. [Results](docs/results.md) has more measurements, also against a CPU ray tracer and on [a "
         "GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
@@ -146,6 +153,15 @@ def popping():
     return run_table("llvmpipe-popping", ["movement", "levels", "largest pop, RMSE", "largest pop, FLIP", "largest change, RMSE"], cells)
 
 
+def pop_shares():
+    """Largest pop by RMSE: of the nearest level, and the share of it that other levels have."""
+    rows = {(row["movement"], row["lod"]): row["stepRmse"] for row in run_of("llvmpipe-popping")["rows"] if row["samples"] == 32}
+    cells = [[movement.replace("-", " "), f"{rows[movement, 'nearest']['worst']:.4f}",
+              *(limited(rows[movement, mode]["ofNearest"], limit) for mode, limit in MAX_POP_RATIO.items())]
+             for movement in ("focus-pull", "dolly", "turntable")]
+    return run_table("llvmpipe-popping", ["movement", MODES["nearest"], *(f"share, {MODES[mode]}" for mode in MAX_POP_RATIO)], cells)
+
+
 def rates():
     """The rates of multirate, alone and with levels, over the number of lens samples."""
     def rate(row):
@@ -178,6 +194,24 @@ def gpu_equal_error():
     return table(["milliseconds a frame", *errors], rows) + "".join(map(run_source, scenes))
 
 
+def error_times():
+    """Times to an RMSE of 0.005 on both machines."""
+    runs = {"llvmpipe-multirate-fish": "school", "llvmpipe-multirate-helmets": "helmets", "h200-school": "school, H200",
+            "h200-helmets": "helmets, H200"}
+    by_method = {}
+    for name in runs:
+        for method in run_of(name)["timesToErrors"]:
+            (time,) = [time for time in method["times"] if time["rmse"] == 0.005]
+            milliseconds = time["milliseconds"]
+            by_method.setdefault(method["name"], []).append(
+                "not reached" if milliseconds is None else f"{milliseconds / 1000:.2f} s" if name.startswith("llvmpipe")
+                else f"{milliseconds:.0f} ms")
+    links = ", ".join(f"[{scene}](../bench/results/{name}.json)" for name, scene in runs.items())
+    return table(["RMSE 0.005", *runs.values()], [[method, *cells] for method, cells in by_method.items()]) + (
+        f"\nCommand of the school on the H200: `{command_of('h200-school', run_of('h200-school'))}` (runs: {links}).\n")
+
+
 TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
-          "levels": levels, "published ratios": published_ratios, "published": published, "lenses": lenses, "popping": popping, "rates": rates}
+          "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
+          "published": published, "lenses": lenses, "popping": popping, "rates": rates}
