@@ -26,10 +26,12 @@ inline Words joined(Words words, const Words& more) {
 }
 
 // `words`: the option with its value. `with`: further options that it needs, as far as the command offers them.
+// `against`: the option with the value that it is compared with; empty: no option.
 struct OptionCase {
     Words words;
     Words with;
     bool still = false;  // uses a fish of the school instead of the moving ball
+    Words against = {};
 };
 
 namespace option_cases {
@@ -186,7 +188,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"cacheFolder", {{"--cache-dir", "kept"}, {}, true}},
         {"noCache", {{"--no-cache"}, {}, true}},
         {"method", {{"--method", "circular"}, blurred}},
-        {"layerFormat", {{"--layer-format", "rgba32f"}, {}}},
+        {"layerFormat", {{"--layer-format", "rgba32f"}, {}, false, {"--layer-format", "rgba16f"}}},
         {"lodMetric", {{"--lod-metric", "error"}, {"--fstop", "0.3"}, true}},
         {"levelVertices", {{"--level-vertices", "surviving"}, {"--fstop", "0.3"}, true}},
         {"preset", {{"--preset", "jeong2011"}, {"--fstop", "0.3"}, true}},
@@ -351,7 +353,7 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
         add(tried.still ? given.fish : given.ball);
     if (!given.size.empty() && (name != "size" || !with)) add({"--size", given.size});
     add(taken(given.name, tried.with));
-    if (with) add(tried.words);
+    add(with ? tried.words : tried.against);
     const bool ownSamples = std::ranges::find(line, "--samples") != line.end();
     for (std::size_t i = 0; i < given.rest.size(); ++i)
         if (ownSamples && given.rest[i] == "--samples")
