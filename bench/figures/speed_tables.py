@@ -162,17 +162,6 @@ def pop_shares():
     return run_table("llvmpipe-popping", ["movement", MODES["nearest"], *(f"share, {MODES[mode]}" for mode in MAX_POP_RATIO)], cells)
 
 
-def rates():
-    """The rates of multirate, alone and with levels, over the number of lens samples."""
-    def rate(row):
-        return "none" if row["method"] == "accumulation" else "shared images" if row["setting"].startswith("cells=off ") else "cells"
-
-    rows = [[row["samples"], rate(row), "no" if row["setting"].endswith("lod=off") else "yes", f"{seconds(row):.2f} s", f"{rmse(row):.4f}",
-             f"{row['ssim']:.4f}", f"{row['flip']:.4f}"]
-            for row in sorted(run_of("llvmpipe-multirate-rates")["rows"], key=lambda row: row["samples"])]
-    return run_table("llvmpipe-multirate-rates", ["lens samples", "rate", "levels", "frame", "RMSE", "SSIM", "FLIP"], rows)
-
-
 def gpu_speed():
     rows = [[count, *times(modes, "ms"), *speed_ups(modes["fractional"]), *error_ratios(modes)] for count, modes in samples_sweep(H200)]
     return run_table(H200, ["lens samples", "full detail", "levels", "times as fast", "size only", "blur only", "times the RMSE",
@@ -214,4 +203,4 @@ def error_times():
 TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
-          "published": published, "lenses": lenses, "popping": popping, "rates": rates}
+          "published": published, "lenses": lenses, "popping": popping}

@@ -98,7 +98,6 @@ class Keywords(TypedDict, total=False):
     keep_all: Optional[bool]
     memory: Optional[str]
     wave: Optional[int]
-    cells: Optional[Literal["on", "off"]]
     coc: Optional[Literal["published", "thin-lens"]]
     taps: Optional[int]
     max_coc: Optional[Literal["published", "unlimited"]]

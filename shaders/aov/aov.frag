@@ -1,5 +1,4 @@
-// Writes depth (m), signed circle of confusion (px), fractional level and images per lens sample. All are of the
-// nearest surface seen through the pinhole.
+// Writes depth (m), signed circle of confusion (px) and fractional level of the nearest surface seen through the pinhole.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -12,12 +11,9 @@ in Surface {
 layout(binding = 0) uniform sampler2D baseColorTexture;
 #endif
 
-layout(binding = 18) uniform samplerBuffer objectRates;   // indexed by object number
-
 layout(location = 0) out float depthOut;
 layout(location = 1) out float cocOut;
 layout(location = 2) out float levelOut;
-layout(location = 3) out float rateOut;
 
 void main() {
 #ifdef ALPHA_MASK
@@ -40,5 +36,4 @@ void main() {
     vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);
     cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(size + 0.5)), ownBlur);
     levelOut = object.values.x;
-    rateOut = texelFetch(objectRates, int(object.values.z)).r;
 }

@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D firstImage;    // linear, premultiplied
 layout(binding = 1) uniform sampler2D secondImage;
 layout(binding = 2) uniform sampler2D cocImage;      // signed px
-layout(binding = 3) uniform sampler2D valueImage;    // λ, or images per lens sample; −1: empty
+layout(binding = 3) uniform sampler2D levelImage;    // λ; −1: empty
 layout(binding = 4) uniform sampler2D wireImage;     // display-encoded
 layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed over lens samples
 layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay
@@ -21,8 +21,7 @@ layout(location = 0) out vec4 display;
 
 const int OVERLAY_COC = 1;
 const int OVERLAY_LEVEL = 2;
-const int OVERLAY_RATE = 3;
-const int OVERLAY_WORK = 4;
+const int OVERLAY_WORK = 3;
 const int FLAG_DIFFERENCE = 1;
 const int FLAG_PEAKING = 2;
 const int FLAG_FOCUS_PLANE = 4;
@@ -63,11 +62,10 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
 #ifdef OVERLAY
     float grey = dot(colour, luma);
     if (choices.y == OVERLAY_COC) return cocColour(cocAt(uv), grey);
-    if (choices.y == OVERLAY_LEVEL || choices.y == OVERLAY_RATE) {
-        float value = texture(valueImage, uv).r;
-        if (value < 0.0) return 0.35 * vec3(grey);
-        float share = choices.y == OVERLAY_LEVEL ? value / 8.0 : -0.5 * log2(value);
-        return srgbEncoded(texture(mapColours, vec2(share, 0.5)).rgb) * (0.55 + 0.65 * grey);
+    if (choices.y == OVERLAY_LEVEL) {
+        float level = texture(levelImage, uv).r;
+        if (level < 0.0) return 0.35 * vec3(grey);
+        return srgbEncoded(texture(mapColours, vec2(level / 8.0, 0.5)).rgb) * (0.55 + 0.65 * grey);
     }
     if (choices.y == OVERLAY_WORK) {
         float work = log2(1.0 + texture(workImage, uv).r * workScale.x) * workScale.y;

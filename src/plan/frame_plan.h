@@ -76,9 +76,6 @@ struct ObjectPlan {
     // LodMode::continuous: the share of sample n's pixels that draw `coarse`; the rest draw `fine`. 0 if no sample is
     // shared.
     double boundaryShare = 0;
-    // Share of the object's lens samples that method "multirate" merges, as held from an earlier frame. Without a value
-    // the share follows from the blur (plan/lens_cells/rates.h).
-    std::optional<double> heldLensShare;
     std::vector<VisibleLevel> visible;  // levels that are drawn in part; other levels are drawn completely
     double cocScale = 1;                // factor on the object's blur, ≥ 0
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lens/lens_fields.h"
-#include "plan/lens_cells/rates.h"
+#include "plan/lens_cells/lens_cells.h"
 
 namespace defocus::engine {
 
@@ -26,7 +26,7 @@ json drawJson(const LevelDraw& draw) {
             {"sampleCount", draw.sampleCount}};
 }
 
-json objectJson(const ObjectPlan& object, const ObjectRates& rates, const LensCells& cells) {
+json objectJson(const ObjectPlan& object, const LensCells& cells) {
     json draws = json::array();
     for (const LevelDraw& draw : {object.coarse, object.fine})
         if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
@@ -43,10 +43,7 @@ json objectJson(const ObjectPlan& object, const ObjectRates& rates, const LensCe
                    {"transmits", object.transmits},
                    {"moves", !object.motion.empty()},
                    {"draws", std::move(draws)},
-                   {"rates",
-                    {{"lensShare", rates.lensShare},
-                     {"pixelRate", pixelRate(cells, object.coc.smallest)},
-                     {"reason", rates.reason}}}};
+                   {"pixelRate", pixelRate(cells, object.coc.smallest)}};
     if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
     return result;
 }
@@ -84,9 +81,8 @@ std::string thresholdsText(const FramePlan& plan) {
 }
 
 // Describes how images are blurred as lens cells, or the reason why they aren't.
-std::string ratesText(const FramePlan& plan) {
-    const FrameRates rates = frameRates(plan);
-    const LensCells& cells = rates.cells;
+std::string lensCellsText(const FramePlan& plan) {
+    const LensCells cells = lensCells(plan);
     if (cells.blur > 0)
         return fmt::format(
             "--method multirate blurs each sample's image as its part of the lens would, by σ = {:.3g} of the CoC: "
@@ -155,17 +151,16 @@ std::string planTable(const FramePlan& plan) {
                                                  : 1;
     text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n",
                         plan.trianglesDrawn, plan.trianglesAtFullDetail, ratio);
-    if (!plan.settings.keepAll && plan.usesLens) text += ratesText(plan);
+    if (!plan.settings.keepAll && plan.usesLens) text += lensCellsText(plan);
     if (!plan.leftOut.empty()) text += "\nleft out\n";
     for (const LeftOut& entry : plan.leftOut) text += fmt::format("  {}: {}\n", entry.what, entry.reason);
     return text;
 }
 
 std::string planJson(const FramePlan& plan) {
-    const FrameRates rates = frameRates(plan);
+    const LensCells cells = lensCells(plan);
     json objects = json::array();
-    for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        objects.push_back(objectJson(plan.objects[i], rates.objects[i], rates.cells));
+    for (const ObjectPlan& object : plan.objects) objects.push_back(objectJson(object, cells));
     json leftOut = json::array();
     for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
     const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
@@ -186,15 +181,14 @@ std::string planJson(const FramePlan& plan) {
                              {"sizeThreshold", plan.thresholds.size},
                              {"lightThreshold", plan.thresholds.light}}},
                            {"shadows", shadowsJson(plan.shadows)},
-                           {"lensCells", {{"blur", rates.cells.blur}, {"reason", rates.cells.reason}}},
+                           {"lensCells", {{"blur", cells.blur}, {"reason", cells.reason}}},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
                            {"triangles",
                             {{"drawn", plan.trianglesDrawn},
                              {"facingAway", plan.trianglesFacingAway},
                              {"outside", plan.trianglesOutside},
-                             {"fullDetail", plan.trianglesAtFullDetail},
-                             {"multirate", ratedTriangles(plan, rates)}}}};
+                             {"fullDetail", plan.trianglesAtFullDetail}}}};
     return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -12,7 +12,6 @@
 #include "render/circular/circular.h"
 #include "render/layered/layered.h"
 #include "render/line/line.h"
-#include "render/multirate/multirate.h"
 #include "render/scheuermann/scheuermann.h"
 #include "render/stochastic/stochastic.h"
 
@@ -28,7 +27,12 @@ std::vector<Method>& table() {
          .drawsTiles = true,
          .settings = {},
          .make = makeAccumulationRenderer},
-        multirateMethod(),
+        {.name = "multirate",
+         .description = "the same, each image blurred as its part of the lens would blur it: fewer samples do",
+         .blursCells = true,
+         .sumsBlocks = true,
+         .settings = {},
+         .make = makeMultirateRenderer},
         scheuermannMethod(),
         circularMethod(),
         layeredMethod(),
@@ -78,11 +82,6 @@ const Method& methodNamed(std::string_view name) {
     std::string known;
     for (const Method& method : table()) known += (known.empty() ? "" : ", ") + method.name;
     fail("no method is called '{}'; there are: {}", name, known);
-}
-
-bool MethodUse::sharesImages() const {
-    const auto cells = settings.find("cells");
-    return cells != settings.end() && cells->second == "off";
 }
 
 std::string MethodUse::text() const {

@@ -51,6 +51,7 @@ struct Method {
     bool usesLensSamples = true;  // false: ignores the plan's number of samples (post-process methods)
     bool shadesAsLit = true;      // false: only unlit, opaque surfaces match the other methods
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
+    bool blursCells = false;      // blurs images as lens cells where the frame allows it (plan/lens_cells/lens_cells.h)
     bool sumsBlocks = false;      // Renderer::continueWith adds to the sum, so the number of samples may stay open
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always draws the full image
     bool drawsShadows = true;     // false: lights shine through occluders
@@ -66,7 +67,6 @@ struct Method {
 struct MethodUse {
     const Method* method = nullptr;
     MethodSettings settings;
-    [[nodiscard]] bool sharesImages() const;  // "multirate" with cells=off
     // "name" or "name:setting=value,…" with the settings that differ from their default.
     [[nodiscard]] std::string text() const;
 };

@@ -226,8 +226,6 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"transparency-buckets",
          {{"--transparency-buckets", "0"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"pinholes", {{"--pinholes", "1"}, only("circular")}},
-        {"cells",
-         {{"--cells", "off"}, {"--method", "multirate", "--fstop", "0.1", "--focus-distance", "1", "--samples", "16"}}},
         {"layers", {{"--layers", "1"}, {"--method", "layered", "--fstop", "0.1", "--focus-distance", "9"}}},
         {"resolve", {{"--resolve", "published"}, joined(only("line"), {"--focus-distance", "1"})}},
         {"segments", {{"--segments", "2"}, joined(only("line"), {"--resolve", "published", "--focus-distance", "1"})}},

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "lens/aberrations.h"
-#include "plan/lens_cells/rates.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -133,20 +132,6 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
         EXPECT_NEAR(ellipse.moments[0][0] - disk.moments[0][0], ((blur + line) * (blur + line) - blur * blur) / 16,
                     0.02 * line * line / 16);
     }
-}
-
-// Neighbours on the lens don't see the same, moved by their blur: each draws its own image.
-TEST_F(Aberrations, multirateSharesNoImages) {
-    View view = viewOf(0, 0);
-    const Scene scene = rectangleScene(view, {{90, 30, 130, 90, 2.5}}, glm::vec3(1));
-    World world = flatWorld(scene, blackBackground());
-    world.pyramids = buildPyramids(scene.meshes);
-    view.lens.fStop = 0.5;
-    RenderSettings settings = fullDetail(256);
-    settings.keepAll = false;
-    EXPECT_GT(frameRates(planFrame(world, view, settings), false).objects.at(0).lensShare, 0.5);
-    view.lens.coma = 3;
-    EXPECT_EQ(frameRates(planFrame(world, view, settings), false).objects.at(0).lensShare, 0);
 }
 
 // A gradient through a lens that is focused infinitely far away: the mean over the samples of what each ray sees.

@@ -30,8 +30,8 @@ namespace defocus::engine {
 namespace {
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work", "swept-work"};
-    const std::array<bool*, 6> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.rate, &aovs.work, &aovs.sweptWork};
+    const std::vector<std::string> names = {"depth", "coc", "level", "work", "swept-work"};
+    const std::array<bool*, 5> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work, &aovs.sweptWork};
     for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
 }
 
@@ -50,10 +50,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->group(group);
     advanced(
         addParsed(
-            command, "--aov", "depth,coc,level,rate,work,swept-work",
+            command, "--aov", "depth,coc,level,work,swept-work",
             "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
-            "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
-            "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
+            "out.level.png (level of detail), out.work.exr with out.work.png (triangles that touch each pixel, "
             "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
             "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
             "rasteriser tests there)",
@@ -94,8 +93,6 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
-    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.exr"));
-    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.png"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
     if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.exr"));
@@ -126,13 +123,9 @@ void writeAovs(const RenderArguments& arguments, const AovImages& images, const 
     const std::filesystem::path& output = arguments.outputs.front();
     if (arguments.aovs.depth) writeImage(derivedPath(output, "depth.exr"), images.depth, metadata);
     if (arguments.aovs.coc) writeImage(derivedPath(output, "coc.exr"), images.coc, metadata);
-    if (arguments.aovs.level) {
-        writeImage(derivedPath(output, "level.exr"), images.level, metadata);
-        writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
-    }
-    if (!arguments.aovs.rate) return;
-    writeImage(derivedPath(output, "rate.exr"), images.rate, metadata);
-    writeImage(derivedPath(output, "rate.png"), rateColourMap(images.rate));
+    if (!arguments.aovs.level) return;
+    writeImage(derivedPath(output, "level.exr"), images.level, metadata);
+    writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
 }
 
 void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Image& work, const Metadata& metadata,

@@ -14,10 +14,9 @@ struct AovRequest {
     bool depth = false;
     bool coc = false;
     bool level = false;
-    bool rate = false;
     bool work = false;
     bool sweptWork = false;
-    [[nodiscard]] bool surfaces() const { return depth || coc || level || rate; }
+    [[nodiscard]] bool surfaces() const { return depth || coc || level; }
     [[nodiscard]] bool any() const { return surfaces() || work || sweptWork; }
 };
 

@@ -8,7 +8,6 @@
 
 #include "image/metrics.h"
 #include "image/tone_map.h"
-#include "plan/lens_cells/rates.h"
 #include "plan/visible/visibility.h"
 #include "render/aov/aov.h"
 
@@ -78,12 +77,11 @@ struct HeldPlan {
     std::vector<const ObjectPlan*> changed;  // of the plan that was held
 };
 
-// `plan` at the levels and rates of the frame before, as far as that had its objects; none where nothing differs.
-std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before, PoppingMode mode) {
+// Returns `plan` with the levels of the frame before, for objects that both frames show. Returns nothing if no level
+// differs.
+std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before) {
     if (plan.samples.size() != before.samples.size()) return {};
     HeldPlan held{plan, {}};
-    const FrameRates rates = mode == PoppingMode::multirate ? frameRates(plan) : FrameRates{};
-    const FrameRates ratesBefore = mode == PoppingMode::multirate ? frameRates(before) : FrameRates{};
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
         ObjectPlan& object = held.plan.objects[i];
         const ObjectPlan* earlier = objectOf(before, object.object);
@@ -94,11 +92,6 @@ std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before,
         object.coarse = earlier->coarse;
         object.fine = earlier->fine;
         object.boundaryShare = earlier->boundaryShare;
-        if (mode != PoppingMode::multirate) continue;
-        const auto place = static_cast<std::size_t>(earlier - before.objects.data());
-        object.heldLensShare = ratesBefore.objects[place].lensShare;
-        const bool counted = !held.changed.empty() && held.changed.back() == &plan.objects[i];
-        if (!counted && *object.heldLensShare != rates.objects[i].lensShare) held.changed.push_back(&plan.objects[i]);
     }
     if (held.changed.empty()) return {};
     markUsed(held.plan);
@@ -214,7 +207,7 @@ PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeSta
     frame.mode = mode;
     frame.speed = largestSpeed(now.plan, before.plan);
     frame.change = popBetween(expected, now.image, objects);
-    if (const std::optional<HeldPlan> held = asBefore(now.plan, before.plan, mode))
+    if (const std::optional<HeldPlan> held = asBefore(now.plan, before.plan))
         frame.step = popBetween(displayColours(rendered(renderers.of(mode), held->plan)), now.image,
                                 pixelsOf(held->changed, now.plan, objects));
     return frame;

@@ -2,14 +2,14 @@
 // Measures how much levels of detail pop, that is what they add to the change from frame to frame while camera, focus
 // or scene move. It compares four modes: the nearest level; samples that are split between two levels (fractional); the
 // same with the sample at the boundary split over its pixels (continuous); and fractional levels drawn by the method
-// "multirate", whose lens rates change too.
+// "multirate".
 //
 // The truth is full detail at the SAME lens samples, which multirate has of its own. So the noise cancels, and full
 // detail itself measures 0. Let I be a frame of the mode and R the same frame at full detail, both display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench takes its RMSE, and the FLIP between I_t and the frame that it
 //           should have become, I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Besides pops, it contains all other
 //           errors of the levels that move with the camera.
-//   step:   I_t minus the same view and pose drawn with the levels, splits and lens rates of the frame before. This is
+//   step:   I_t minus the same view and pose drawn with the levels and splits of the frame before. This is
 //           the pop alone.
 // Both are measured over the whole image and over the objects' pixels, which an object or its blur touches in either
 // frame. For the step, only the objects count whose draws differ. So quiet objects don't dilute a pop, and its error is

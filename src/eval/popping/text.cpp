@@ -178,7 +178,7 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
         {"change",
          "(I_t - I_t-1) - (R_t - R_t-1) of display values, R at full detail and the same lens samples; FLIP between "
          "I_t and I_t-1 + (R_t - R_t-1), clipped"},
-        {"step", "I_t against the same view at the levels, splits and lens rates of frame t-1"},
+        {"step", "I_t against the same view at the levels and splits of frame t-1"},
         {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
         {"speed", "the largest change of an object's fractional level from frame to frame"},
         {"fullDetail", "differs from the reference by nothing: it is the reference"}};

@@ -25,7 +25,6 @@ std::vector<StabilityCase> stabilityCases() {
     addValueCases(cases);
     addSplitCases(cases);
     addLevelCases(cases);
-    addRateCases(cases);
     addTracedCases(cases);
     return cases;
 }

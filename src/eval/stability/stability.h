@@ -15,7 +15,7 @@ namespace defocus::engine {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
-    std::string area;      // "sums", "lens", "motion", "space", "values", "levels", "rates", "traced"
+    std::string area;      // "sums", "lens", "motion", "space", "values", "levels", "traced"
     std::string name;      // what makes it stiff or extreme
     std::string measured;  // what the error measures, with its unit
     std::string truth;     // "closed form", "double sum", …
@@ -44,7 +44,6 @@ void addMotionCases(std::vector<StabilityCase>& cases);
 void addSpaceCases(std::vector<StabilityCase>& cases);
 void addValueCases(std::vector<StabilityCase>& cases);
 void addSplitCases(std::vector<StabilityCase>& cases);
-void addRateCases(std::vector<StabilityCase>& cases);
 void addLevelCases(std::vector<StabilityCase>& cases);
 void addTracedCases(std::vector<StabilityCase>& cases);
 

@@ -181,7 +181,7 @@ AovImages SceneDriver::aovs() {
     if (driver().inTiles())
         fail("the image is drawn in tiles, as it doesn't fit into memory, and AOVs show the whole image");
     const InContext use(*context_);
-    return renderAovs(frame_.world, driver_->plan(), shaderFolder_, driver_->method().sharesImages());
+    return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
 }
 
 Image SceneDriver::work() {

@@ -41,11 +41,6 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-bool blursCells(const MethodUse& use) {
-    const auto cells = use.settings.find("cells");
-    return cells != use.settings.end() && cells->second == "on";
-}
-
 // Distance between a point's images from neighbouring samples, px. With lens cells: σ of the blur that fills the gap.
 struct Gaps {
     double size = 0;
@@ -54,7 +49,7 @@ struct Gaps {
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
-    if (const LensCells cells = blursCells(use) ? lensCells(plan) : LensCells{}; cells.blur > 0) {
+    if (const LensCells cells = use.method->blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
         const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ of the widest lens cell, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }

@@ -1,6 +1,7 @@
 #include "plan/lens_cells/lens_cells.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -9,7 +10,7 @@
 #include <utility>
 
 #include "plan/frame_plan.h"
-#include "plan/lens_cells/lens_groups.h"
+#include "plan/lens_cells/even_division.h"
 
 namespace defocus::engine {
 
@@ -101,7 +102,7 @@ void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const double turn = 0.5 / std::sqrt(static_cast<double>(count));
     rotate(dense, -turn);
     rotate(samples, -turn);
-    const std::vector<std::uint32_t> order = groupedOrder(dense, samples, points);
+    const std::vector<std::uint32_t> order = evenDivision(dense, samples, points);
     for (std::size_t i = 0; i < count; ++i) {
         glm::dvec2 sum(0);
         for (std::size_t j = 0; j < points; ++j) sum += glm::dvec2(dense[order[i * points + j]].lens);
@@ -170,6 +171,15 @@ LensCells lensCells(const FramePlan& plan) {
     // A lens point at (1, 0) moves the image by c/2 px.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
+}
+
+void moveToCells(FramePlan& plan, const LensCells& cells) {
+    if (cells.blur == 0) return;
+    for (LensSample& sample : plan.samples) {
+        assert(sample.index - cells.firstSample < cells.middles.size());
+        sample.lens = cells.middles[sample.index - cells.firstSample];
+        sample.pixel += glm::vec2(cells.pixelShift);
+    }
 }
 
 double cellClassVariance(int k) {

@@ -48,6 +48,9 @@ struct LensCells {
 // each block. Their blur is that of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
+// Moves the plan's samples to the middles of their cells and adds the pixel shift. Does nothing if images are not blurred.
+void moveToCells(FramePlan& plan, const LensCells& cells);
+
 // Returns the pixel resolution along an axis that an image blurred by `coc` px needs, as a share of full resolution.
 // One pixel replaces a square of a class with that variance. Returns 1 if images are not blurred.
 double pixelRate(const LensCells& cells, double coc);

@@ -9,40 +9,10 @@
 
 #include "gl/read_back.h"
 #include "image/colour_map.h"
-#include "plan/lens_cells/rates.h"
 #include "render/gpu_scene/colour_texture.h"
 #include "render/post_process/pinhole_pass.h"
 
 namespace defocus::engine {
-
-namespace {
-
-constexpr GLuint ratesUnit = 18;  // as in shaders/aov/aov.frag
-
-// Returns the rate of each object of the world; 1 for objects that are not drawn.
-TexelBuffer rateTexels(const World& world, const FramePlan& plan, bool shares) {
-    std::vector<float> texels(std::max<std::size_t>(world.pose.objects.size(), 1), 1);
-    const FrameRates rates = frameRates(plan, !shares);
-    for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        texels[static_cast<std::size_t>(plan.objects[i].object)] =
-            static_cast<float>(imagesPerSample(plan, rates.objects[i]) *
-                               std::pow(pixelRate(rates.cells, plan.objects[i].coc.smallest), 2));
-    return {texels, GL_R32F, 1, "the objects' rates"};
-}
-
-// Returns a colour map (viridis) of `share(value)` in [0, 1]; negative values are black.
-template <typename Share>
-Image colourMapOf(const Image& values, const Share& share) {
-    Image colours(values.width, values.height, 3);
-    for (std::size_t i = 0; i < values.pixels.size(); ++i) {
-        const float value = values.pixels[i];
-        const glm::vec3 colour = value < 0 ? glm::vec3(0) : viridis(std::clamp(share(value), 0.0f, 1.0f));
-        for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
-    }
-    return colours;
-}
-
-}  // namespace
 
 AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
@@ -64,24 +34,22 @@ void AovPass::makeTargets(int width, int height) {
     depth_ = texture(TextureFormat::r32f);
     coc_ = texture(TextureFormat::r32f);
     level_ = texture(TextureFormat::r32f);
-    rate_ = texture(TextureFormat::r32f);
     depthBuffer_ = texture(TextureFormat::depth32f);
-    target_ = Target({&depth_, &coc_, &level_, &rate_}, &depthBuffer_);
+    target_ = Target({&depth_, &coc_, &level_}, &depthBuffer_);
     wireframe_ = GlTexture();
 }
 
-void AovPass::draw(const FramePlan& plan, bool shares) {
+void AovPass::draw(const FramePlan& plan) {
     pinhole_ = pinholePlan(scene_.world(), plan, 1);
     makeTargets(plan.view.width, plan.view.height);
 
     // Clear to the values at infinity.
     target_.bind();
     glDepthMask(GL_TRUE);
-    const float behind[4] = {
+    const float behind[3] = {
         std::numeric_limits<float>::infinity(),
-        static_cast<float>(circleOfConfusion(plan.coc, std::numeric_limits<double>::infinity(), plan.view.width)), -1,
-        -1};
-    for (GLint i = 0; i < 4; ++i) {
+        static_cast<float>(circleOfConfusion(plan.coc, std::numeric_limits<double>::infinity(), plan.view.width)), -1};
+    for (GLint i = 0; i < 3; ++i) {
         const float value[4] = {behind[i], 0, 0, 0};
         glClearNamedFramebufferfv(target_.name(), GL_COLOR, i, value);
     }
@@ -91,8 +59,6 @@ void AovPass::draw(const FramePlan& plan, bool shares) {
     scene_.prepare(pinhole_);
     frame_.upload(scene_.world(), pinhole_, 1);
     surfaces_.prepare(pinhole_, frame_);
-    rates_ = rateTexels(scene_.world(), plan, shares);
-    rates_.attach(ratesUnit);
     surfaces_.drawSurfaces(0, 1);
 }
 
@@ -117,19 +83,21 @@ void AovPass::drawWireframe() {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder,
-                     bool shares) {
+AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
     AovPass pass(world, shaderFolder);
-    pass.draw(plan, shares);
-    return {readBack(pass.depth(), 1), readBack(pass.coc(), 1), readBack(pass.level(), 1), readBack(pass.rate(), 1)};
+    pass.draw(plan);
+    return {readBack(pass.depth(), 1), readBack(pass.coc(), 1), readBack(pass.level(), 1)};
 }
 
 Image levelColourMap(const Image& level) {
-    return colourMapOf(level, [](float value) { return value / coarsestShownLevel; });
-}
-
-Image rateColourMap(const Image& rate) {
-    return colourMapOf(rate, [](float value) { return std::log2(value) / std::log2(minShownRate); });
+    Image colours(level.width, level.height, 3);
+    for (std::size_t i = 0; i < level.pixels.size(); ++i) {
+        const float value = level.pixels[i];
+        const glm::vec3 colour =
+            value < 0 ? glm::vec3(0) : viridis(std::clamp(value / coarsestShownLevel, 0.0f, 1.0f));
+        for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
+    }
+    return colours;
 }
 
 }  // namespace defocus::engine

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "gl/target.h"
-#include "gl/texel_buffer.h"
 #include "image/image.h"
 #include "render/gpu_scene/surface_pass.h"
 
@@ -16,7 +15,6 @@ struct AovImages {
     // Signed circle of confusion in px, > 0 behind the focus plane. Empty pixels have the value at infinity.
     Image coc;
     Image level;  // fractional level λ of the object; −1 where no surface is
-    Image rate;   // images per lens sample with method "multirate", 1/4 … 1; −1 where no surface is
 };
 
 // Draws the AOVs as textures (r32f, row 0 at the bottom) for successive frames of one world. Needs a current GL
@@ -25,16 +23,14 @@ class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws opaque, alpha-tested and blended surfaces alike, each at its nearest integer level. `shares`: rates are
-    // those of method "multirate" with cells=off.
-    void draw(const FramePlan& plan, bool shares = false);
+    // Draws opaque, alpha-tested and blended surfaces alike, each at its nearest integer level.
+    void draw(const FramePlan& plan);
     // Draws the visible edges of the triangles that draw() drew, coloured by λ (viridis), premultiplied by alpha.
     void drawWireframe();
 
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
     [[nodiscard]] const GlTexture& coc() const { return coc_; }
     [[nodiscard]] const GlTexture& level() const { return level_; }
-    [[nodiscard]] const GlTexture& rate() const { return rate_; }
     [[nodiscard]] const GlTexture& wireframe() const { return wireframe_; }
 
 private:
@@ -46,24 +42,15 @@ private:
     SurfacePass edges_;
     FrameUniforms frame_;
     FramePlan pinhole_;
-    TexelBuffer rates_;  // one per object of the world
-    GlTexture depth_, coc_, level_, rate_, depthBuffer_, wireframe_, levelColours_;
+    GlTexture depth_, coc_, level_, depthBuffer_, wireframe_, levelColours_;
     Target target_, wireTarget_;
 };
 
 // Draws the AOVs of one frame and reads them back.
-AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {},
-                     bool shares = false);
+AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
 // Level λ at which colour maps saturate.
 inline constexpr float coarsestShownLevel = 8;
-
-// Images per lens sample at which colour maps saturate.
-inline constexpr float minShownRate = 1.0f / 4;
-
-// Returns rates as colours (viridis): dark violet for one image per lens sample, mid-scale for one per two samples,
-// yellow for one per four or more. Pixels without a surface are black.
-Image rateColourMap(const Image& rate);
 
 // Returns λ as colours (viridis): level 0 is dark violet, level 8 and above is yellow. Pixels without a surface are
 // black.

@@ -49,9 +49,8 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
         target_ = Target({&texture_});
     }
     target_.bind();
-    // Levels and rates share a texture unit: an overlay shows one of them.
-    const GlTexture* values = settings.overlay == DisplayOverlay::rate ? inputs.rate : inputs.level;
-    const GlTexture* textures[] = {inputs.first, inputs.second, inputs.coc, values, inputs.wireframe, inputs.work};
+    const GlTexture* textures[] = {inputs.first, inputs.second,    inputs.coc,
+                                   inputs.level, inputs.wireframe, inputs.work};
     for (GLuint unit = 0; unit < 6; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);
     (settings.overlay == DisplayOverlay::work ? workColours_ : levelColours_).attach(6);
     const Program& chosen = programFor(inputs, settings);

@@ -17,7 +17,6 @@ enum class DisplayOverlay {
     none,
     coc,    // circle of confusion: orange in front of the focus plane, blue behind
     level,  // objects by their level λ, dark violet (0) to yellow (8)
-    rate,   // objects by images per lens sample (method multirate), dark violet (1) to yellow (1/4)
     work,   // Triangles that touch a pixel in a lens sample: black (0) to pale yellow (maxShownWork), logarithmic.
 };
 
@@ -33,8 +32,8 @@ struct DisplaySettings {
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
-        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || overlay == DisplayOverlay::rate ||
-               focusPeaking || focusPlane || wireframe;
+        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking ||
+               focusPlane || wireframe;
     }
 };
 
@@ -42,9 +41,8 @@ struct DisplaySettings {
 struct DisplayInputs {
     const GlTexture* first = nullptr;  // linear RGBA, premultiplied
     const GlTexture* second = nullptr;
-    const GlTexture* coc = nullptr;  // from AovPass, like the next three
+    const GlTexture* coc = nullptr;  // from AovPass, like the next two
     const GlTexture* level = nullptr;
-    const GlTexture* rate = nullptr;
     const GlTexture* wireframe = nullptr;
     const GlTexture* work = nullptr;  // from WorkPass
     std::uint32_t workSamples = 1;    // number of lens samples in `work`

@@ -35,9 +35,6 @@ std::optional<Legend> legendOf(const DisplaySettings& display) {
     switch (display.overlay) {
         case DisplayOverlay::coc:
             return Legend{"blur, px: in front – behind", "blur, px", cocColour, {"63", "7", "0", "7", "63"}};
-        case DisplayOverlay::rate:
-            return Legend{
-                "images per lens sample (multirate)", "images", viridis, {"1", "0.71", "0.5", "0.35", "0.25"}};
         case DisplayOverlay::work:
             return Legend{"triangles per pixel and lens sample", "triangles", magma, {"0", "1", "3", "7", "15 +"}};
         case DisplayOverlay::level:

@@ -32,9 +32,8 @@ void differenceRow(DisplaySettings& display) {
 
 void overlayPanel(const Ui& ui) {
     rowLabel("Overlay",
-             "Blur (C), level (L), rate: images per lens sample that multirate draws of an object (J), or work: "
-             "triangles per pixel and lens sample (N)");
-    enumCombo("##overlay", ui.state.display.overlay, "none\0circle of confusion\0level of detail\0rate\0work\0");
+             "Blur (C), level (L), or work: triangles per pixel and lens sample (N)");
+    enumCombo("##overlay", ui.state.display.overlay, "none\0circle of confusion\0level of detail\0work\0");
     rowLabel("Wireframe", "Edges of the drawn triangles, coloured by level (Z)");
     ImGui::Checkbox("##wireframe", &ui.state.display.wireframe);
     if (!ui.picture.image) return;

@@ -226,7 +226,7 @@ void ViewPicture::drawAovs(bool wireframe) {
     if (aovsCurrent_ && (wireframeCurrent_ || !wireframe)) return;
     overlayTimer_.begin();
     if (!aovs_) aovs_.emplace(*world_, options_.shaderFolder);
-    if (!aovsCurrent_) aovs_->draw(plan(), parseMethodUse(firstSide().method).sharesImages());
+    if (!aovsCurrent_) aovs_->draw(plan());
     if (wireframe) aovs_->drawWireframe();
     overlayTimer_.end();
     aovsCurrent_ = true;
@@ -251,7 +251,6 @@ void ViewPicture::present(const PictureRequest& request) {
     if (aovsCurrent_) {
         inputs.coc = &aovs_->coc();
         inputs.level = &aovs_->level();
-        inputs.rate = &aovs_->rate();
         if (wireframeCurrent_) inputs.wireframe = &aovs_->wireframe();
     }
     if (workCurrent_) {

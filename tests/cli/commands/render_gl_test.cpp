@@ -313,29 +313,6 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
     EXPECT_EQ(*level.at(10, 80), -1);
 }
 
-// Regions in focus need all pixels. Without lens-cell blur, groups of four samples share the far square, which is in
-// focus.
-TEST_F(Render, ratesAreThePixelsAndImagesThatALensSampleNeeds) {
-    ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
-                   "--focus-distance", "8", "--fstop", "0.1"})
-                  .exitCode,
-              0);
-    const Image pixels = readImage(folder() / "a.rate.exr");
-    const double blur = 0.5 * (1 / 2.0 - 1 / 8.0) * 128 / 0.72;  // px; the aperture is 0.5 m wide
-    const double variance = std::pow(0.35 / 8 * blur, 2) - minCellVariance;
-    EXPECT_NEAR(*pixels.at(63, 21), 1 / (3 * (variance - 1.0 / 6)), 1e-4);
-    EXPECT_EQ(*pixels.at(126, 48), 1);
-    ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
-                   "--focus-distance", "8", "--fstop", "0.5", "--method", "multirate", "--cells", "off"})
-                  .exitCode,
-              0);
-    EXPECT_TRUE(fs::exists(folder() / "a.rate.png"));
-    const Image rate = readImage(folder() / "a.rate.exr");
-    EXPECT_EQ(*rate.at(63, 21), 1);
-    EXPECT_EQ(*rate.at(126, 48), 0.25f);
-    EXPECT_EQ(*rate.at(10, 80), -1);
-}
-
 TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     Image images[2];
     for (int i = 0; i < 2; ++i) {

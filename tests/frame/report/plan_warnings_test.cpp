@@ -109,7 +109,6 @@ TEST(PlanWarnings, lensCellsNeedFewerSamples) {
     small->view.lens.fStop = 0.2;
     ASSERT_FALSE(warningsOf(*small, 64).empty());
     EXPECT_TRUE(warningsOf(*small, 64, "multirate").empty());
-    EXPECT_EQ(warningsOf(*small, 64, "multirate:cells=off"), warningsOf(*small, 64));
     const std::vector<std::string> lines = warningsOf(*small, 8, "multirate");
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_TRUE(warningsOf(*small, static_cast<std::uint32_t>(numberAfter(lines[0], "about ")), "multirate").empty());

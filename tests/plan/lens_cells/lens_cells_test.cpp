@@ -211,5 +211,20 @@ TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
     expectNone("transparent");
 }
 
+TEST(LensCells, samplesMoveOnlyIfImagesAreBlurred) {
+    const auto small = muchBlurred();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+    FramePlan moved = plan;
+    const LensCells cells = lensCells(plan);
+    moveToCells(moved, cells);
+    for (std::size_t i = 0; i < 64; ++i) {
+        EXPECT_EQ(moved.samples[i].lens, cells.middles[i]);
+        EXPECT_EQ(moved.samples[i].pixel, plan.samples[i].pixel + glm::vec2(cells.pixelShift));
+    }
+    FramePlan kept = plan;
+    moveToCells(kept, {});
+    for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(kept.samples[i].lens, plan.samples[i].lens);
+}
+
 }  // namespace
 }  // namespace defocus::engine

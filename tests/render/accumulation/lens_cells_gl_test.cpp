@@ -13,7 +13,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "plan/lens_cells/lens_cells.h"
 #include "plan/sample_range.h"
-#include "render/multirate/partly_shared.h"
+#include "render/accumulation/lens_cell_renders.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -75,6 +75,77 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     while (whole->advance()) {
     }
     EXPECT_TRUE(sameBits(whole->image(), part->image()));
+}
+
+TEST_F(LensCellImages, keepAllGivesTheBitsOfAccumulation) {
+    const auto small = blurredSpheres();
+    for (const LodMode lod : {LodMode::fractional, LodMode::continuous, LodMode::off}) {
+        RenderSettings settings = ratedSettings(100, lod);
+        ASSERT_GT(lensCellsOf(*small, settings).blur, 0);
+        settings.keepAll = true;
+        EXPECT_TRUE(sameBits(drawnBy("accumulation", *small, settings), drawnBy("multirate", *small, settings)));
+    }
+}
+
+// Some GPUs cannot select a layer in the vertex shader.
+TEST_F(LensCellImages, geometryShaderLayersGiveTheSameImage) {
+    const auto small = blurredSpheres();
+    RendererOptions options;
+    options.geometryShaderLayers = true;
+    const RenderSettings settings = ratedSettings(64);
+    EXPECT_LT(largestDifference(drawnBy("multirate", *small, settings), drawnBy("multirate", *small, settings, options)),
+              1e-3);
+}
+
+TEST_F(LensCellImages, apertureZeroIsThePinhole) {
+    const auto small = blurredSpheres();
+    const RenderSettings settings = ratedSettings(64);
+    small->view.lens.dofEnabled = false;
+    const Image pinhole = drawnBy("multirate", *small, settings);
+    EXPECT_TRUE(sameBits(pinhole, drawnBy("accumulation", *small, settings)));
+    small->view.lens.dofEnabled = true;
+    small->view.lens.blurScale = 0;
+    EXPECT_TRUE(sameBits(pinhole, drawnBy("multirate", *small, settings)));
+}
+
+// Two panels of one colour touch along an edge. One of them is much more blurred. The red wall behind them does not show
+// through the common edge.
+TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
+    for (const double across : {0.0, 0.0031}) {
+        SmallWorld small;
+        small.scene.materials.push_back(unlitMaterial({0.5f, 0.5f, 0.5f, 1}));
+        small.scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
+        small.scene.meshes.push_back(quad(0));
+        small.scene.meshes.push_back(quad(1));
+        // One panel slants away from the common edge.
+        const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -2.2));
+        const glm::dmat4 panel =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
+        const glm::dmat4 mirrored =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
+        place(small, 0, edge * panel);
+        place(small, 0, edge * glm::rotate(glm::dmat4(1), 1.2, glm::dvec3(0, 1, 0)) * mirrored);
+        place(small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -9)), glm::dvec3(30)));
+        small.view.width = 160;
+        small.view.height = 96;
+        small.view.lens.fStop = 0.25;
+        small.view.lens.focusDistance = 2.1;
+        finish(small);
+        RendererOptions exact;
+        exact.layerFormat = LayerFormat::rgba32f;
+        ASSERT_GT(lensCellsOf(small, ratedSettings(64)).classes(), 0);
+        // Measures pixels near the common edge, away from the outer edges.
+        const auto worst = [&](const char* method) {
+            const Image image = drawnBy(method, small, ratedSettings(64), exact);
+            double largest = 0;
+            for (int y = 36; y < 60; ++y)
+                for (int x = 70; x < 90; ++x)
+                    for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, y)[c] - 0.5));
+            return largest;
+        };
+        EXPECT_LT(worst("accumulation"), 1.0 / 255);
+        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255);
+    }
 }
 
 // A light of 4 px far behind the focus, on black.

@@ -1,13 +1,11 @@
 #pragma once
-// What the tests of multirate rendering draw, and with which settings.
+// Renders of the tests of method "multirate".
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
-#include "plan/lens_cells/rates.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -22,7 +20,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// `method` with its settings, as a command names it.
+// Returns a renderer of `method`, given as on the command line, such as "line:segments=4".
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
@@ -34,10 +32,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Samples share, as they do where images aren't blurred as lens cells.
-inline constexpr const char* sharing = "multirate:cells=off";
-
-// By other samples than the images that are held against it.
+// Returns a reference image whose samples come from another sequence than those of the tested images.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -45,31 +40,16 @@ inline Image convergedImage(const SmallWorld& small) {
     return drawnBy("accumulation", small, settings);
 }
 
-// The largest difference of a pixel from one colour, as a share of it.
+// Returns the largest relative difference between a pixel and a colour.
 inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color) {
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
         for (glm::length_t c = 0; c < 3; ++c) {
             const double off =
                 std::abs(double{image.pixels[i * 4 + static_cast<std::size_t>(c)]} / double{color[c]} - 1);
-            if (!(off <= largest)) largest = off;  // NaN, too
+            if (!(off <= largest)) largest = off;  // NaN counts as a difference
         }
     return largest;
-}
-
-// Some of the spheres share, and some don't.
-inline std::unique_ptr<SmallWorld> partlyShared() {
-    auto small = fiveSpheres();
-    small->view.lens.fStop = 1.2;
-    small->view.width = 120;
-    small->view.height = 90;
-    return small;
-}
-
-inline std::size_t sharingObjects(const SmallWorld& small, const RenderSettings& settings) {
-    const FramePlan plan = planFrame(small.world, small.view, settings);
-    return static_cast<std::size_t>(
-        std::ranges::count_if(frameRates(plan, false).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
 }
 
 }  // namespace defocus::engine
