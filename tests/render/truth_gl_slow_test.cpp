@@ -1,4 +1,4 @@
-// The rasteriser against truth: an independent ray tracer on real geometry, and the closed forms of a small quad's
+// The rasterizer against an independent ray tracer on real geometry, and against the closed forms of a small quad's
 // bokeh. With DEFOCUS_TEST_OUTPUT set to a folder, images and their differences (× 16 around grey) are written there.
 
 #include <gtest/gtest.h>
@@ -42,8 +42,8 @@ void writeForPeople(const std::string& name, const Image& truth, const Image& im
     writeImage(path / (name + "-difference.png"), differenceImage(truth, image, 16));
 }
 
-// What is left at equal lens points: no structure, no image that is moved or scaled, no blur that is
-// wider or narrower. All are far below what 256 samples can show against an independent sequence.
+// At equal lens points, the remaining difference has no structure: no shift, no scale and no change of the blur's
+// width. The bounds are far below the noise of 256 samples against an independent sequence.
 void expectNoStructure(const std::string& name, const TruthScene& truth, const Image& image,
                        const RenderSettings& settings) {
     const Image planned = traced(truth.world, truth.view, settings, EmbreeSampling::planned);
@@ -58,10 +58,10 @@ void expectNoStructure(const std::string& name, const TruthScene& truth, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // share of the blur's width
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // fraction of the blur's width
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * truth.view.width, 0, 2e-3) << name;  // px over the image's width
+    EXPECT_NEAR(moved.growth * truth.view.width, 0, 2e-3) << name;  // growth in px over the image's width
 }
 
 void expectTruth(const std::string& name, Scene scene) {
@@ -75,8 +75,8 @@ void expectTruth(const std::string& name, Scene scene) {
     const Difference difference = compareImages(reference, image);
     EXPECT_GE(difference.psnr, 45) << name;
     EXPECT_EQ(difference.nonFinite, 0) << name;
-    // What may be left of 256 samples: noise of the ray tracer's own points, and the plan's points being up to 0.006
-    // off the lens's centre in the mean.
+    // Allowed differences at 256 samples: the noise of the ray tracer's own points, and an offset of the plan's mean
+    // lens point of up to 0.006.
     const BlockDifference blocks = blockDifference(reference, image);
     EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of 8 bits
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;

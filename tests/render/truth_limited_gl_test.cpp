@@ -1,5 +1,5 @@
-// The limited foreground against an independent truth (Munkberg, Toth and Akenine-Möller 2012, Figure 9): a ray tracer
-// that puts a lens of its own at the depth α before every pixel.
+// The limited foreground against an independent ray tracer that puts a separate lens at the depth α in front of each
+// pixel (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double limit = 5;  // px
 
-// A small school whose nearest fish would be blurred to much more than the limit.
+// A small school whose nearest fish, without the limit, would be blurred far beyond it.
 std::unique_ptr<TruthScene> nearSchool() {
     FishSchoolOptions school;
     school.fishCount = 8;

@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// A quarter: what faces the light throws back 1/2 in the mean, and half of the sphere faces away.
+// A surface element facing the light reflects 1/2 on average, and half of the sphere faces away: a quarter.
 TEST(LightMeans, ofASphereAreAQuarterOfItsColour) {
     const Mesh mesh = sphere(96, 48);
     const std::vector<glm::vec4> grey(mesh.vertices.count(), {0.2f, 0.4f, 0.6f, 1});
@@ -29,7 +29,7 @@ TEST(LightMeans, ofASquareFollowTheCosine) {
     for (std::size_t l = 0; l < lightCount; ++l) EXPECT_NEAR(means[l], std::max(directions[l].z, 0.0), 1e-6);
 }
 
-// Whatever normals a piece stands for, it throws back a quarter of what comes from all sides.
+// Under light from all sides, a surface element reflects a quarter of the light, whatever its spread of normals.
 TEST(MeanCosine, overAllLightsIsAQuarter) {
     constexpr int heights = 4000;
     for (const float agreement : {0.05f, 0.3f, 0.6f, 0.8f, 0.9f, 0.97f, 0.99f, 0.999f, 1.0f}) {
@@ -42,7 +42,7 @@ TEST(MeanCosine, overAllLightsIsAQuarter) {
     }
 }
 
-// Against the normals themselves: of von Mises' and Fisher's distribution on the sphere, whose mean is known.
+// The mean cosine agrees with an integral over von Mises-Fisher distributed normals, whose mean is known.
 TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     constexpr int count = 400;
     for (const double narrowness : {4.0, 10.0, 40.0, 200.0}) {
@@ -64,7 +64,7 @@ TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     }
 }
 
-// A ball's normals that all lean to one side are fitted to the light of the upright ones.
+// A ball's normals that all lean to one side are fitted to the light of the radial normals.
 TEST(FitLight, findsTheNormalsOfTheLight) {
     const Mesh ball = sphere(24, 12);
     std::vector<glm::vec3> truth;
@@ -104,7 +104,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// What is fitted already stays as it is, bit by bit.
+// Normals that already fit are not changed by a bit.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());
@@ -115,7 +115,7 @@ TEST(FitLight, leavesWhatFits) {
     EXPECT_EQ(normals, grid.vertices.normals);
 }
 
-// A damaged file has any numbers for normals and colours.
+// A damaged file may contain any float, including NaN, as normal or colour.
 TEST(FitLight, leavesWhatHasNoNumbers) {
     const Mesh grid = flatGrid(2);
     std::vector<std::uint32_t> groups(grid.vertices.count());

@@ -31,7 +31,7 @@ LensCells lensCellsOf(const SmallWorld& small, const RenderSettings& settings) {
     return lensCells(planFrame(small.world, small.view, settings));
 }
 
-// Spheres before and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
+// Spheres in front of and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
 std::unique_ptr<SmallWorld> blurredSpheres() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 0.25;
@@ -57,7 +57,7 @@ TEST_F(LensCellImages, waveSizeChangesNoBit) {
     }
 }
 
-// Asking for an image within a block leaves the sum as it is.
+// Reading an image within a block does not change the accumulated sum.
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
@@ -100,7 +100,7 @@ Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samp
     return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
 }
 
-// The standard deviation over the mean, well inside the disk.
+// Returns the standard deviation over the mean, well inside the disk.
 double ripple(const Image& image, const FarLight& light) {
     double sum = 0;
     double squares = 0;
@@ -115,7 +115,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Where few samples leave copies of a light, their cells fill the disk.
+// Where few samples leave separate copies of a light, lens cells fill the disk between the copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -127,8 +127,8 @@ TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
 
 struct LightDisk {
     double energy = 0;
-    double offMiddle = 0;  // px
-    double radius = 0;     // px, root mean square
+    double offMiddle = 0;  // px from the image's centre
+    double radius = 0;     // root mean square radius in px
 };
 
 LightDisk diskOf(const Image& image) {
@@ -150,12 +150,13 @@ LightDisk diskOf(const Image& image) {
 
 constexpr double farLightEnergy = 64 * 16;
 
-// A disk has c²/16 along an axis, the square 4²/12, and a pixel 1/12 twice: where it lies and what it gathers.
+// Root mean square radius of the blurred light. Along an axis, a disk has the variance c²/16, the square 4²/12, and a
+// pixel 1/12 for its sample positions and 1/12 for its area.
 double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
-// With blurs of σ = 0.4 to 6 px: the energy of the disk, its place and its size.
+// Blurs of σ = 0.4 to 6 px keep the energy of the disk, its position and its size.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
@@ -166,7 +167,8 @@ TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     }
 }
 
-// Few samples too, as well as the copies' places, rounded to pixels, allow: each errs by 1/√12 px along an axis.
+// Few samples keep the disk as well as their positions allow: each is rounded to a pixel and errs by 1/√12 px along an
+// axis.
 TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
     for (const std::uint32_t n : {4u, 5u, 7u})
         for (const double fStop : {0.4, 0.25, 0.1846}) {
@@ -178,7 +180,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// Whatever lies before or behind the focus, one colour stays one.
+// A scene of one colour keeps that colour, whatever lies in front of and behind the focus.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -211,7 +213,7 @@ struct FenceColors {
     glm::vec3 background;
 };
 
-// Pickets 2 m away and a wall of pickets behind them that ends within the frame.
+// Pickets at 2 m, and behind them a wall of pickets that ends within the frame.
 std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& colors) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(colors.fence));
@@ -233,7 +235,7 @@ std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& col
     return small;
 }
 
-// The largest difference of display values where `covered` is nothing or all: outlines that are in focus lie elsewhere.
+// Returns the largest difference of display values where `covered` is 0 or 1. Pixels on outlines in focus are excluded.
 double largestBesideOutlines(const Image& truth, const Image& image, const Image& covered) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -247,8 +249,8 @@ double largestBesideOutlines(const Image& truth, const Image& image, const Image
     return largest;
 }
 
-// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a sharp fence that is half transparent:
-// beside and within sharp outlines no pixel is farther from the truth than with the accumulation by more than 2/255.
+// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a half transparent sharp fence. Away
+// from sharp outlines, multirate exceeds the accumulation's error by no more than 2/255 in any pixel.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
     FenceColors glass = colors;
@@ -274,8 +276,8 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// As the lens opens bit by bit, from no blur that reaches a class to three of them, no step changes the image by much
-// more than its neighbours do.
+// The lens opens in small steps, from a blur below every class to a blur of three classes. No step changes the image by
+// more than twice its neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     const auto small = blurredSpheres();
     std::vector<double> changes;
@@ -296,8 +298,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The blur of the cells vanishes: no image is farther from the truth than the accumulation's, few samples are far
-// nearer, and many err less.
+// The blur of the cells vanishes with the sample count. The error is never above the accumulation's, far below it with
+// few samples, and shrinks with many.
 TEST_F(LensCellImages, convergesToTheReference) {
     const auto small = blurredSpheres();
     const Image truth = convergedImage(*small);

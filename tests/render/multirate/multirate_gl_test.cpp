@@ -27,7 +27,7 @@ protected:
 };
 std::unique_ptr<GlContext> Multirate::context_;
 
-// With every rate 1 it is the accumulation.
+// With every rate 1, multirate draws the accumulation's bits.
 TEST_F(Multirate, keepingEverythingGivesTheBitsOfAccumulation) {
     const auto small = partlyShared();
     for (const LodMode lod : {LodMode::fractional, LodMode::continuous, LodMode::off}) {
@@ -56,7 +56,7 @@ TEST_F(Multirate, waveSizeChangesNoBit) {
         }
 }
 
-// Some other machine's GPU may not pick layers in the vertex shader.
+// A geometry shader selects layers on GPUs that cannot select them in the vertex shader.
 TEST_F(Multirate, geometryShaderLayersGiveTheSameImage) {
     const auto small = partlyShared();
     RendererOptions options;
@@ -65,7 +65,7 @@ TEST_F(Multirate, geometryShaderLayersGiveTheSameImage) {
     EXPECT_LT(largestDifference(drawnBy(sharing, *small, settings), drawnBy(sharing, *small, settings, options)), 1e-3);
 }
 
-// Blocks that other machines draw, and blocks that are added later, are those of the whole frame.
+// Blocks that are added later, or that other machines draw, add up to the complete frame.
 TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
     const auto small = partlyShared();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
@@ -98,7 +98,7 @@ TEST_F(Multirate, apertureZeroIsThePinhole) {
     EXPECT_TRUE(sameBits(pinhole, drawnBy(sharing, *small, settings)));
 }
 
-// A wall that fills the frame: whatever is shared, every sample shows it once.
+// A wall that fills the frame appears once in each sample, however much is shared.
 TEST_F(Multirate, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -118,7 +118,7 @@ TEST_F(Multirate, constantSceneStaysConstant) {
     }
 }
 
-// Bright pickets, not upright, 2 m away, and a dark wall behind them that ends within the frame.
+// Bright, tilted pickets at 2 m, and behind them a dark wall that ends within the frame.
 std::unique_ptr<SmallWorld> fenceAndWall(double wallDepth, double focus, double fStop) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.3f, 1}));
@@ -139,7 +139,7 @@ std::unique_ptr<SmallWorld> fenceAndWall(double wallDepth, double focus, double 
     return small;
 }
 
-// Where everything is shared, the image is the accumulation's of a quarter of the samples.
+// If every object is shared by four samples, the image is the accumulation's with a quarter of the samples.
 TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
     const auto small = fenceAndWall(2.4, 2.2, 0.6);
     for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
@@ -152,8 +152,8 @@ TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
     }
 }
 
-// So it converges as the accumulation does. By the sequence's exponent, N^−0.65, a quarter of the images err by 2.5
-// times more; not all that is shared and seen has just that exponent.
+// Multirate converges as the accumulation does. By the sequence's exponent, N^−0.65, a quarter of the samples err 2.5
+// times as much. The exponent of a shared object may differ.
 TEST_F(Multirate, convergesToTheReference) {
     const auto small = fenceAndWall(3, 2.02, 0.15);
     ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), 12u);
@@ -168,8 +168,8 @@ TEST_F(Multirate, convergesToTheReference) {
         << errors[0] << ' ' << errors[1] << ' ' << errors[2];
 }
 
-// Where what is shared lies in front of, or behind, what isn't, neither shows through the other: no pixel is further
-// from the truth than with the accumulation by more than 2/255.
+// A shared object and an unshared one show no halo around each other. No pixel exceeds the accumulation's error by more
+// than 2/255.
 TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHaveNoHalo) {
     for (const bool sharpInFront : {true, false}) {
         const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.15);
@@ -184,8 +184,8 @@ TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHav
     }
 }
 
-// Two panels of one colour that stand edge to edge, one that could share and one that couldn't, before a wall of
-// another colour. No line of the wall may show between them, whatever the levels of detail and wherever the edge lies.
+// Two panels of one colour touch at an edge before a wall of another colour; only one of them is blurred enough to be
+// shared. No line of the wall shows between them, at any level of detail and any position of the edge.
 TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
     for (const double across : {0.0, 0.0031}) {
         SmallWorld small;
@@ -193,7 +193,7 @@ TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
         small.scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
         small.scene.meshes.push_back(quad(0));
         small.scene.meshes.push_back(quad(1));
-        // One slants away from the common edge, so that most of it is far more blurred.
+        // One panel slants away from the common edge, so that most of it is far more blurred.
         const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -2.2));
         const glm::dmat4 panel =
             glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
@@ -213,7 +213,7 @@ TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
         std::size_t couldShare = 0;
         for (const ObjectPlan& object : plan.objects) couldShare += object.coc.largest < wholeShareBlur ? 1 : 0;
         ASSERT_EQ(couldShare, 1u);
-        // Near the common edge, away from where either ends before the wall.
+        // The pixels near the common edge, away from the panels' other edges.
         const auto worst = [&](const char* method) {
             const Image image = drawnBy(method, small, ratedSettings(64), exact);
             double largest = 0;
@@ -227,7 +227,7 @@ TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
     }
 }
 
-// A bright square slightly out of focus, all of it shared, keeps its energy and its second moment.
+// A bright, slightly blurred square, fully shared, keeps its energy and its second moment.
 TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
     View view = bokehView(64, 64);
     view.lens.fStop = 0.35;
@@ -254,8 +254,7 @@ TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
             second += value * (std::pow(x + 0.5 - 32, 2) + std::pow(y + 0.5 - 32, 2));
         }
     EXPECT_NEAR(energy, 8 * side * side, 0.005 * 8 * side * side);
-    // Along both axes: a disk has c²/16 on each, a square side²/12, and a pixel 1/12 twice: where it lies and what it
-    // gathers.
+    // Sum over both axes: a disk has the variance c²/16 along each, a square side²/12, and a pixel 1/12.
     const double expected = 2 * (c * c / 16 + side * side / 12 + 1.0 / 12);
     EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1);
 }

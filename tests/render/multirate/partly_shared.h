@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of multirate rendering draw, and with which settings.
+// Scenes and settings for the tests of multirate rendering.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// `method` with its settings, as a command names it.
+// Makes a renderer of `method`, given with its settings as on the command line.
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
@@ -34,10 +34,10 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Samples share, as they do where images aren't blurred as lens cells.
+// Samples share images only where lens cells do not blur them, so cells are off.
 inline constexpr const char* sharing = "multirate:cells=off";
 
-// By other samples than the images that are held against it.
+// Reference image by samples that differ from those of the images under test.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -45,19 +45,19 @@ inline Image convergedImage(const SmallWorld& small) {
     return drawnBy("accumulation", small, settings);
 }
 
-// The largest difference of a pixel from one colour, as a share of it.
+// Returns the largest relative difference of a pixel from one colour.
 inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color) {
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
         for (glm::length_t c = 0; c < 3; ++c) {
             const double off =
                 std::abs(double{image.pixels[i * 4 + static_cast<std::size_t>(c)]} / double{color[c]} - 1);
-            if (!(off <= largest)) largest = off;  // NaN, too
+            if (!(off <= largest)) largest = off;  // true for NaN, too
         }
     return largest;
 }
 
-// Some of the spheres share, and some don't.
+// Five spheres of which only some are shared.
 inline std::unique_ptr<SmallWorld> partlyShared() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 1.2;
