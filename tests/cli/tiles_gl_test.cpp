@@ -58,7 +58,7 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
     }
 }
 
-// Without --samples each tile takes the number that the whole frame's blur requires.
+// Without --samples, each tile takes the number that the blur of the entire frame requires.
 TEST_F(TileCommand, tilesAgreeOnTheNumberOfSamples) {
     std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr"};
     for (const std::string index : {"0", "1"}) {
@@ -136,8 +136,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// Meshes and the driver's copies of their triangles count before they are allocated: 400,000 triangles a layer, in one
-// piece.
+// The memory limit counts meshes and the driver's copies of their triangles before they are allocated. The scene has
+// 400,000 triangles per layer, drawn in one piece.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",

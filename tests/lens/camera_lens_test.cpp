@@ -1,4 +1,4 @@
-// The scale of a file's camera: its field of view is kept, its sensor or its focal length gives the rest.
+// The lens of a file's camera: the field of view is the camera's, and its sensor or focal length gives the rest.
 #include "lens/camera_lens.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// 50 mm on 36 x 24 mm, fitted vertically.
+// A camera of 50 mm on 36 x 24 mm, fitted vertically.
 Camera physicalCamera() {
     Camera camera;
     camera.yfov = 2 * std::atan(24.0 / (2 * 50));

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Which levels draw a sample of an object, and at which share of the pixels.
+// The levels that draw a sample of an object, and their share of the pixels.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;

@@ -1,4 +1,5 @@
 // Environments that vary with the direction: their radiance in a pixel, and their light on a surface.
+//
 // Maps hold L(d) = 1 + linear and quadratic terms in d, which are spherical harmonics of the bands 0, 1 and 2. The
 // clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the matt reflection is known.
 

@@ -126,8 +126,8 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
-// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at its own time,
-// whichever frames are rendered with it.
+// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at the frame's
+// own time, independent of the other frames in the run.
 TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     json dolly = shot();
     dolly.erase("focus");

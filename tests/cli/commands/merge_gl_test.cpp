@@ -61,7 +61,7 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     EXPECT_NE(resumed.err.find("1 of them there before"), std::string::npos) << resumed.err;
 }
 
-// The camera turns while the shutter is open. Each sample has its own time, whichever part contains the sample.
+// The camera turns while the shutter is open. Each sample has its own time, independent of the part that contains it.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;

@@ -72,8 +72,8 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// A whole level's pop is the sum of N steps. By the triangle inequality each step is at least 1/N of it in the mean.
-// Steps of different samples add up at most like random ones: 1/√N.
+// A full level's pop is the sum of N steps. By the triangle inequality, the mean step is at least 1/N of the pop. Steps
+// of different samples add up at most like random ones: 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -124,8 +124,7 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
 
 // ---- the objects' pixels --------------------------------------------------------------------------------------------
 
-// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing, whatever
-// its blur.
+// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);

@@ -1,4 +1,4 @@
-// Loading from the cache equals building, bit for bit, whatever happens to the cache.
+// Loading from the cache equals building, bit for bit, even after damage to a file.
 
 #include "lod/pyramid/cache.h"
 
@@ -550,7 +550,7 @@ TEST(PyramidCache, processesMayShareAFolder) {
                 const auto loaded = loadPyramid(meshes[i], scratch.path());
                 good = !loaded || sameBits(loaded->indices, built[i].indices);
                 storePyramid(built[i], meshes[i], scratch.path());
-                // From here on the file is complete, whichever process writes it.
+                // From here on, the file is complete at any time.
                 good = good && loadPyramid(meshes[i], scratch.path()).has_value();
             }
         ::_exit(good ? 0 : 1);

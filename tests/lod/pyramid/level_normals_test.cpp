@@ -47,8 +47,8 @@ Agreement agreementOf(const Mesh& ball, const Pyramid& pyramid, std::size_t numb
     return {sum.cosine / count, sum.length / count};
 }
 
-// A level's interpolated normals hardly differ from a smooth ball's, whatever the angle between a triangle's normals,
-// so the level stays a mirror.
+// A level's interpolated normals hardly differ from a smooth ball's, even on large triangles, so the level stays a
+// mirror.
 TEST(LevelNormals, ofASmoothBallStayWhole) {
     Mesh ball = sphere(96, 48);
     for (std::size_t v = 0; v < ball.vertices.count(); ++v)

@@ -1,4 +1,4 @@
-// Real models: each must become a pyramid, whatever its surface.
+// Real models with all kinds of surfaces: each must become a pyramid.
 
 #include <gtest/gtest.h>
 

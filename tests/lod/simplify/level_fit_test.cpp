@@ -237,7 +237,7 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// Of two vertices with one position and one normal, the second is a twin whose normal depends only on its own anchors.
+// Two vertices have one position and one normal. The second is a twin, whose normal depends only on its own anchors.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

@@ -29,7 +29,7 @@ TEST(LightMeans, ofASquareFollowTheCosine) {
     for (std::size_t l = 0; l < lightCount; ++l) EXPECT_NEAR(means[l], std::max(directions[l].z, 0.0), 1e-6);
 }
 
-// Under light from all sides, a surface element reflects a quarter of the light, whatever its spread of normals.
+// Under light from all sides, a surface element reflects a quarter of the light, independent of its spread of normals.
 TEST(MeanCosine, overAllLightsIsAQuarter) {
     constexpr int heights = 4000;
     for (const float agreement : {0.05f, 0.3f, 0.6f, 0.8f, 0.9f, 0.97f, 0.99f, 0.999f, 1.0f}) {

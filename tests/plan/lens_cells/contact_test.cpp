@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// `nearest`, `farthest`: depths, m. Pixels lie as far apart at 10 m as in the image.
+// Bounds of a box between two depths in m. At a depth of 10 m, pixels and world units coincide.
 ContactBounds box(double left, double bottom, double right, double top, double nearest = 10, double farthest = 10) {
     const double unit = 0.1;
     return {{left, bottom},
@@ -26,21 +26,21 @@ TEST(Contact, theGapIsTheLargestOfTheDistances) {
     EXPECT_EQ(contactGap(box(0, 0, 10, 10), box(5, 5, 20, 10)), 0);
     EXPECT_EQ(contactGap(box(0, 0, 10, 10), box(13, 0, 20, 10)), 2);
     EXPECT_EQ(contactGap(box(0, 0, 10, 10), box(13, 15, 20, 20)), 4);
-    // One behind the other: 4 m are 2 px at 20 m.
+    // One box behind the other: the gap of 4 m is 2 px at a depth of 20 m.
     EXPECT_EQ(contactGap(box(0, 0, 10, 10, 12, 16), box(0, 0, 10, 10, 20, 25)), 1);
     EXPECT_EQ(contactGap(box(0, 0, 10, 10, 12, 16), box(0, 0, 10, 10, 16, 25)), 0);
-    // Unlimited ones touch everything.
+    // Unlimited boxes touch every box.
     EXPECT_EQ(contactGap(ContactBounds{}, box(0, 0, 10, 10)), 0);
     EXPECT_EQ(contactGap(ContactBounds{}, ContactBounds{}), 0);
 }
 
-// Against all ways between all objects (Floyd 1962).
+// The reference is the shortest path between all pairs of objects (Floyd 1962).
 TEST(Contact, valuesSpreadAlongTheShortestWay) {
     std::mt19937 random(7);
     const auto uniform = [&](double min, double max) {
         return std::uniform_real_distribution<double>(min, max)(random);
     };
-    // Scattered, and in a heap.
+    // Scattered boxes, and a dense heap.
     for (const auto& [count, side] : {std::pair(1u, 400.0), {2u, 400.0}, {40u, 400.0}, {150u, 400.0}, {150u, 30.0}}) {
         std::vector<ContactBounds> bounds;
         std::vector<double> values;

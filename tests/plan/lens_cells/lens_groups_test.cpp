@@ -15,7 +15,7 @@ std::vector<LensSample> samplesOfLens(const Lens& lens, std::uint32_t first, std
     return lensSamples(lens, Sequence::sobol, first, count, 0);
 }
 
-// The first samples of a sequence, as many as there are groups.
+// Returns the first samples of a sequence, one per group.
 std::vector<LensSample> imagesOfLens(const Lens& lens, std::uint32_t first, std::uint32_t count, std::uint32_t size) {
     return samplesOfLens(lens, first / size, (count + size - 1) / size);
 }
@@ -26,7 +26,7 @@ glm::vec2 meanOf(std::span<const LensSample> samples, std::span<const std::uint3
     return sum / static_cast<float>(members.size());
 }
 
-// Mean square distance from the members' mean.
+// Returns the mean square distance from the members' mean.
 float spread(std::span<const LensSample> samples, std::span<const std::uint32_t> members) {
     const glm::vec2 mean = meanOf(samples, members);
     float sum = 0;
@@ -59,9 +59,9 @@ TEST(LensGroups, aPointBesideEachImageIsInItsGroup) {
     for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(order[i] % 16, i / 4);
 }
 
-// 16 squares of the area of the disk have 1/16 · (π/6)/(1/2) = 6.5 % of its spread within them, and points anywhere
-// within one are apart by twice that. In apertures with corners halves of images and of samples differ a little. Any
-// samples and any image are apart by twice the spread.
+// 16 squares with the disk's area contain 1/16 · (π/6)/(1/2) = 6.5 % of its spread, and random points in one square
+// differ by twice that. In apertures with corners, the halves of images and samples differ a little. Unrelated samples
+// and images would differ by twice the spread.
 TEST(LensGroups, samplesStandWithTheirImage) {
     for (const ApertureShape& shape : apertureShapes)
         for (const std::uint32_t first : {0u, 64u, 640u}) {
@@ -77,7 +77,7 @@ TEST(LensGroups, samplesStandWithTheirImage) {
         }
 }
 
-// A prefix of the groups shares or draws the coarser level: it must not be one side of the lens.
+// A prefix of the groups shares images or draws the coarser level, so it must not cover only one side of the lens.
 TEST(LensGroups, prefixesStaySpreadOverTheLens) {
     for (const ApertureShape& shape : apertureShapes) {
         const std::vector<LensSample> samples = samplesOfLens(shape.lens(), 0, 64);

@@ -16,11 +16,12 @@
 namespace defocus::engine {
 namespace {
 
-// Five spheres of which only some are blurred so little that they share, before nothing.
+// Five spheres without a background, of which only some are blurred little enough to share.
 std::unique_ptr<SmallWorld> hardlyBlurred() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 1.1;
-    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};  // no lens cells
+    // a transparent background rules out lens cells
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
     return small;
 }
 
@@ -28,7 +29,7 @@ RatedBlock blockOf(const FramePlan& plan, std::uint32_t first, std::uint32_t cou
     return ratedBlock(plan, frameRates(plan, false), first, count);
 }
 
-// By object and level: how much of a sample's pixels show it.
+// Adds the share of a sample's pixels that each object shows, by level.
 using Shares = std::map<std::pair<int, std::uint32_t>, double>;
 
 void addShares(Shares& shares, const FramePlan& plan, std::uint32_t sample, double weight = 1) {
@@ -42,7 +43,7 @@ void addShares(Shares& shares, const FramePlan& plan, std::uint32_t sample, doub
     }
 }
 
-// What sample `sample` of the block shows: its group's image and what it draws itself.
+// Returns the shares in sample `sample` of the block: its group's image and its own objects.
 Shares shownIn(const RatedBlock& block, std::uint32_t sample) {
     Shares shares;
     addShares(shares, block.samples, sample);
@@ -69,7 +70,7 @@ TEST(Rates, eachSampleShowsEachObjectOnceAndABlockShowsItsLevels) {
                 ASSERT_EQ(objects.size(), plan.objects.size());
                 for (const auto& [object, share] : objects) ASSERT_NEAR(share, 1, 1e-9) << object << ' ' << first + i;
             }
-            // Where a frame ends with a group that isn't whole, that group's samples show what it is.
+            // In an incomplete group at the end of a frame, all samples show the group's image.
             const double slack = count % block.groupSize == 0 ? 1e-9 : block.groupSize;
             for (const auto& [key, share] : expected) EXPECT_NEAR(shown[key], share, slack) << key.first;
         }
@@ -84,7 +85,8 @@ TEST(Rates, eachSampleShowsEachObjectOnceAndABlockShowsItsLevels) {
             }
 }
 
-// Where an object that is shared covers one that isn't, only the lens points differ.
+// Samples of a group have the pixel offset of its image. Where a shared object covers an unshared one, only the lens
+// points differ.
 TEST(Rates, allOfAGroupHasItsImagesPixelOffset) {
     const auto small = hardlyBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
@@ -114,7 +116,7 @@ TEST(Rates, onlyWhatIsHardlyBlurredShares) {
     EXPECT_LT(ratedTriangles(plan, frameRates(plan, false)), plan.trianglesDrawn);
 }
 
-// What all groups share is drawn as in a frame of a quarter of the samples.
+// Objects shared by all groups are drawn as in a frame with a quarter of the samples.
 TEST(Rates, theImagesAreTheFirstSamplesOfTheSequence) {
     const auto small = hardlyBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(128));
@@ -148,11 +150,11 @@ TEST(Rates, theShareFollowsTheBlurWithoutJumps) {
         }
     }
     EXPECT_TRUE(between);
-    // 0.002 of the blur of the nearest sphere, 20 px, is 0.04 px of the 1.5 between all and nothing.
+    // 0.002 of the nearest sphere's blur of 20 px is 0.04 px. The share falls from 1 to 0 over 1.5 px.
     EXPECT_LT(largestStep, 0.1);
 }
 
-// Within the areas lie all the places that any lens sample and any pixel offset gives a vertex.
+// The shared areas contain every position that a lens sample and a pixel offset can give a vertex.
 TEST(Rates, groupsShowNothingOutsideTheSharedAreas) {
     const auto small = hardlyBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
@@ -179,10 +181,11 @@ TEST(Rates, groupsShowNothingOutsideTheSharedAreas) {
         }
 }
 
-// Blocks of different machines, or planned one after the other, divide the groups as one plan of the frame does.
+// Blocks of different machines, and blocks planned one after another, divide the groups as a single plan of the frame
+// does.
 TEST(Rates, blocksOfAPartShareAsInTheWholeFrame) {
     auto small = fiveSpheres();
-    // A share in the middle.
+    // Searches an f-stop with a fractional share.
     for (double f = 1; f < 20; f *= 1.02) {
         small->view.lens.fStop = f;
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -228,7 +231,7 @@ TEST(Rates, keepAllSharesNothing) {
     EXPECT_EQ(ratedTriangles(plan, frameRates(plan, false)), plan.trianglesDrawn);
 }
 
-// What a group can't stand for is drawn for each sample.
+// Objects that differ between the samples of a group are drawn for each sample.
 TEST(Rates, whatDiffersFromSampleToSampleIsNotShared) {
     const auto small = hardlyBlurred();
     const auto reasons = [&] {
@@ -266,7 +269,7 @@ TEST(Rates, thePlanIsPrintedWithThem) {
     EXPECT_NE(planTable(fiveSpheresPlan()).find("--method multirate blurs each sample's image"), std::string::npos);
 }
 
-// Sharing errs more than drawing each sample: a frame that doesn't allow cells has the accumulation's samples.
+// Sharing errs more than drawing each sample, so a frame without lens cells uses the accumulation's samples.
 TEST(Rates, withoutCellsNothingSharesUnlessItIsAskedFor) {
     const auto small = hardlyBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));

@@ -205,8 +205,7 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// As published, the scale of eight taps is their sum: a white field is stored as 1, a black one as 0, any other in
-// between.
+// The published scale of eight taps is their sum: a white field is stored as 1, a black one as 0, any other in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {

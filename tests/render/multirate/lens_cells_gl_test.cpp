@@ -115,7 +115,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Where few samples leave separate copies of a light, lens cells fill the disk between the copies.
+// Few samples leave separate copies of a light. Lens cells fill the disk between the copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -180,7 +180,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// A scene of one colour keeps that colour, whatever lies in front of and behind the focus.
+// A scene of one colour in front of and behind the focus keeps that colour.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
