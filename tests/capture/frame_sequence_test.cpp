@@ -296,7 +296,7 @@ TEST_F(FrameSequence, exposureFollowsTheLens) {
 
     const char* switched =
         R"({"lens": {"exposureTime": {"keys": [{"frame": 0, "value": 0}, {"frame": 4, "value": 1}]}}})";
-    EXPECT_EQ(frame(switched, 3).view.lens.exposureTime, 0) << "between none and some there is nothing";
+    EXPECT_EQ(frame(switched, 3).view.lens.exposureTime, 0) << "no interpolation from an unset exposure time";
     EXPECT_EQ(frame(switched, 4).view.lens.exposureTime, 1);
     EXPECT_THROW((void)parseShot(R"({"exposure": 1, "lens": {"exposureTime": 0.01}})", "x.json"), Error);
 }

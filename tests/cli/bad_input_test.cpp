@@ -382,7 +382,7 @@ TEST_F(BadInput, damagedCopiesOfAModel) {
         refused += expectRefusedOrLoaded(folder() / "damaged.glb") ? 1 : 0;
     };
     for (std::size_t part = 0; part < 8; ++part) expectDamaged(whole.substr(0, part * whole.size() / 8 + part % 3));
-    EXPECT_EQ(refused, 8) << "none of them is whole";
+    EXPECT_EQ(refused, 8) << "every damaged copy must be refused";
     for (std::size_t word = 0; word < 5; ++word) {
         std::string changed = whole;
         changed[4 * word] = static_cast<char>(changed[4 * word] ^ 0x41);

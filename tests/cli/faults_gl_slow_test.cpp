@@ -206,7 +206,7 @@ TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
 }
 
 TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     const Words line = {"render", "quads.gltf", "--quiet", "--size", "1600x1200", "--samples",
                         "3",      "--memory",   "350MiB",  "-o",     "out.exr",   "--resume"};
     Words whole = line;
@@ -309,12 +309,12 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
         EXPECT_EQ(ran(film), 0) << said();
         EXPECT_TRUE(bytesOf("frames/0007.exr") == bytesOf("whole/0007.exr"));
     }
-    EXPECT_GT(partly, 0) << "it never failed in the middle";
+    EXPECT_GT(partly, 0) << "some runs must fail after the first frames";
 }
 
 // The program names each missing extension, whether a fallback produces a picture or none exists.
 TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "drivers of GPUs lack others";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "GPU drivers lack other extensions";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
     EXPECT_EQ(ran(line, {{"FAULT_EGL", "EGL_EXT_platform_device"}}), 0) << said();
     EXPECT_NE(said().find("EGL devices: the driver has no EGL_EXT_platform_device\n"), std::string::npos) << said();

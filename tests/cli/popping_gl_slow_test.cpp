@@ -62,7 +62,7 @@ protected:
         measurePopping(frame.world, frame.view, popping, visitor);
         RecordProperty("nearest", std::to_string(nearest));
         RecordProperty("fractional", std::to_string(fractional));
-        ASSERT_GT(nearest, 0.003) << "no level changes: the movement shows nothing";
+        ASSERT_GT(nearest, 0.003) << "levels must change during the movement";
         EXPECT_GT(fractional, 0);
         EXPECT_LT(fractional, levelShareMax * nearest);
         EXPECT_LT(fractional, maxPop);

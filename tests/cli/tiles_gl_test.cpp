@@ -158,8 +158,7 @@ TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
 }
 
 TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
-    if (!createHeadlessContext()->software())
-        GTEST_SKIP() << "a GPU's own memory may be short, which no option changes";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const std::string said = run(inTiles({"-o", "x.exr"}, "1MiB")).err;
     const std::string option = "--memory ";
     const std::size_t begin = said.find(option);

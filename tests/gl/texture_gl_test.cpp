@@ -183,7 +183,7 @@ TEST_F(GlTextureTest, beyondTheDriversLayersNamesTheirNumber) {
 }
 
 TEST_F(GlTextureTest, beyondMemoryIsAnError) {
-    if (!currentIsSoftware()) GTEST_SKIP() << "a GPU's driver may look for the memory once something is drawn";
+    if (!currentIsSoftware()) GTEST_SKIP() << "a GPU's driver may allocate the memory at the first draw";
     const ExpectedGlMessages wrongOnPurpose;
     GLint limit = 0, layers = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);

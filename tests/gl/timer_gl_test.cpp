@@ -23,7 +23,7 @@ TEST_F(Timer, withoutSpansIsZero) {
     GpuTimer timer;
     EXPECT_EQ(timer.milliseconds(), 0);
     timer.begin();
-    EXPECT_EQ(timer.milliseconds(), 0) << "a span that has no end yet";
+    EXPECT_EQ(timer.milliseconds(), 0) << "an unfinished span counts as zero";
 }
 
 TEST_F(Timer, sumsItsSpansUntilItIsReset) {
@@ -31,7 +31,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     spanOf(timer, 8);
     const double first = timer.milliseconds();
     EXPECT_GE(first, 4);  // half, as clocks differ
-    EXPECT_EQ(timer.milliseconds(), first) << "asking takes no time";
+    EXPECT_EQ(timer.milliseconds(), first) << "reading adds no time";
     spanOf(timer, 8);
     spanOf(timer, 8);
     EXPECT_GE(timer.milliseconds(), first + 8);

@@ -56,7 +56,7 @@ TEST_F(ImageRows, giveThePixelsOfAWholeFile) {
         const fs::path other = folder() / (std::string("rows-") + name);
         ImageRowWriter writer(other, 53, 201, 4, metadata, options);
         for (int first = 0; first < 201; first += 90) writer.write(rowsOf(image, first, std::min(90, 201 - first)));
-        EXPECT_FALSE(fs::exists(other)) << "a file has its name before it is whole";
+        EXPECT_FALSE(fs::exists(other)) << "an incomplete file must not have its final name";
         writer.finish();
         Metadata known, written;
         EXPECT_TRUE(readImage(other, written).pixels == readImage(folder() / name, known).pixels) << name;

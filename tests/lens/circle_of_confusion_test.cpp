@@ -215,7 +215,7 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         EXPECT_LE(deviation, bound.kinks + bound.curved + 1e-6) << "trial " << trial;
         large += deviation > 0.5 ? 1 : 0;
     }
-    EXPECT_GT(large, 300) << "edges that deviate must be among them";
+    EXPECT_GT(large, 300) << "some edges must deviate";
 }
 
 }  // namespace

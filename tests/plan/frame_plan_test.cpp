@@ -220,7 +220,7 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
     // A continuous λ changes half as much in half a step; a jump keeps its size.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
-    EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "from focus to blur";
+    EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";
 }
 
 TEST(FramePlan, moreSamplesMeanFinerMeasuredLevels) {

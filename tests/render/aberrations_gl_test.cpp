@@ -109,7 +109,7 @@ TEST_F(Aberrations, comaMakesComets) {
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
         const double scale = share * (place.x - middle.x);
         EXPECT_NEAR(comet.centre.x - sharp.centre.x, scale * (1 + 2 * share / 3), 0.02 * std::abs(scale))
-            << "outwards if above 0";
+            << "points outwards for positive coma";
         EXPECT_NEAR(comet.centre.y, sharp.centre.y, 0.02);
         EXPECT_NEAR(comet.moments[0][0] - ownVariance, scale * scale / 2, 0.03 * scale * scale);
         EXPECT_NEAR(comet.moments[1][1] - ownVariance, scale * scale / 6, 0.03 * scale * scale);

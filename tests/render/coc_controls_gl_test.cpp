@@ -319,7 +319,7 @@ TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     small->world.pose.objects[2].cocScale = 0;
     const Image selected = rendered(*small, 256);
     EXPECT_LT(rootMeanSquare(part(selected, 0), part(hexagonal, 0)), 1e-6);
-    EXPECT_GT(rootMeanSquare(part(hexagonal, 0), part(circular, 0)), 0.002) << "a hexagon is no disk";
+    EXPECT_GT(rootMeanSquare(part(hexagonal, 0), part(circular, 0)), 0.002) << "a hexagon must differ from a disk";
     small->view.lens.dofEnabled = false;
     EXPECT_LT(rootMeanSquare(part(selected, 2), part(rendered(*small, 256), 2)), 1e-5);
 }
@@ -333,7 +333,7 @@ TEST_F(CocControls, scaleOfAnObjectIsItsOwn) {
     EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
     small->world.pose.objects[0].cocScale = small->world.pose.objects[2].cocScale = 1;
     small->view.lens.blurScale = 2;
-    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 2), part(after, 2)), 1e-4) << "as the whole lens's scale";
+    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 2), part(after, 2)), 1e-4) << "equals the lens's blur scale";
     small->view.lens.dofEnabled = false;
     EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 0), part(after, 0)), 1e-5);
 }

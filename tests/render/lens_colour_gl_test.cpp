@@ -175,7 +175,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     EXPECT_LT(along, 0.75 * across) << "narrower towards the centre";
     EXPECT_NEAR(along / across, expectedAlong / expectedAcross, 0.08);
     EXPECT_NEAR(glm::length(cut.centre - mean), 0, 0.4);
-    EXPECT_LT(glm::dot(cut.centre - round.centre, outward), -0.5) << "what remains lies towards the centre";
+    EXPECT_LT(glm::dot(cut.centre - round.centre, outward), -0.5) << "the remaining part lies towards the centre";
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     EXPECT_NEAR(image.at(image.width / 2, image.height / 2)[0], 0.04, 0.01);
     Material glowing = coated;
     glowing.emissiveFactor = glm::vec3(1);
-    EXPECT_LT(farthestFrom(furnace(glowing, 1), 1), 1e-5) << "what the coat keeps from the glow it adds of the furnace";
+    EXPECT_LT(farthestFrom(furnace(glowing, 1), 1), 1e-5) << "the coat reflects what it blocks of the glow";
 }
 
 constexpr float layerRoughnesses[] = {0, 0.1f, 0.3f, 0.6f, 1};

@@ -138,7 +138,7 @@ TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     for (Mesh& mesh : small->scene.meshes) mesh.vertices.colors.clear();
     finish(*small);
     EXPECT_LT(farthestFrom(wallImage(*small), glm::dvec3(std::pow(0.9, 9))), 1e-5)
-        << "the eight nearest, and one of the others";
+        << "the eight nearest panes and one of the others";
 }
 
 Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {

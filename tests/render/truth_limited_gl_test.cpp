@@ -52,7 +52,7 @@ TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
     const Image planned = traced(*truth, settings, EmbreeSampling::planned);
     EXPECT_GT(compareImages(planned, image).psnr, 60);
     EXPECT_GT(compareImages(traced(*truth, settings, EmbreeSampling::perPixel), image).psnr, 45);
-    EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "without the limit it is another image";
+    EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "the unlimited image differs";
 }
 
 }  // namespace

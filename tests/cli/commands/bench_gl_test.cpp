@@ -41,7 +41,7 @@ protected:
             for (std::string cell; std::getline(values, cell, ',');) cells.push_back(cell);
             std::string key;
             for (std::size_t i = first; i < first + keys; ++i) key += cells.at(i) + ' ';
-            EXPECT_TRUE(rows.emplace(key, cells).second) << key << "is there twice in " << file;
+            EXPECT_TRUE(rows.emplace(key, cells).second) << key << " occurs twice in " << file;
         }
         return rows;
     }

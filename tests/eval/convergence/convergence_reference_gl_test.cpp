@@ -102,7 +102,7 @@ TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
     EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
     writeFile(folder_ / "reference-half.exr", "");
-    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file is no loss";
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file may be replaced";
     writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // another image under the reference's name
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
 }

@@ -63,7 +63,7 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     for (const PoppingFrame& frame : frames_) {
         EXPECT_GE(frame.frame, 1);
         EXPECT_LE(frame.frame, 5);
-        EXPECT_GE(frame.change.objects.rmse, frame.change.image.rmse) << "what differs lies in the objects' pixels";
+        EXPECT_GE(frame.change.objects.rmse, frame.change.image.rmse) << "differences lie in the objects' pixels";
         EXPECT_GE(frame.step.objects.rmse, frame.step.image.rmse);
         fastest = std::max(fastest, frame.speed);
         worst = std::max(worst, frame.step.image.rmse);

@@ -336,7 +336,7 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
 
 // A frame that exceeds the memory limit in one piece has the same bits in tiles, from the top row on.
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     Request request = smallRequest();
     request.size.width = 1600;
     request.size.height = 1200;
@@ -367,7 +367,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
         before = other.samples();
     }
     EXPECT_EQ(other.samples(), 4u);
-    EXPECT_GT(steps, 1) << "it was one piece, which is drawn at once";
+    EXPECT_GT(steps, 1) << "a frame in one piece is drawn in a single step";
     EXPECT_TRUE(other.image().pixels == whole.pixels);
     EXPECT_EQ(other.statistics().samples, 4u);
     EXPECT_EQ(other.warnings(), warnings);

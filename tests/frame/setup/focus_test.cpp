@@ -122,7 +122,7 @@ TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     Lens lens;
     focusThrough(points, lens, "test");
     EXPECT_NEAR(lens.focusSwing, 0, 1e-9);
-    EXPECT_LT(lens.focusTilt, -0.01) << "its top lies farther away";
+    EXPECT_LT(lens.focusTilt, -0.01) << "the top of the plane is farther away";
 }
 
 // The default focus on a box is its visible front, not its centre. If the middle of the image is empty, the scene's

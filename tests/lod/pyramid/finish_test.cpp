@@ -79,7 +79,7 @@ TEST(Finish, largeTexturesAreMeansOfLinearLight) {
         const std::uint8_t value = x % 2 == 0 ? 0 : 255;
         scene.images[0].rgba.insert(scene.images[0].rgba.end(), {value, value, value, 255});
     }
-    EXPECT_NEAR(Finishes(scene).of(0).baseColorMap.at({0.3f, 0.5f}, {}).x, 0.5, 0.005) << "but for 8 bits";
+    EXPECT_NEAR(Finishes(scene).of(0).baseColorMap.at({0.3f, 0.5f}, {}).x, 0.5, 0.005) << "up to 8-bit rounding";
 }
 
 TEST(Finish, wrapsMirrorAndClamp) {
@@ -106,7 +106,7 @@ TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     };
     const Pyramid opposite = moved(8);
     EXPECT_GT(squaredError(opposite, 1, 0), 10 * squaredError(moved(0.5f), 1, 0));
-    EXPECT_LT(squaredError(moved(16), 1, 0), 1e-3 * squaredError(opposite, 1, 0)) << "a whole period";
+    EXPECT_LT(squaredError(moved(16), 1, 0), 1e-3 * squaredError(opposite, 1, 0)) << "a full period";
     EXPECT_LT(squaredError(opposite, 1, 2), 0.02 * squaredError(opposite, 1, 0));
     EXPECT_GT(squaredContrast(opposite, 2), 0.5);
 }
@@ -190,7 +190,7 @@ TEST(Finish, isPartOfThePyramidsKey) {
     const Pyramid white = buildPyramid(mesh);
     const Pyramid own = buildPyramid(mesh, {.finishes = &finishes});
     ASSERT_EQ(white.levels.size(), own.levels.size());
-    EXPECT_EQ(white.levels[1].positions, own.levels[1].positions) << "the levels themselves know no material";
+    EXPECT_EQ(white.levels[1].positions, own.levels[1].positions) << "levels do not depend on materials";
     EXPECT_NE(white.contrast, own.contrast);
 }
 

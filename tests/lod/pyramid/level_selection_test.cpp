@@ -125,7 +125,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             ASSERT_NEAR(byBlur, expected, 1e-10) << target;
             ASSERT_NEAR(byDistance, expected, 1e-10) << target;
         }
-        EXPECT_NEAR(growth(0, 10), 4, 1e-12) << "all levels are passed";
+        EXPECT_NEAR(growth(0, 10), 4, 1e-12) << "the sweep passes all levels";
     }
 }
 
@@ -138,7 +138,7 @@ TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {
         EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";
         EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {std::nan(""), std::nan("")}), 0);
         EXPECT_EQ(levelOfDetail(Pyramid{}, {1, 10}, metric, {1, 1}), 0);
-        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point may be as coarse as it gets";
+        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point uses the coarsest level";
     }
 }
 

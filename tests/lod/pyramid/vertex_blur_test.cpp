@@ -72,7 +72,7 @@ TEST(VertexBlurOfLevels, isThatOfTheMesh) {
     for (std::size_t level = 0; level <= last; ++level)
         EXPECT_LT(meanDeviation(blurred, level), 0.02) << "level " << level;
     EXPECT_LT(5 * meanDeviation(blurred, last), meanDeviation(plain, last))
-        << "a plane alone needs no vertex of the line";
+        << "without blur, no vertex stays on the line";
 }
 
 }  // namespace

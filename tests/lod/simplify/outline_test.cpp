@@ -55,7 +55,7 @@ TEST(EdgeFill, coversWhatTheTrianglesOfItsEdgesDo) {
     const std::size_t cells = fill.fill(byEdges);
     EXPECT_NEAR(byEdges.area() / byTriangles.area(), 1, 1e-4);
     EXPECT_DOUBLE_EQ(byEdges.area(), byEdges.cell() * byEdges.cell() * static_cast<double>(cells));
-    EXPECT_EQ(fill.fill(byEdges), 0u) << "edges are not forgotten";
+    EXPECT_EQ(fill.fill(byEdges), 0u) << "fill() must remove the edges";
 }
 
 // A coarse sphere with vertices on the fine one: every outline is too small before the fit.

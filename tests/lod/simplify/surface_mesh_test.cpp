@@ -78,7 +78,7 @@ TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     forEachSpoke(mesh, a, [&](HalfedgeHandle spoke) {
         if (mesh.to_vertex_handle(spoke) != b) return;
         ++between;
-        EXPECT_FALSE(surface.modules().shape.keepsTopology(spoke)) << "one of them would become a loop";
+        EXPECT_FALSE(surface.modules().shape.keepsTopology(spoke)) << "a collapse would turn one edge into a loop";
     });
     EXPECT_EQ(between, 2);
 }

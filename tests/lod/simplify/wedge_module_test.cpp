@@ -115,7 +115,7 @@ TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     ASSERT_GT(before, 0);
     surface.collapse(4, 5);
     EXPECT_NEAR(wedges.cost({5}, {0}, {0, 0, 0}) / before, 3, 1e-4);
-    EXPECT_EQ(wedges.cost({4}, {0}, {0, 0, 0}), 0) << "nothing is leftTriangles at the vertex that is gone";
+    EXPECT_EQ(wedges.cost({4}, {0}, {0, 0, 0}), 0) << "the removed vertex has no cost left";
 }
 
 }  // namespace

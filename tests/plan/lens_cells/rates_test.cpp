@@ -205,7 +205,7 @@ TEST(Rates, blocksOfAPartShareAsInTheWholeFrame) {
         }
         return;
     }
-    FAIL() << "no object shares in part";
+    FAIL() << "no object has a fractional share";
 }
 
 TEST(Rates, aFewSamplesKeepTheirPixelOffsets) {

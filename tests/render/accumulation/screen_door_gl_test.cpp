@@ -106,7 +106,7 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
             if (same(n, more)) continue;
             ++differing;
             coarse += same(image, more) ? 1 : 0;
-            ASSERT_TRUE(same(image, more) || !coarseBefore[i]) << "a pixel that was coarse stays so";
+            ASSERT_TRUE(same(image, more) || !coarseBefore[i]) << "a coarse pixel stays coarse";
             coarseBefore[i] = same(image, more);
         }
         ASSERT_GT(differing, 1000);
@@ -131,7 +131,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
         setSplit(plan, small->world, last, samples / 2, 0.5);
         const double largest = largestDifference(whole, renderedPlan(*small, plan));
         EXPECT_LE(largest, 1.0 / samples + 1e-6);
-        EXPECT_GT(largest, 0.9 / samples) << "outlines that don't differ show nothing";
+        EXPECT_GT(largest, 0.9 / samples) << "the outlines must differ";
     }
 }
 

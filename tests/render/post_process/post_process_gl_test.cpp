@@ -124,7 +124,7 @@ TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
     const auto small = boards(list, glm::vec3(0.5f));
     small->view.lens.blurScale = 4;  // 10 px, which a blur field of a quarter of the size can hold
     std::string method = GetParam();
-    if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "blurs it apart";
+    if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
     method += (method.find(':') == std::string::npos ? ":" : ",") + std::string("transparency-buckets=0");
     const Image image = postProcessed(*small, method);
     small->view.lens.dofEnabled = false;

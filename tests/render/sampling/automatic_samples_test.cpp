@@ -28,7 +28,7 @@ TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
         before = samples;
         const auto gap = [&](double count) { return blur * std::sqrt(std::numbers::pi / (4 * count)); };
         EXPECT_TRUE(gap(samples) <= 2 || samples == maxAutomaticSamples) << blur;
-        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "no block too many at " << blur;
+        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "one block fewer must be too few at " << blur;
     }
     EXPECT_EQ(before, maxAutomaticSamples);
 }
