@@ -44,9 +44,9 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
             ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
             parts.push_back(name);
         }
-        std::vector<std::string> whole = line(more);
-        whole.insert(whole.end(), {"-o", "whole.exr", "-o", "whole.png"});
-        ASSERT_EQ(run(whole).exitCode, 0);
+        std::vector<std::string> full = line(more);
+        full.insert(full.end(), {"-o", "whole.exr", "-o", "whole.png"});
+        ASSERT_EQ(run(full).exitCode, 0);
         const Outcome merged = run(parts);
         ASSERT_EQ(merged.exitCode, 0) << merged.err;
         EXPECT_TRUE(pixelsOf("merged.exr") == pixelsOf("whole.exr")) << background;

@@ -141,16 +141,16 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
     GetParam().set(large->view.lens);
     GetParam().set(fine->view.lens);
-    const Image truth = rendered(*fine, 16, 1e6);
+    const Image reference = rendered(*fine, 16, 1e6);
     const Image divided = rendered(*large, 16, 0.1);
-    const double error = rootMeanSquare(divided, truth);
+    const double error = rootMeanSquare(divided, reference);
     if (GetParam().begin < 0) {  // a surface that reaches the camera is always divided
         // GPUs clip and round differently from llvmpipe: the error on an H100 is 0.0022.
         EXPECT_LT(error, currentIsSoftware() ? 0.002 : 0.003);
         return;
     }
     EXPECT_LT(error, 0.012);
-    EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), truth), 2.5 * error) << "undivided triangles must differ";
+    EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
 // Neighbouring triangles divide their common edge alike: no black shows through a white floor of uneven triangles.

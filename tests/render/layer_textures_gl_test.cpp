@@ -130,8 +130,8 @@ TEST_F(LayerTextures, redOfClearcoatIsTheCoatedShare) {
     small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
     const GltfSurface coat{glm::dvec3(0), 0, 0.3};
     forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
-        const glm::dvec3 whole = litRadiance(coat, point, point.normal, small->world.lights);
-        expectLitRadiance(image, point, 0.8 * texel[0] / 255 * whole, 0.3);
+        const glm::dvec3 full = litRadiance(coat, point, point.normal, small->world.lights);
+        expectLitRadiance(image, point, 0.8 * texel[0] / 255 * full, 0.3);
     });
 }
 

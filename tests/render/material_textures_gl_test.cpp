@@ -102,11 +102,11 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     // An alpha of 1 · 1 is not below a cutoff of 1.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
-    const Image whole = wallImage(*small);
+    const Image full = wallImage(*small);
     for (const WallPoint& point : wallPoints(*small)) {
         const std::optional<glm::ivec2> at = texelAt(point.uv, 4);
         if (!at) continue;
-        ASSERT_NEAR(whole.at(point.x, point.y)[0], *at == glm::ivec2(3, 3) ? 1 : 0, 1e-3);
+        ASSERT_NEAR(full.at(point.x, point.y)[0], *at == glm::ivec2(3, 3) ? 1 : 0, 1e-3);
     }
 }
 

@@ -84,8 +84,9 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             sun.direction = glm::normalize(way);
             small.world.lights = {sun};
             // In units of the radiance of a white face towards the sun.
-            const double truth = std::numbers::pi * meanLight(small, LodMode::off);
-            EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), truth, 0.02) << degrees << ' ' << way.x;
+            const double reference = std::numbers::pi * meanLight(small, LodMode::off);
+            EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)
+                << degrees << ' ' << way.x;
         }
 }
 

@@ -167,7 +167,7 @@ def share_film(cluster, program, batch, folder, samples):
     shot = {"fish": {"count": 4, "triangles": 4000}, "range": [0, FRAMES - 1], "size": [256, 192], "samples": samples,
             "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}
     (folder / "shot.json").write_text(json.dumps(shot))
-    whole, frames = folder / f"single{samples}", folder / f"frames{samples}"
+    full, frames = folder / f"single{samples}", folder / f"frames{samples}"
     subprocess.run([program, "capture", "shot.json", "--quiet", "-o", f"{whole}/####.exr"], cwd=folder, check=True)
     job = cluster.submit(f"--array=0-{TASKS - 1}", f"--chdir={folder}", str(batch), "shot.json", "--quiet", "-o",
                          f"{frames}/####.exr")
@@ -197,7 +197,7 @@ def share_film(cluster, program, batch, folder, samples):
     cluster.wait_for_all()
 
     # The array's files are exactly those of the single run.
-    single, array = frame_bytes(whole), frame_bytes(frames)
+    single, array = frame_bytes(full), frame_bytes(frames)
     assert len(single) == FRAMES
     assert array.keys() == single.keys(), f"missing: {sorted(single.keys() - array.keys())}"
     assert array == single, "frames differ from those of a single run"

@@ -119,14 +119,14 @@ TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
         return std::distance(std::sregex_iterator(help.begin(), help.end(), line), std::sregex_iterator());
     };
     const std::string brief = run({"render", "--help"}).out;
-    const std::string whole = run({"render", "--help-all"}).out;
+    const std::string full = run({"render", "--help-all"}).out;
     EXPECT_LE(optionLines(brief), 16);
-    EXPECT_EQ(static_cast<std::size_t>(optionLines(whole)), optionsOffered("render").size() - 1 + 2)
+    EXPECT_EQ(static_cast<std::size_t>(optionLines(full)), optionsOffered("render").size() - 1 + 2)
         << "the scene has no dash; --help and --help-all have a line each";
     EXPECT_NE(brief.find("--fstop"), std::string::npos);
     EXPECT_EQ(brief.find("--coc-tolerance"), std::string::npos);
     EXPECT_NE(brief.find("--help-all"), std::string::npos);
-    EXPECT_NE(whole.find("--coc-tolerance"), std::string::npos);
+    EXPECT_NE(full.find("--coc-tolerance"), std::string::npos);
     for (const char* line : {"--range FIRST:LAST", "--sample-range FIRST:END", "--set /PLACE=VALUE"})
         EXPECT_NE(run({"capture", "--help-all"}).out.find(line), std::string::npos) << line;
 }

@@ -57,10 +57,10 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
 }
 
 TEST(BlurredError, halfTheErrorIsHalfTheTable) {
-    const Pyramid whole = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
+    const Pyramid full = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
     const Pyramid half = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.125f); });
     for (const double side : {0.0, 0.01, 0.1, 0.7, 3.0, 40.0})
-        EXPECT_NEAR(squaredError(whole, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
+        EXPECT_NEAR(squaredError(full, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
 }
 
 // A lost pattern of half-waves 0.1 wide vanishes under patches five times as wide. A lost shift of the colour remains

@@ -186,10 +186,10 @@ TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
             ASSERT_LE(split.coarseCount + (split.boundaryShare > 0 ? 1u : 0u), count);
             ASSERT_NEAR(split.level + (split.coarseCount + split.boundaryShare) / count, lambda, 1e-12);
         }
-        const SampleSplit whole = splitSamples(3, count, LodMode::continuous);
-        EXPECT_EQ(whole.level, 3u);
-        EXPECT_EQ(whole.coarseCount, 0u);
-        EXPECT_EQ(whole.boundaryShare, 0);
+        const SampleSplit full = splitSamples(3, count, LodMode::continuous);
+        EXPECT_EQ(full.level, 3u);
+        EXPECT_EQ(full.coarseCount, 0u);
+        EXPECT_EQ(full.boundaryShare, 0);
         const SampleSplit justBelow = splitSamples(std::nextafter(1.0, 0.0), count, LodMode::continuous);
         EXPECT_LE(justBelow.coarseCount, count);
     }

@@ -16,7 +16,7 @@ std::uint32_t minOfGenus(std::uint32_t genus) {
     return 2 * (vertices + (genus == 2 ? 1 : 0)) + 4 * genus - 4;
 }
 
-TEST(PyramidEnd, SurfacesOfUpToFourHandlesComeDownToTheLeast) {
+TEST(PyramidEnd, SurfacesOfUpToFourHandlesReachMinTriangles) {
     for (const std::uint32_t genus : {1u, 2u, 3u, 4u}) {
         const Pyramid pyramid = buildPyramid(slab(genus, 4));
         EXPECT_LE(pyramid.levels.back().triangleCount, 64u) << genus;

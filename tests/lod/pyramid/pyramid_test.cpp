@@ -94,12 +94,12 @@ double volume(const std::vector<glm::vec3>& positions, const std::vector<std::ui
 // the inscribed one loses.
 TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48));
-    const double whole = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
+    const double full = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
     ASSERT_GT(pyramid.levels.size(), 5u);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-        const double inscribed = whole - volume(pyramid.vertices.positions, indices);
-        EXPECT_LT(std::abs(whole - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
+        const double inscribed = full - volume(pyramid.vertices.positions, indices);
+        EXPECT_LT(std::abs(full - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
     }
 }
 
@@ -160,7 +160,7 @@ TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
 TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     // A sphere whose southern and northern halves belong to two primitives with separate vertices.
     Mesh mesh = sphere(48, 24);
-    const Mesh whole = mesh;
+    const Mesh full = mesh;
     const auto count = static_cast<std::uint32_t>(mesh.vertices.count());
     const auto appendAgain = [&](auto& values) {
         auto copy = values;
@@ -172,8 +172,8 @@ TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     // other texture coordinates keep the copies from being joined
     for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;
     mesh.primitives = {{0, {}}, {1, {}}};
-    for (std::size_t i = 0; i < whole.primitives[0].indices.size(); i += 3) {
-        const std::uint32_t* v = &whole.primitives[0].indices[i];
+    for (std::size_t i = 0; i < full.primitives[0].indices.size(); i += 3) {
+        const std::uint32_t* v = &full.primitives[0].indices[i];
         const float z =
             mesh.vertices.positions[v[0]].z + mesh.vertices.positions[v[1]].z + mesh.vertices.positions[v[2]].z;
         for (std::size_t k = 0; k < 3; ++k) mesh.primitives[z > 0].indices.push_back(z > 0 ? v[k] + count : v[k]);

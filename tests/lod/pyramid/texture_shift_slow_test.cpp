@@ -66,11 +66,11 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     double others = 0;
     for (const glm::dvec3& direction : blurredErrorViews()) {
         const Eye eye = eyeAlong(pyramid, direction, resolution);
-        const Picture truth = pictureOf(pyramid, 0, eye, finishes);
+        const Picture reference = pictureOf(pyramid, 0, eye, finishes);
         const Picture level = pictureOf(pyramid, number, eye, finishes);
-        for (std::size_t i = 0; i < truth.light.size(); ++i) {
-            if (truth.light[i].z == 0 || level.light[i].z == 0) continue;
-            glm::dvec2 change = glm::dvec2(level.light[i]) - glm::dvec2(truth.light[i]);
+        for (std::size_t i = 0; i < reference.light.size(); ++i) {
+            if (reference.light[i].z == 0 || level.light[i].z == 0) continue;
+            glm::dvec2 change = glm::dvec2(level.light[i]) - glm::dvec2(reference.light[i]);
             change -= glm::round(change);
             const double distance = scale * glm::length(change);
             if (distance > pyramid.levels[number].longestEdge) {

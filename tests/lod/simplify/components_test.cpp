@@ -121,10 +121,10 @@ TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
 TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
     const Mesh mesh = leaves(4000, 0.002f);
     const Pyramid pyramid = buildPyramid(mesh);
-    const double whole = surfaceArea(mesh.vertices.positions, mesh.primitives[0].indices);
+    const double full = surfaceArea(mesh.vertices.positions, mesh.primitives[0].indices);
     ASSERT_GT(pyramid.levels.size(), 5u);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
-        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), whole, 0.08 * whole)
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), full, 0.08 * full)
             << "level " << l;
 }
 

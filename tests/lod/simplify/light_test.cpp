@@ -67,9 +67,9 @@ TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
 // A ball's normals that all lean to one side are fitted to the light of the radial normals.
 TEST(FitLight, findsTheNormalsOfTheLight) {
     const Mesh ball = sphere(24, 12);
-    std::vector<glm::vec3> truth;
-    for (const glm::vec3& position : ball.vertices.positions) truth.push_back(glm::normalize(position));
-    std::vector<std::uint32_t> groups(truth.size());
+    std::vector<glm::vec3> expected;
+    for (const glm::vec3& position : ball.vertices.positions) expected.push_back(glm::normalize(position));
+    std::vector<std::uint32_t> groups(expected.size());
     std::iota(groups.begin(), groups.end(), 0);
     for (std::size_t v = 0; v < groups.size(); ++v)
         for (std::size_t first = 0; first < v; ++first)
@@ -79,12 +79,12 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
             }
     const std::vector<glm::vec4> shaded = [&] {
         std::vector<glm::vec4> colors;
-        for (const glm::vec3& n : truth) colors.emplace_back(glm::vec3(n.x > 0 ? 0.9f : 0.2f), 1);
+        for (const glm::vec3& n : expected) colors.emplace_back(glm::vec3(n.x > 0 ? 0.9f : 0.2f), 1);
         return colors;
     }();
     const std::vector<std::uint32_t>& indices = ball.primitives[0].indices;
     std::vector<glm::vec3> rough;
-    for (const glm::vec3& n : truth) rough.push_back(0.9f * n);
+    for (const glm::vec3& n : expected) rough.push_back(0.9f * n);
     const LightMeans target = lightMeans({ball.vertices.positions, rough, shaded, indices, true}, 20'000);
     const auto largestDifference = [&](const std::vector<glm::vec3>& normals) {
         const LightMeans means = lightMeans({ball.vertices.positions, normals, shaded, indices, true}, 20'000);
@@ -93,8 +93,8 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
         return largest;
     };
     std::vector<glm::vec3> normals;
-    for (std::size_t v = 0; v < truth.size(); ++v)
-        normals.push_back(0.9f * glm::normalize(truth[groups[v]] + glm::vec3(0.15f, 0.1f, -0.05f)));
+    for (std::size_t v = 0; v < expected.size(); ++v)
+        normals.push_back(0.9f * glm::normalize(expected[groups[v]] + glm::vec3(0.15f, 0.1f, -0.05f)));
     EXPECT_GT(largestDifference(normals), 0.01);
     fitLight(ball.vertices.positions, shaded, indices, groups, target, normals);
     EXPECT_LT(largestDifference(normals), 5e-4);

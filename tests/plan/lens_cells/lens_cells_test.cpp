@@ -51,7 +51,7 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
         std::vector<glm::vec2> lens;
         for (const LensSample& sample : lensSamples(small->view.lens, Sequence::halton, 0, 1u << 17, 0))
             lens.push_back(sample.lens);
-        const Moments whole = momentsOf(lens);
+        const Moments full = momentsOf(lens);
         for (const Sequence sequence : allSequences)
             for (const std::uint32_t count : {16u, 50u, 64u, 500u}) {
                 RenderSettings settings = settingsFor(count);
@@ -60,10 +60,10 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
                 ASSERT_EQ(cells.middles.size(), count);
                 const Moments own = momentsOf(cells.middles);
                 for (glm::length_t i = 0; i < 2; ++i) {
-                    EXPECT_NEAR(own.mean[i], whole.mean[i], tolerance) << what << ' ' << count;
+                    EXPECT_NEAR(own.mean[i], full.mean[i], tolerance) << what << ' ' << count;
                     for (glm::length_t j = 0; j < 2; ++j)
                         EXPECT_NEAR(own.covariance[i][j] + (i == j ? 4 * cells.blur * cells.blur : 0),
-                                    whole.covariance[i][j], tolerance)
+                                    full.covariance[i][j], tolerance)
                             << what << ' ' << count;
                 }
                 for (const glm::vec2& middle : cells.middles) ASSERT_LE(glm::length(middle), 1 + 1e-6f);

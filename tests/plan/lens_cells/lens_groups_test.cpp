@@ -82,12 +82,12 @@ TEST(LensGroups, prefixesStaySpreadOverTheLens) {
     for (const ApertureShape& shape : apertureShapes) {
         const std::vector<LensSample> samples = samplesOfLens(shape.lens(), 0, 64);
         const std::vector<std::uint32_t> order = groupedOrder(samples, imagesOfLens(shape.lens(), 0, 64, 4), 4);
-        const float whole = spread(samples, order);
+        const float full = spread(samples, order);
         const glm::vec2 middle = meanOf(samples, order);
         for (const std::size_t groups : {4u, 8u, 12u}) {
             const auto prefix = std::span(order).first(4 * groups);
-            EXPECT_GT(spread(samples, prefix), 0.6f * whole) << shape.name << ' ' << groups;
-            EXPECT_LT(glm::length(meanOf(samples, prefix) - middle), 0.4f * std::sqrt(whole)) << shape.name << groups;
+            EXPECT_GT(spread(samples, prefix), 0.6f * full) << shape.name << ' ' << groups;
+            EXPECT_LT(glm::length(meanOf(samples, prefix) - middle), 0.4f * std::sqrt(full)) << shape.name << groups;
         }
     }
 }

@@ -195,13 +195,13 @@ TEST(Rates, blocksOfAPartShareAsInTheWholeFrame) {
         if (!partly) continue;
         const FramePlan part = samplesOf(plan, 64, 128);
         for (const std::uint32_t first : {64u, 128u}) {
-            const RatedBlock whole = blockOf(plan, first, 64);
+            const RatedBlock full = blockOf(plan, first, 64);
             const RatedBlock ofPart = blockOf(part, first - 64, 64);
-            EXPECT_EQ(whole.groupsShare, ofPart.groupsShare);
-            EXPECT_EQ(whole.samples.trianglesDrawn, ofPart.samples.trianglesDrawn);
-            EXPECT_EQ(whole.groups.trianglesDrawn, ofPart.groups.trianglesDrawn);
+            EXPECT_EQ(full.groupsShare, ofPart.groupsShare);
+            EXPECT_EQ(full.samples.trianglesDrawn, ofPart.samples.trianglesDrawn);
+            EXPECT_EQ(full.groups.trianglesDrawn, ofPart.groups.trianglesDrawn);
             for (std::size_t i = 0; i < 64; ++i)
-                EXPECT_EQ(whole.samples.samples[i].lens, ofPart.samples.samples[i].lens);
+                EXPECT_EQ(full.samples.samples[i].lens, ofPart.samples.samples[i].lens);
         }
         return;
     }

@@ -58,15 +58,15 @@ std::vector<int> objectsOf(const FramePlan& plan) {
 TEST(TilePlan, holdsTheObjectsThatASampleMayShowThere) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small);
-    const PixelRectangle whole{0, 0, plan.view.width, plan.view.height};
-    EXPECT_EQ(objectsOf(tileOf(plan, {whole, whole})), objectsOf(plan));
+    const PixelRectangle full{0, 0, plan.view.width, plan.view.height};
+    EXPECT_EQ(objectsOf(tileOf(plan, {full, full})), objectsOf(plan));
 
     // Object 1 lies in focus at (0.3, 0.2, −3) with a radius of 0.53. Through the pinhole it covers these columns.
     const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
     const int left = static_cast<int>(plan.view.width / 2 + focal * (0.3 - 0.53) / 3);
     const int right = static_cast<int>(plan.view.width / 2 + focal * (0.3 + 0.53) / 3) + 1;
     const auto shows = [&](const PixelRectangle& area) {
-        const std::vector<int> objects = objectsOf(tileOf(plan, {area, whole}));
+        const std::vector<int> objects = objectsOf(tileOf(plan, {area, full}));
         return std::ranges::find(objects, 1) != objects.end();
     };
     EXPECT_TRUE(shows({left, 0, right - left, plan.view.height}));

@@ -328,7 +328,7 @@ double share(std::uint64_t part, const FramePlan& plan) {
     return static_cast<double>(part) / static_cast<double>(plan.trianglesAtFullDetail);
 }
 
-TEST(Visibility, mostOfASpheresFarSideIsLeftOut) {
+TEST(Visibility, farSideOfASphereIsLeftOut) {
     for (const double mirror : {1.0, -1.0}) {
         const auto small = oneSphere(glm::scale(at(0, -4), glm::dvec3(mirror, 1, 1)));
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));

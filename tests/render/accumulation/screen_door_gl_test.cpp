@@ -127,9 +127,9 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
         // coarse outlines differ most
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
-        const Image whole = renderedPlan(*small, plan);
+        const Image full = renderedPlan(*small, plan);
         setSplit(plan, small->world, last, samples / 2, 0.5);
-        const double largest = largestDifference(whole, renderedPlan(*small, plan));
+        const double largest = largestDifference(full, renderedPlan(*small, plan));
         EXPECT_LE(largest, 1.0 / samples + 1e-6);
         EXPECT_GT(largest, 0.9 / samples) << "the outlines must differ";
     }

@@ -85,8 +85,8 @@ TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
                 info.taps = taps;
                 const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
                 info.direct = true;
-                const Image whole = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
-                EXPECT_LT(largestDifference(passes, whole), 1e-3)
+                const Image full = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
+                EXPECT_LT(largestDifference(passes, full), 1e-3)
                     << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
             }
 }

@@ -63,18 +63,18 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
     RendererOptions few;
     few.wave = 16;
-    const auto whole = rendererOf("multirate", small->world, few);
+    const auto full = rendererOf("multirate", small->world, few);
     const auto part = rendererOf("multirate", small->world, few);
-    whole->start(plan);
+    full->start(plan);
     part->start(samplesOf(plan, 0, 64));
     while (part->advance()) EXPECT_EQ(part->image().width, small->view.width);
     for (const std::uint32_t first : {64u, 128u}) {
         part->continueWith(samplesOf(plan, first, 64));
         while (part->advance()) part->image();
     }
-    while (whole->advance()) {
+    while (full->advance()) {
     }
-    EXPECT_TRUE(sameBits(whole->image(), part->image()));
+    EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
 // A light of 4 px far behind the focus, on black.
@@ -236,15 +236,15 @@ std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& col
 }
 
 // Returns the largest difference of display values where `covered` is 0 or 1. Pixels on outlines in focus are excluded.
-double largestBesideOutlines(const Image& truth, const Image& image, const Image& covered) {
+double largestBesideOutlines(const Image& reference, const Image& image, const Image& covered) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double share = covered.at(x, y)[0];
             if (share > 1e-6 && share < 1 - 1e-6) continue;
             for (int c = 0; c < 3; ++c)
-                largest =
-                    std::max<double>(largest, std::abs(srgbEncode(image.at(x, y)[c]) - srgbEncode(truth.at(x, y)[c])));
+                largest = std::max<double>(largest,
+                                           std::abs(srgbEncode(image.at(x, y)[c]) - srgbEncode(reference.at(x, y)[c])));
         }
     return largest;
 }
@@ -262,16 +262,17 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
                                            : fenceBeforeWall(focus, {glm::vec4(0), glm::vec4(1), glm::vec3(0)});
         if (!fenceIsSharp) outlines->view.lens.dofEnabled = false;
         const Image covered = drawnBy("accumulation", *outlines, ratedSettings(1024));
-        const Image truth = convergedImage(*small);
+        const Image reference = convergedImage(*small);
         for (const std::uint32_t n : {16u, 64u}) {
             const LensCells cells = lensCellsOf(*small, ratedSettings(n));
             ASSERT_GT(fenceIsSharp ? cells.behind : cells.inFront, 0);
             const Image alone = drawnBy("accumulation", *small, ratedSettings(n));
             const Image blurred = drawnBy("multirate", *small, ratedSettings(n));
-            EXPECT_LT(largestBesideOutlines(truth, blurred, covered),
-                      largestBesideOutlines(truth, alone, covered) + 2.0 / 255)
+            EXPECT_LT(largestBesideOutlines(reference, blurred, covered),
+                      largestBesideOutlines(reference, alone, covered) + 2.0 / 255)
                 << focus << ' ' << drawn.fence.a << ' ' << n;
-            EXPECT_LT(compareImages(truth, blurred).rmse, 1.05 * compareImages(truth, alone).rmse) << focus << ' ' << n;
+            EXPECT_LT(compareImages(reference, blurred).rmse, 1.05 * compareImages(reference, alone).rmse)
+                << focus << ' ' << n;
         }
     }
 }
@@ -302,14 +303,15 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
 // few samples, and shrinks with many.
 TEST_F(LensCellImages, convergesToTheReference) {
     const auto small = blurredSpheres();
-    const Image truth = convergedImage(*small);
+    const Image reference = convergedImage(*small);
     std::vector<double> errors;
     for (const std::uint32_t n : {16u, 64u, 256u, 1024u}) {
-        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
-        EXPECT_LT(errors.back(), 1.05 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse)
+        errors.push_back(compareImages(reference, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        EXPECT_LT(errors.back(),
+                  1.05 * compareImages(reference, drawnBy("accumulation", *small, ratedSettings(n))).rmse)
             << n;
     }
-    EXPECT_LT(errors[0], 0.6 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(16))).rmse);
+    EXPECT_LT(errors[0], 0.6 * compareImages(reference, drawnBy("accumulation", *small, ratedSettings(16))).rmse);
     for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], 0.7 * errors[i - 1]) << i;
 }
 

@@ -69,9 +69,9 @@ TEST_F(Multirate, geometryShaderLayersGiveTheSameImage) {
 TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
     const auto small = partlyShared();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
-    const auto whole = rendererOf(sharing, small->world);
+    const auto full = rendererOf(sharing, small->world);
     const auto part = rendererOf(sharing, small->world);
-    whole->start(plan);
+    full->start(plan);
     part->start(samplesOf(plan, 0, 64));
     while (part->advance()) {
     }
@@ -80,10 +80,10 @@ TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
         while (part->advance()) {
         }
     }
-    while (whole->advance()) {
+    while (full->advance()) {
     }
-    EXPECT_TRUE(sameBits(whole->image(), part->image()));
-    EXPECT_EQ(whole->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan, false)));
+    EXPECT_TRUE(sameBits(full->image(), part->image()));
+    EXPECT_EQ(full->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan, false)));
     EXPECT_EQ(part->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan, false)));
 }
 
@@ -157,11 +157,11 @@ TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
 TEST_F(Multirate, convergesToTheReference) {
     const auto small = fenceAndWall(3, 2.02, 0.15);
     ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), 12u);
-    const Image truth = convergedImage(*small);
+    const Image reference = convergedImage(*small);
     std::vector<double> errors;
     for (const std::uint32_t n : {64u, 256u, 1024u}) {
-        errors.push_back(compareImages(truth, drawnBy(sharing, *small, ratedSettings(n))).rmse);
-        const double alone = compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse;
+        errors.push_back(compareImages(reference, drawnBy(sharing, *small, ratedSettings(n))).rmse);
+        const double alone = compareImages(reference, drawnBy("accumulation", *small, ratedSettings(n))).rmse;
         EXPECT_LT(errors.back(), 3 * alone) << n;
     }
     EXPECT_GT(std::log(errors.front() / errors.back()) / std::log(16.0), 0.5)
@@ -176,9 +176,9 @@ TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHav
         ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), sharpInFront ? 12u : 1u);
         for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
             ASSERT_TRUE(object.coc.largest < 1 || object.coc.largest > 2 * minShareBlur);
-        const Image truth = convergedImage(*small);
+        const Image reference = convergedImage(*small);
         const auto worst = [&](const char* method) {
-            return compareImages(truth, drawnBy(method, *small, ratedSettings(1024))).maxError;
+            return compareImages(reference, drawnBy(method, *small, ratedSettings(1024))).maxError;
         };
         EXPECT_LT(worst(sharing), worst("accumulation") + 2.0 / 255) << sharpInFront;
     }

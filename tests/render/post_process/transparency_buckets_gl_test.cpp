@@ -145,10 +145,10 @@ TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
         const Board small = {depth, {0, 0}, glm::dvec2(0.04 * depth), paneColor};
         const Board unseen = boardOver(-90, 200, depth, {1, 1, 1, 0});
         const auto part = boards({small, wall}, sky);
-        const auto whole = boards({small, unseen, wall}, sky);
+        const auto full = boards({small, unseen, wall}, sky);
         blurAt(*part, 9, 16);
-        blurAt(*whole, 9, 16);
-        EXPECT_LT(largestDifferenceInColumns(inBuckets(*part, 1), inBuckets(*whole, 1)), 1e-3) << depth;
+        blurAt(*full, 9, 16);
+        EXPECT_LT(largestDifferenceInColumns(inBuckets(*part, 1), inBuckets(*full, 1)), 1e-3) << depth;
     }
 }
 

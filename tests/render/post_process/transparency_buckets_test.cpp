@@ -41,7 +41,7 @@ void moveRight(ObjectPlan& object) {
 
 using Buckets = std::vector<TransparencyBucket>;
 
-TEST(TransparencyBuckets, partWhereTheBlurDiffersMost) {
+TEST(TransparencyBuckets, partAtTheLargestStepsOfBlur) {
     const FramePlan plan = planOf({{-40}, {-38}, {-20}, {-12}, {9}});
     EXPECT_EQ(transparencyBuckets(plan, 1), (Buckets{{0, 1, 2, 3, 4}}));
     EXPECT_EQ(transparencyBuckets(plan, 2), (Buckets{{4}, {0, 1, 2, 3}}));

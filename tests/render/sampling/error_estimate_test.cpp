@@ -87,7 +87,7 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
 // On edges alone, the sequences do better than in pictures, and two of them far better at some sample counts. The
 // estimate may then be too high, but never too low.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
-    const Image truth = trueLensEdges();
+    const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
         for (const std::uint32_t seed : {0u, 1u, 2u}) {
             ErrorEstimate estimate;
@@ -98,7 +98,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
                 for (float& value : mean.pixels) value /= static_cast<float>(64 * blocks);
                 estimate.add(mean, 64 * blocks);
                 if (blocks == 1) continue;
-                const double ratio = *estimate.error() / compareImages(truth, mean, {}).rmse;
+                const double ratio = *estimate.error() / compareImages(reference, mean, {}).rmse;
                 const std::string where = std::string(sequenceName(sequence)) + ", seed " + std::to_string(seed) +
                                           ", " + std::to_string(64 * blocks) + " samples";
                 EXPECT_GT(ratio, 1 / 1.5) << where;

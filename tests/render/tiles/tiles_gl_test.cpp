@@ -58,10 +58,10 @@ std::vector<Tile> unevenTiles(const FramePlan& plan) {
 
 void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
     RendererOptions options;
-    const auto whole = methodNamed("accumulation").make(small.world, options);
+    const auto full = methodNamed("accumulation").make(small.world, options);
     options.wave = 3;
     const auto parts = methodNamed("accumulation").make(small.world, options);
-    const Image expected = imageOf(*whole, plan);
+    const Image expected = imageOf(*full, plan);
     const Image found = joined(*parts, plan, unevenTiles(plan));
     std::size_t others = 0, first = found.pixels.size();
     for (std::size_t i = found.pixels.size(); i-- > 0;)
@@ -165,18 +165,18 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         halves.push_back({{cell.left, cell.top + 20, cell.width, cell.height - 20}, cell});
     }
     const auto renderer = methodNamed("accumulation").make(small->world, {});
-    const Image whole = imageOf(*renderer, plan);
+    const Image full = imageOf(*renderer, plan);
     const Image parts = joined(*renderer, plan, tiles);
     EXPECT_TRUE(joined(*renderer, plan, halves).pixels == parts.pixels) << "tiles of a cell";
     double largest = 0, squared = 0;
-    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
-        const double difference = whole.pixels[i] - parts.pixels[i];
+    for (std::size_t i = 0; i < full.pixels.size(); ++i) {
+        const double difference = full.pixels[i] - parts.pixels[i];
         largest = std::max(largest, std::abs(difference));
         squared += difference * difference;
     }
     // In one of 70 samples, a silhouette's corner may round to another pixel.
     EXPECT_LT(largest, 2.0 / 70);
-    EXPECT_LT(std::sqrt(squared / static_cast<double>(whole.pixels.size())), 1e-4);
+    EXPECT_LT(std::sqrt(squared / static_cast<double>(full.pixels.size())), 1e-4);
 }
 
 }  // namespace
