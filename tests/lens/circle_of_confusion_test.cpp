@@ -147,8 +147,8 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// For a triangle cut at the near plane, |C/w| between the cut and the farther vertex is at most the larger of the limit
-// and the thin lens's value at that vertex (Munkberg et al. 2012, 4.1).
+// A triangle is cut at the near plane. Between the cut and a vertex no farther than the kink, the interpolated |C/w|
+// stays within the limit (Munkberg et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;

@@ -327,8 +327,8 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// The image stays the same when camera, objects and lights turn about the vertical and move together: shading along
-// world axes shows no seam.
+// The image stays the same when camera, objects and lights turn about the vertical and move together, although shading
+// uses the world's axes.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();
     addLocalLights(*small);
