@@ -32,13 +32,13 @@ struct TruthScene {
 namespace truth_detail {
 
 // Focuses at a third of the scene's depth, and sets the f-number that blurs the nearest or farthest point by `blur` px.
-inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
-    View& view = truth.view;
+inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
+    View& view = baked.view;
     const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
     view.lens.focalLength = view.lens.horizontalAperture / (2 * tanHalf);
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
-    for (const glm::dvec3& corner : truth.world.pose.bounds.corners()) {
+    for (const glm::dvec3& corner : baked.world.pose.bounds.corners()) {
         const double depth = -(glm::inverse(view.worldFromCamera) * glm::dvec4(corner, 1)).z;
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
@@ -56,19 +56,19 @@ inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
 // A scene at full detail, `width` × `height` px. The lens is the camera's own, if it has one. Otherwise the blur is at
 // most 24 px, for a width of 512 px.
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
-    auto truth = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
-    truth->world.pose = poseAt(truth->scene, 0, -1);
-    truth->world.environment = environmentOrDefault(truth->scene);
-    for (const Mesh& mesh : truth->scene.meshes) truth->world.pyramids.push_back(fullDetail(mesh));
+    auto baked = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
+    baked->world.pose = poseAt(baked->scene, 0, -1);
+    baked->world.environment = environmentOrDefault(baked->scene);
+    for (const Mesh& mesh : baked->scene.meshes) baked->world.pyramids.push_back(fullDetail(mesh));
 
     const double aspect = static_cast<double>(width) / height;
-    const PlacedCamera placed = chooseCamera(truth->scene, truth->world.pose, {}, aspect);
-    truth->view.worldFromCamera = placed.worldFromCamera;
-    truth->view.nearPlane = placed.camera.znear;
-    truth->view.width = width;
-    truth->view.height = height;
-    truth_detail::setLens(*truth, placed.camera, 24.0 * width / 512);
-    return truth;
+    const PlacedCamera placed = chooseCamera(baked->scene, baked->world.pose, {}, aspect);
+    baked->view.worldFromCamera = placed.worldFromCamera;
+    baked->view.nearPlane = placed.camera.znear;
+    baked->view.width = width;
+    baked->view.height = height;
+    truth_detail::setLens(*baked, placed.camera, 24.0 * width / 512);
+    return baked;
 }
 
 inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t seed = 0) {

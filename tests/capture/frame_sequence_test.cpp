@@ -15,8 +15,8 @@
 namespace defocus::engine {
 namespace {
 
-// Two nodes without meshes: "Still" at (0, 0, −4), and "Rising", which climbs at 1 m/s for 2 s. The camera looks along
-// −z from the origin.
+// A scene of two nodes without meshes: "Still" at (0, 0, −4), and "Rising", which climbs at 1 m/s for 2 s. The camera
+// looks along −z from the origin.
 class FrameSequence : public testing::Test {
 protected:
     FrameSequence() {
@@ -102,7 +102,7 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
 }
 
-// Compares the shutter's two ends for a dolly of 0.3 m a frame and a node that climbs 0.1 m a frame.
+// A dolly moves 0.3 m per frame and a node climbs 0.1 m per frame; the test compares both ends of the shutter.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
@@ -296,7 +296,7 @@ TEST_F(FrameSequence, exposureFollowsTheLens) {
 
     const char* switched =
         R"({"lens": {"exposureTime": {"keys": [{"frame": 0, "value": 0}, {"frame": 4, "value": 1}]}}})";
-    EXPECT_EQ(frame(switched, 3).view.lens.exposureTime, 0) << "between none and some there is nothing";
+    EXPECT_EQ(frame(switched, 3).view.lens.exposureTime, 0) << "no interpolation from an unset exposure time";
     EXPECT_EQ(frame(switched, 4).view.lens.exposureTime, 1);
     EXPECT_THROW((void)parseShot(R"({"exposure": 1, "lens": {"exposureTime": 0.01}})", "x.json"), Error);
 }

@@ -263,7 +263,7 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
     const Schema schema = publishedSchema();
     EXPECT_EQ(schema.root().at(json::json_pointer("/properties/lens/properties")).size(), lensFields().size());
     for (const LensField& field : lensFields()) {
-        const bool truth = std::holds_alternative<bool Lens::*>(field.member);
+        const bool boolean = std::holds_alternative<bool Lens::*>(field.member);
         std::vector<json> values = {true, "a"};
         for (const double value : {field.min, field.max, field.min - 1, field.max * 2 + 1, 0.5, 2.0})
             values.emplace_back(value);
@@ -273,7 +273,7 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
             expectAgreement(schema, shot, shot.dump());
             expectAgreement(schema, keyed, keyed.dump());
         }
-        const json min = truth ? json(false) : json(field.min);
+        const json min = boolean ? json(false) : json(field.min);
         EXPECT_TRUE(schema.accepts({{"lens", {{field.name, min}}}})) << field.name;
     }
 }

@@ -374,23 +374,23 @@ TEST_F(BadInput, hostileModels) {
 
 // Damaged copies of one of the project's fish: truncated at many places, and with each word of the headers changed.
 TEST_F(BadInput, damagedCopiesOfAModel) {
-    const std::string whole = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
-    ASSERT_GT(whole.size(), 10'000u);
+    const std::string full = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
+    ASSERT_GT(full.size(), 10'000u);
     int refused = 0;
     const auto expectDamaged = [&](const std::string& bytes) {
         GltfBuilder::save(folder() / "damaged.glb", bytes);
         refused += expectRefusedOrLoaded(folder() / "damaged.glb") ? 1 : 0;
     };
-    for (std::size_t part = 0; part < 8; ++part) expectDamaged(whole.substr(0, part * whole.size() / 8 + part % 3));
-    EXPECT_EQ(refused, 8) << "none of them is whole";
+    for (std::size_t part = 0; part < 8; ++part) expectDamaged(full.substr(0, part * full.size() / 8 + part % 3));
+    EXPECT_EQ(refused, 8) << "every damaged copy must be refused";
     for (std::size_t word = 0; word < 5; ++word) {
-        std::string changed = whole;
+        std::string changed = full;
         changed[4 * word] = static_cast<char>(changed[4 * word] ^ 0x41);
         expectDamaged(changed);
     }
     EXPECT_EQ(refused, 8 + 5);
     for (const char* name : {"count", "byteOffset", "bufferView", "componentType", "mesh", "byteLength"}) {
-        std::string changed = whole;
+        std::string changed = full;
         const std::size_t at = changed.find("\"" + std::string(name) + "\":") + std::string(name).size() + 3;
         ASSERT_LT(at, changed.size()) << name;
         changed[at] = '9';

@@ -92,11 +92,11 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
     with({"-o", "whole.exr"});
     fs::create_directory(folder() / "merged");
     for (const Words& parts : {Words{"a.exr", "b.exr"}, {"upper.exr", "lower.exr"}}) {
-        const std::vector<float> whole = readImage(folder() / "whole.exr").pixels;
+        const std::vector<float> complete = readImage(folder() / "whole.exr").pixels;
         writeImage(folder() / "merged/out.exr", Image(3, 2, 4));
         killed({"merge", "--quiet", parts[0], parts[1], "-o", "merged/out.exr"}, "merged", [&] {
             const Image now = readImage(folder() / "merged/out.exr");
-            EXPECT_TRUE(now.width == 3 || now.pixels == whole);
+            EXPECT_TRUE(now.width == 3 || now.pixels == complete);
             writeImage(folder() / "merged/out.exr", Image(3, 2, 4));
         });
     }
@@ -104,23 +104,23 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
 
 // A pyramid's file is complete or absent.
 TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
-    std::set<std::string> whole;
+    std::set<std::string> complete;
     const auto clear = [&] { fs::remove_all(cacheFolder()); };
     const auto look = [&] {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(cacheFolder())) {
             if (!entry.is_regular_file() || entry.path().filename().string().front() == '.') continue;
             const std::string bytes = textOf(entry.path());
-            if (whole.size() < 2)
-                whole.insert(bytes);
+            if (complete.size() < 2)
+                complete.insert(bytes);
             else
-                EXPECT_TRUE(whole.contains(bytes)) << entry.path();
+                EXPECT_TRUE(complete.contains(bytes)) << entry.path();
         }
         clear();
     };
     killed({"render", "--quiet", "--fish", "2", "--fish-triangles", "200", "--size", "16x12", "--samples", "1", "-o",
             "a.exr"},
            "defocus", look);
-    EXPECT_EQ(whole.size(), 2u);
+    EXPECT_EQ(complete.size(), 2u);
     EXPECT_EQ(run({"cache", "list"}).exitCode, 0);
 }
 
@@ -144,14 +144,14 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
     const Words line = {"bench",         "popping", "quads.gltf", "--quiet", "--size",         "16x12",
                         "--fstop",       "0.5",     "--counts",   "2",       "--frames",       "2",
                         "--path-frames", "6",       "--report",   "report",  "--allow-changed"};
-    const auto whole = [&] {
+    const auto complete = [&] {
         const std::string page = bytesOf("report/index.html");
         return page.starts_with("<!doctype html>") && page.ends_with("</html>\n");
     };
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_EQ(ran(line), 0) << said();
     auto lasts = std::chrono::steady_clock::now() - begin;
-    ASSERT_TRUE(whole());
+    ASSERT_TRUE(complete());
     std::mt19937 random(5);
     int killed = 0;
     for (int i = 0; i < 10; ++i) {
@@ -172,7 +172,7 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         else
             // this run was faster than the first, which may have scanned for fonts or waited for a busy machine
             lasts /= 2;
-        EXPECT_TRUE(whole() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
+        EXPECT_TRUE(complete() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {
             const bool json = entry.path().extension() == ".json" && entry.path().filename().string().front() != '.';
             EXPECT_TRUE(!json || nlohmann::json::accept(textOf(entry.path()))) << entry.path();
@@ -206,12 +206,12 @@ TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
 }
 
 TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     const Words line = {"render", "quads.gltf", "--quiet", "--size", "1600x1200", "--samples",
                         "3",      "--memory",   "350MiB",  "-o",     "out.exr",   "--resume"};
-    Words whole = line;
-    whole[10] = "whole.exr";
-    ASSERT_EQ(run(whole).exitCode, 0);
+    Words complete = line;
+    complete[10] = "whole.exr";
+    ASSERT_EQ(run(complete).exitCode, 0);
     const std::vector<float> pixels = readImage(folder() / "whole.exr").pixels;
     for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {
         TracedChild child = traced(line, "out.tiles");
@@ -309,12 +309,12 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
         EXPECT_EQ(ran(film), 0) << said();
         EXPECT_TRUE(bytesOf("frames/0007.exr") == bytesOf("whole/0007.exr"));
     }
-    EXPECT_GT(partly, 0) << "it never failed in the middle";
+    EXPECT_GT(partly, 0) << "some runs must fail after the first frames";
 }
 
 // The program names each missing extension, whether a fallback produces a picture or none exists.
 TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "drivers of GPUs lack others";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "GPU drivers lack other extensions";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
     EXPECT_EQ(ran(line, {{"FAULT_EGL", "EGL_EXT_platform_device"}}), 0) << said();
     EXPECT_NE(said().find("EGL devices: the driver has no EGL_EXT_platform_device\n"), std::string::npos) << said();

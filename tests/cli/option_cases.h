@@ -315,7 +315,7 @@ inline Words methodSettingsOffered(const std::string& command) {
 struct CommandLine {
     std::string name;
     Words command;
-    Words ball = {"ball.glb"};  // selects the moving ball
+    Words ball = {"ball.glb"};  // selects the ball scene
     // selects the fish by options, unless a shot selects it
     Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";

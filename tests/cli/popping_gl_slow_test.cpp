@@ -1,11 +1,11 @@
-// Split samples avoid popping in a focus pull, a dolly and a walk cycle. From frame to frame they change the image by a
-// small part of a whole level's change. The tests measure the part of each movement where levels change most;
+// Split samples avoid popping in a focus pull, a dolly and a walk cycle: from frame to frame they change the image by a
+// small part of a full level's change. The tests measure the part of each movement with the most changes of level;
 // eval/popping/popping.h defines the measurements.
 //
-// For a blur of c px and a level deviation of w px, one sample's step is √(c/w)/N of a whole level's step. Here c/w is
-// at most about 30/0.4, so that a step is 8.7/N. Steps of k samples of an object in the same frame add up like noise,
-// by √k. Movements of 480 frames change at most three of 64 samples a frame. A walk at 24 frames a second changes at
-// most twelve of 128: 0.23 of a level's pop.
+// For a blur of c px and a level deviation of w px, one sample's step is √(c/w)/N of a full level's step. Here c/w is
+// at most about 30/0.4, so a step is at most 8.7/N. Steps of k samples of an object in the same frame add up like
+// noise, by √k. Movements of 480 frames change at most three of 64 samples per frame. A walk at 24 frames per second
+// changes at most twelve of 128: 0.23 of a level's pop.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ protected:
         measurePopping(frame.world, frame.view, popping, visitor);
         RecordProperty("nearest", std::to_string(nearest));
         RecordProperty("fractional", std::to_string(fractional));
-        ASSERT_GT(nearest, 0.003) << "no level changes: the movement shows nothing";
+        ASSERT_GT(nearest, 0.003) << "levels must change during the movement";
         EXPECT_GT(fractional, 0);
         EXPECT_LT(fractional, levelShareMax * nearest);
         EXPECT_LT(fractional, maxPop);
@@ -126,7 +126,7 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
     expectNoneAlong(Movement::dolly);
 }
 
-// The whole cycle at 24 frames a second, focused in front of the fox. Each step changes the distance of its nearest
+// The full cycle at 24 frames per second, focused in front of the fox. Each step changes the distance of its nearest
 // part, and so its blur and its level.
 TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");

@@ -44,9 +44,9 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
             ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
             parts.push_back(name);
         }
-        std::vector<std::string> whole = line(more);
-        whole.insert(whole.end(), {"-o", "whole.exr", "-o", "whole.png"});
-        ASSERT_EQ(run(whole).exitCode, 0);
+        std::vector<std::string> full = line(more);
+        full.insert(full.end(), {"-o", "whole.exr", "-o", "whole.png"});
+        ASSERT_EQ(run(full).exitCode, 0);
         const Outcome merged = run(parts);
         ASSERT_EQ(merged.exitCode, 0) << merged.err;
         EXPECT_TRUE(pixelsOf("merged.exr") == pixelsOf("whole.exr")) << background;
@@ -58,7 +58,7 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
     }
 }
 
-// Without --samples each tile takes the number that the whole frame's blur requires.
+// Without --samples, each tile takes the number that the blur of the entire frame requires.
 TEST_F(TileCommand, tilesAgreeOnTheNumberOfSamples) {
     std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr"};
     for (const std::string index : {"0", "1"}) {
@@ -136,8 +136,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// Meshes and the driver's copies of their triangles count before they are allocated: 400,000 triangles a layer, in one
-// piece.
+// The memory limit counts meshes and the driver's copies of their triangles before they are allocated. The scene has
+// 400,000 triangles per layer, drawn in one piece.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
@@ -158,8 +158,7 @@ TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
 }
 
 TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
-    if (!createHeadlessContext()->software())
-        GTEST_SKIP() << "a GPU's own memory may be short, which no option changes";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const std::string said = run(inTiles({"-o", "x.exr"}, "1MiB")).err;
     const std::string option = "--memory ";
     const std::size_t begin = said.find(option);

@@ -38,7 +38,7 @@ TEST(Tasks, anExceptionReachesTheOneWhoWaits) {
             },
             std::runtime_error)
             << workers;
-        EXPECT_EQ(done, workers > 0 ? 1 : 0) << "the others are done all the same";
+        EXPECT_EQ(done, workers > 0 ? 1 : 0) << "the other tasks still run";
     }
 }
 

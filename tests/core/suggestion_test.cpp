@@ -28,10 +28,10 @@ TEST(PlaceOfName, takesTheNameItselfFirst) {
     const std::vector<std::string> known = {"fox", "Fox", "Tree"};
     EXPECT_EQ(placeOfName("Fox", known), 1u);
     EXPECT_EQ(placeOfName("fox", known), 0u);
-    EXPECT_EQ(placeOfName("FOX", known), std::nullopt) << "either may be meant";
+    EXPECT_EQ(placeOfName("FOX", known), std::nullopt) << "ambiguous: two names differ only in case";
     EXPECT_EQ(placeOfName("tree", known), 2u);
     EXPECT_EQ(placeOfName("trees", known), std::nullopt);
-    EXPECT_EQ(placeOfName("FISH", {"Fish", "Fish"}), 0u) << "of one spelling the first";
+    EXPECT_EQ(placeOfName("FISH", {"Fish", "Fish"}), 0u) << "the first of two equal names";
 }
 
 TEST(NearestWord, isNotSlowedByEndlessWords) {

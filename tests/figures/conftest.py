@@ -1,4 +1,4 @@
-"""The tests of bench/figures import it from the sources."""
+"""Tests of bench/figures import it from the sources."""
 
 import sys
 from pathlib import Path

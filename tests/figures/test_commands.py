@@ -1,4 +1,4 @@
-"""Every command of scripts/figures, and the report that the program contains."""
+"""Tests of all commands of scripts/figures, and of the report script inside the program."""
 
 import ast
 import re
@@ -51,7 +51,7 @@ def test_the_report_draws_committed_results(tmp_path):
 
 
 def test_modules_in_the_program_share_no_names():
-    """The program contains them as one script."""
+    """The program contains these modules joined to one script."""
     modules = re.search(r"foreach\(MODULE IN ITEMS (files [^)]*)\)", (ROOT / "src" / "CMakeLists.txt").read_text())[1].split()
     names = []
     for module in modules:

@@ -1,4 +1,4 @@
-"""The comparison of two results of one bench."""
+"""Tests of the comparison of two results of one bench."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ from figures.results import RESULTS
 
 
 def row(samples, median, low, high, flip=0.01, mse=1e-4, ssim=0.99, runs=3):
-    """A row of bench convergence as JSON has it."""
+    """Returns a row of bench convergence as in its JSON file."""
     return {"method": "accumulation", "setting": "lod=off", "samples": samples, "runs": runs, "mse": mse, "ssim": ssim, "flip": flip,
             "psnr": -10 * math.log10(mse), "milliseconds": {"median": median, "low": low, "high": high}, "bias": None}
 
@@ -26,7 +26,7 @@ NEW = [row(32, 500, 411, 510),  # slower
 
 
 def csv_of(rows):
-    """The same rows as a CSV file has them."""
+    """Writes the rows as a CSV file."""
     rows = [{**one, **one["milliseconds"], "milliseconds": one["milliseconds"]["median"]} for one in rows]
     text = io.StringIO()
     writer = csv.DictWriter(text, [name for name in rows[0] if name not in ("bias", "median")], extrasaction="ignore")

@@ -79,10 +79,10 @@ TEST_P(EstimatedError, isWithinAFactorOfOneAndAHalfOfTheTrueOne) {
         const double difference = compareImages(reference.image, frame.image, {}).rmse;
         // the reference is not accurate enough to judge this image
         if (reference.remaining.rmse > 0.5 * difference) continue;
-        const double truth = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
-        const double ratio = frame.stats.estimatedError.value() / truth;
+        const double trueError = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
+        const double ratio = frame.stats.estimatedError.value() / trueError;
         fmt::print("{:>9.5f} {:>6} {:>9.5f} {:>9.5f} {:>6.2f}\n", target, frame.stats.samples,
-                   *frame.stats.estimatedError, truth, ratio);
+                   *frame.stats.estimatedError, trueError, ratio);
         EXPECT_GT(ratio, 1 / agreement) << frame.stats.samples;
         EXPECT_LT(ratio, agreement) << frame.stats.samples;
         ++judged;

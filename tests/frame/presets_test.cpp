@@ -172,13 +172,13 @@ TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
             EXPECT_NEAR(object.lambda, lambda, 1e-6);
 
             // The first samples draw the coarser level.
-            const double whole = std::floor(object.lambda);
-            const auto coarse = static_cast<std::uint32_t>(std::lround((object.lambda - whole) * samples));
+            const double integerPart = std::floor(object.lambda);
+            const auto coarse = static_cast<std::uint32_t>(std::lround((object.lambda - integerPart) * samples));
             EXPECT_EQ(object.coarse.sampleCount, coarse);
             EXPECT_EQ(object.coarse.firstSample, 0u);
             EXPECT_EQ(object.fine.firstSample, coarse);
             EXPECT_EQ(object.fine.sampleCount, samples - coarse);
-            EXPECT_EQ(object.fine.level, static_cast<std::uint32_t>(whole));
+            EXPECT_EQ(object.fine.level, static_cast<std::uint32_t>(integerPart));
             if (coarse > 0) {
                 EXPECT_EQ(object.coarse.level, object.fine.level + 1);
             }

@@ -72,7 +72,7 @@ TEST(Settings, whatARowWritesItReads) {
         Request request;
         setting.set(request, otherValue(setting));
         const std::optional<std::string> text = changedText(setting, request);
-        ASSERT_TRUE(text) << "a value that was set isn't seen";
+        ASSERT_TRUE(text) << "a changed value must be reported";
         Request again;
         if (setting.repeated)
             for (const std::string& each : setting.texts(request)) setting.set(again, each);
@@ -120,7 +120,7 @@ TEST(Settings, unknownNamesSuggestTheNearest) {
     Request request;
     try {
         setByName(request, "fstop", "2");
-        FAIL() << "fstop is no name";
+        FAIL() << "fstop is not a setting";
     } catch (const UsageError& error) {
         EXPECT_STREQ(error.what(), "there is no setting 'fstop'; did you mean 'fStop'?");
     }
@@ -128,7 +128,7 @@ TEST(Settings, unknownNamesSuggestTheNearest) {
     EXPECT_EQ(request.methodSettings.at("far-components"), "5");
     try {
         setByName(request, "samples", "0");
-        FAIL() << "no sample is no image";
+        FAIL() << "zero samples must be refused";
     } catch (const UsageError& error) {
         EXPECT_STREQ(error.what(), "samples: '0' is not an integer from 1 to 65536");
     }

@@ -45,7 +45,7 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     request.targetError.reset();
     request.timeLimit = 1e-3;
     static_cast<void>(renderer.render(request));
-    EXPECT_EQ(renderer.statistics().samples, 64u) << "one block at least, and the next would end too late";
+    EXPECT_EQ(renderer.statistics().samples, 64u) << "at least one block; the next would end too late";
     EXPECT_EQ(renderer.statistics().stopped, StopReason::timeLimit);
 
     request.targetError = 1e-6;

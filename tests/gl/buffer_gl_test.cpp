@@ -71,7 +71,7 @@ TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
     }
 }
 
-// A vertex is a pixel: its x is its place among the vertices, its y the instance.
+// Each vertex draws a pixel: x is the vertex's `place`, y the instance.
 constexpr const char* pixelOfVertex = R"(
 layout(location = 2) in vec2 place;
 layout(location = 5) in float shade;
@@ -91,7 +91,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     };
     const std::array<Vertex, 4> vertices = {{{-9, {0, 10}}, {-9, {1, 11}}, {-9, {2, 12}}, {-9, {3, 13}}}};
     const std::array<std::uint8_t, 4> shades = {0, 51, 102, 255};
-    const std::array<float, 2> steps = {100, 200};  // one an instance
+    const std::array<float, 2> steps = {100, 200};  // one per instance
     const Buffer vertexBuffer = Buffer::of(std::span<const Vertex>(vertices));
     const Buffer shadeBuffer = Buffer::of(std::span<const std::uint8_t>(shades));
     const Buffer stepBuffer = Buffer::of(std::span<const float>(steps));
@@ -102,7 +102,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     array.bind(5, shadeBuffer, 0, 1);
     array.attribute(6, 1, GL_FLOAT, false, true);
     array.bind(6, stepBuffer, 0, sizeof(float));
-    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // vertex 2 is left out
+    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // vertex 2 is skipped
     const Buffer indexBuffer = Buffer::of(std::span<const std::uint16_t>(used));
     array.indices(indexBuffer);
 
@@ -148,7 +148,7 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t count = static_cast<std::size_t>(max) + 1;
-    // Pages that nobody touches take no memory.
+    // Untouched pages take no memory.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }
     };

@@ -21,7 +21,7 @@ TEST_F(Context, isCurrentAndSaysWhatItRunsOn) {
     EXPECT_NE(context().log().back().find(context().device()), std::string::npos) << context().log().back();
 }
 
-// Another thread has one of its own, whose end leaves this one as it was.
+// Another thread may have its own context. The end of that context does not affect this thread's.
 TEST_F(Context, anotherThreadMayHaveItsOwn) {
     const Buffer kept(4);
     std::thread([] {

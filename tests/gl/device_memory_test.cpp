@@ -1,4 +1,4 @@
-// What drivers say of their device's memory, by the two extensions' texts: both answer in KiB.
+// Free device memory by the texts of the two OpenGL extensions. Both drivers answer in KiB.
 
 #include "gl/device_memory.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A test with a context of its own suite, and shaders written by the test itself. Each test leaves no GL error behind.
+// A test with its suite's context, and shaders that the test writes. Fails if a test leaves a GL error behind.
 
 #include <gtest/gtest.h>
 
@@ -28,17 +28,17 @@ protected:
         std::filesystem::create_directories((folder_ / path).parent_path());
         std::ofstream(folder_ / path) << text;
     }
-    // Of shaders that were written before, or are embedded.
+    // Links shaders that the test wrote or that are embedded.
     [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
         return Program({std::move(shaders), std::move(defines), folder_.path()});
     }
-    // Over a whole target; `body` assigns `value`, a vec4.
+    // Program that covers the entire target; `body` assigns `value`, a vec4.
     [[nodiscard]] Program fragmentProgram(const std::string& declarations, const std::string& body) const {
         writeShader("test.frag",
                     "layout(location = 0) out vec4 value;\n" + declarations + "\nvoid main() {\n" + body + "\n}\n");
         return program({fullscreenShader, "test.frag"});
     }
-    // What `program` computes at each pixel of a float target.
+    // Returns the result of `program` at each pixel of a float target.
     [[nodiscard]] static Image computed(const Program& program, int width, int height) {
         const GlTexture texture({.format = TextureFormat::rgba32f, .width = width, .height = height});
         const Target target({&texture});
@@ -46,7 +46,7 @@ protected:
         Fullscreen().draw(program);
         return readBack(texture, 4);
     }
-    // Each texel of level `level`, in a shader's eyes.
+    // Returns the texels of a level as a shader fetches them.
     [[nodiscard]] Image fetched(const GlTexture& texture, int level = 0) const {
         const Program fetch =
             fragmentProgram("layout(binding = 0) uniform sampler2D source;",

@@ -24,7 +24,7 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// Mesa writes 0:7(12), NVIDIA 0(7).
+// Returns whether a compiler message points at `line`. Mesa writes 0:7(12), NVIDIA 0(7).
 bool pointsAtLine(const std::string& fault, int line) {
     const std::string number = std::to_string(line);
     return says(fault, "0:" + number + "(") || says(fault, "0(" + number + ")");
@@ -48,7 +48,8 @@ TEST_F(GlProgram, includesStandWhereTheyAreNamedEachTime) {
 
 TEST_F(GlProgram, theFoldersShaderReplacesTheEmbeddedOne) {
     writeShader("replaced.frag", "out vec4 value;\nvoid main() { value = vec4(1); }\n");
-    writeShader(fullscreenShader, "void main() { gl_Position = vec4(2, 2, 0, 1); }\n");  // nothing to be seen
+    // outside the view: draws nothing
+    writeShader(fullscreenShader, "void main() { gl_Position = vec4(2, 2, 0, 1); }\n");
     const Program nothing = program({fullscreenShader, "replaced.frag"});
     const GlTexture texture({.width = 1, .height = 1});
     const Target target({&texture});
@@ -71,7 +72,7 @@ TEST_F(GlProgram, compileErrorsNameStageFileAndItsOwnLine) {
     EXPECT_TRUE(says(fault, "nowhere")) << fault;
     EXPECT_TRUE(pointsAtLine(fault, 4)) << fault;
     EXPECT_EQ(std::ranges::count(fault, '\n'), 0) << fault;
-    // In the file that is included, its own lines.
+    // In an included file, lines are counted within that file.
     writeShader("parts/long.glsl", "\n\nfloat here = elsewhere;\n");
     const std::string inside = faultOf({fullscreenShader, "broken.frag"});
     EXPECT_TRUE(says(inside, "elsewhere") && pointsAtLine(inside, 3)) << inside;

@@ -12,7 +12,7 @@ namespace {
 
 using GlTextureTest = GlTest;
 
-// IEC 61966-2-1.
+// Decodes sRGB (IEC 61966-2-1).
 double linearOf(double code) {
     const double encoded = code / 255;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -34,7 +34,7 @@ TEST_F(GlTextureTest, bytesAreSharesOf255) {
     for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_NEAR(image.pixels[i], bytes[i] / 255.0, 1e-6) << i;
 }
 
-// Colours are decoded, alpha is not. Half a step between two codes may be lost: drivers decode by polynomials.
+// Colours are decoded, alpha is not. The tolerance is half a step between codes, as drivers decode by polynomials.
 TEST_F(GlTextureTest, sRgbCodesAreDecodedAndAlphaIsNot) {
     GlTexture texture({.format = TextureFormat::srgb8Alpha8, .width = 256, .height = 1});
     const std::vector<std::uint8_t> bytes = allCodes();
@@ -57,7 +57,7 @@ TEST_F(GlTextureTest, floatsKeepTheirValueAndHalvesTenBits) {
         texture.upload(0, 2, 1, values.data());
         const Image image = fetched(texture);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;  // drivers may cut off
+            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;  // drivers may truncate
             EXPECT_NEAR(image.pixels[i], values[i], relative * std::abs(values[i])) << i;
         }
     }
@@ -87,7 +87,7 @@ TEST_F(GlTextureTest, rowsFollowEachOtherFromTheBottom) {
         for (int x = 0; x < 3; ++x) EXPECT_EQ(*image.at(x, 2 - y), values[static_cast<std::size_t>(3 * y + x)]);
 }
 
-// Each level is the mean of four texels of the one before, down to the mean of all.
+// Each mip level is the mean of four texels of the previous one, down to the mean of all.
 TEST_F(GlTextureTest, mipmapsAreMeans) {
     constexpr int size = 8;
     GlTexture texture(
@@ -104,7 +104,7 @@ TEST_F(GlTextureTest, mipmapsAreMeans) {
     const Image first = fetched(texture, 1);
     for (int y = 0; y < size / 2; ++y)
         for (int x = 0; x < size / 2; ++x) {
-            const int row = size / 2 - 1 - y;  // of the texture: images start at the top
+            const int row = size / 2 - 1 - y;  // row of the texture: images start at the top
             double mean = 0;
             for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
                 mean += 0.25 *
@@ -115,7 +115,7 @@ TEST_F(GlTextureTest, mipmapsAreMeans) {
     EXPECT_NEAR(last.at(0, 0)[0], sum / (size * size), 1e-4);
 }
 
-// Red and green, nearest: where a coordinate beyond [0, 1] leads.
+// A texture of a red and a green texel, nearest filter: the texel for coordinates beyond [0, 1].
 TEST_F(GlTextureTest, wrapModesFoldTheCoordinates) {
     GlTexture texture({.format = TextureFormat::rgba32f, .width = 2, .height = 1});
     const std::array<float, 8> values = {1, 0, 0, 1, 0, 1, 0, 1};
@@ -183,7 +183,7 @@ TEST_F(GlTextureTest, beyondTheDriversLayersNamesTheirNumber) {
 }
 
 TEST_F(GlTextureTest, beyondMemoryIsAnError) {
-    if (!currentIsSoftware()) GTEST_SKIP() << "a GPU's driver may look for the memory once something is drawn";
+    if (!currentIsSoftware()) GTEST_SKIP() << "a GPU's driver may allocate the memory at the first draw";
     const ExpectedGlMessages wrongOnPurpose;
     GLint limit = 0, layers = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);

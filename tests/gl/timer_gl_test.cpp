@@ -8,7 +8,7 @@ namespace {
 
 using Timer = GlTest;
 
-// A span that lasts at least `milliseconds` by any clock: a slow machine only makes it longer.
+// Runs a span of at least `milliseconds` by any clock. A slow machine only makes it longer.
 void spanOf(GpuTimer& timer, double milliseconds) {
     using Clock = std::chrono::steady_clock;
     timer.begin();
@@ -23,26 +23,26 @@ TEST_F(Timer, withoutSpansIsZero) {
     GpuTimer timer;
     EXPECT_EQ(timer.milliseconds(), 0);
     timer.begin();
-    EXPECT_EQ(timer.milliseconds(), 0) << "a span that has no end yet";
+    EXPECT_EQ(timer.milliseconds(), 0) << "an unfinished span counts as zero";
 }
 
 TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     GpuTimer timer;
     spanOf(timer, 8);
     const double first = timer.milliseconds();
-    EXPECT_GE(first, 4);  // half, for clocks that differ
-    EXPECT_EQ(timer.milliseconds(), first) << "asking takes no time";
+    EXPECT_GE(first, 4);  // half, as clocks differ
+    EXPECT_EQ(timer.milliseconds(), first) << "reading adds no time";
     spanOf(timer, 8);
     spanOf(timer, 8);
     EXPECT_GE(timer.milliseconds(), first + 8);
     timer.reset();
     EXPECT_EQ(timer.milliseconds(), 0);
     spanOf(timer, 1);
-    timer.reset();  // also what was not asked for
+    timer.reset();  // also discards a span that was not read
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 
-// What happens between two spans is not theirs: the span around all of them holds both.
+// A span excludes the time between its parts; a span around all parts includes it.
 TEST_F(Timer, leavesOutWhatLiesBetween) {
     GpuTimer all, two, between;
     all.begin();

@@ -249,15 +249,15 @@ TEST(BadImageFile, truncatedAtAnyLength) {
     const ScratchFolder folder;
     for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
         writeImage(folder / name, gradient(40, 30, 3), {{"comments", "text"}});
-        const std::vector<std::byte> whole = readFile(folder / name);
+        const std::vector<std::byte> full = readFile(folder / name);
         const fs::path cut = folder / (std::string("cut-") + name);
-        for (std::size_t length = 0; length < whole.size(); length += 1 + length / 37) {
-            writeFile(cut, std::span(whole).first(length));
+        for (std::size_t length = 0; length < full.size(); length += 1 + length / 37) {
+            writeFile(cut, std::span(full).first(length));
             const std::string fault = readFault(cut);
-            ASSERT_FALSE(fault.empty()) << name << " cut to " << length << " of " << whole.size();
+            ASSERT_FALSE(fault.empty()) << name << " cut to " << length << " of " << full.size();
             expectClearFault(fault, cut.string());
         }
-        writeFile(cut, std::span(whole).first(whole.size() - 1));
+        writeFile(cut, std::span(full).first(full.size() - 1));
         EXPECT_FALSE(readFault(cut).empty()) << name;
     }
 }
@@ -279,9 +279,9 @@ TEST(BadImageFile, damagedExrAndJpegNeverCrash) {
     const ScratchFolder folder;
     for (const char* name : {"a.exr", "a.jpg"}) {
         writeImage(folder / name, gradient(16, 16, 3));
-        const std::vector<std::byte> whole = readFile(folder / name);
-        for (std::size_t i = 0; i < whole.size(); i += 5) {
-            std::vector<std::byte> damaged = whole;
+        const std::vector<std::byte> full = readFile(folder / name);
+        for (std::size_t i = 0; i < full.size(); i += 5) {
+            std::vector<std::byte> damaged = full;
             damaged[i] ^= std::byte{0xa5};
             writeFile(folder / "damaged", damaged);
             const std::string fault = readFault(folder / "damaged");

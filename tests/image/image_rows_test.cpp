@@ -56,7 +56,7 @@ TEST_F(ImageRows, giveThePixelsOfAWholeFile) {
         const fs::path other = folder() / (std::string("rows-") + name);
         ImageRowWriter writer(other, 53, 201, 4, metadata, options);
         for (int first = 0; first < 201; first += 90) writer.write(rowsOf(image, first, std::min(90, 201 - first)));
-        EXPECT_FALSE(fs::exists(other)) << "a file has its name before it is whole";
+        EXPECT_FALSE(fs::exists(other)) << "an incomplete file must not have its final name";
         writer.finish();
         Metadata known, written;
         EXPECT_TRUE(readImage(other, written).pixels == readImage(folder() / name, known).pixels) << name;
@@ -124,11 +124,11 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
 TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
-    const std::vector<std::byte> whole = readFile(path);
+    const std::vector<std::byte> full = readFile(path);
     // Replaces the size of an attribute, or the number `offset` bytes after the size.
     const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
                                 std::size_t offset = 0) {
-        std::string bytes(reinterpret_cast<const char*>(whole.data()), whole.size());
+        std::string bytes(reinterpret_cast<const char*>(full.data()), full.size());
         const std::string begin = attribute + '\0' + type + '\0';
         const std::size_t at = bytes.find(begin) + begin.size() + offset;
         for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> (8 * i));

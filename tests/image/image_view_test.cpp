@@ -55,8 +55,8 @@ TEST(ImageView, ofTooFewPixelsIsRefused) {
     const std::vector<float> pixels(10);
     EXPECT_NE(messageOf<Error>([&] { writeImage(folder / "a.exr", ImageView(9, 5, 1, pixels)); }), "");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
-    const Image whole(9, 5, 1);
-    EXPECT_NE(messageOf<Error>([&] { compareImages(whole, ImageView(9, 5, 1, pixels)); }), "");
+    const Image full(9, 5, 1);
+    EXPECT_NE(messageOf<Error>([&] { compareImages(full, ImageView(9, 5, 1, pixels)); }), "");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class TextInImages : public ::testing::Test {
 protected:
     void SetUp() override {
         Image probe(8, 8, 1);
-        if (!writeText(probe, 0, 8, "x", 8, 1)) GTEST_SKIP() << "no typeface that can be read";
+        if (!writeText(probe, 0, 8, "x", 8, 1)) GTEST_SKIP() << "no readable font is installed";
     }
     static Image sheet() {
         Image image(400, 200, 3);

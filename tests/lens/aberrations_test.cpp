@@ -46,8 +46,8 @@ TEST(Aberrations, areTheGradientOfTheWavefront) {
     }
 }
 
-// At the right edge of an image 36 mm wide: a line of the astigmatism's length, and a comet as long as the coma, whose
-// rays of one circle on the lens make a circle of twice the angle, with the tail's tip on the side of an angle of 60°.
+// At the right edge of an image 36 mm wide, astigmatism gives a line and coma a comet of the stated lengths. Rays of
+// one circle on the lens form a circle at twice the angle, within the comet's angle of 60°.
 TEST(Aberrations, areAsLongOnTheSensorAsTheySay) {
     const ClipCircleOfConfusion line = aberratedLens(0.9, 0);
     const double length = aberration(line, {1, 0}, {1, 0}).x - aberration(line, {1, 0}, {-1, 0}).x;
@@ -78,7 +78,7 @@ TEST(Aberrations, reachHoldsEveryRayAndIsReached) {
     }
 }
 
-// The range of blurs holds how far any ray misses: culling, levels and rates rely on it.
+// The range of blur contains every ray's deviation; culling, levels and rates rely on it.
 TEST(Aberrations, widenTheRangeOfTheBlur) {
     const ClipCircleOfConfusion coc = aberratedLens(0.8, 0.6);
     const CocBox box{.zNear = 1.5, .zFar = 3, .ndcMin = {-0.2, 0.1}, .ndcMax = {0.9, 0.8}};

@@ -1,4 +1,4 @@
-// The scale of a file's camera: its field of view is kept, its sensor or its focal length gives the rest.
+// The lens of a file's camera: the field of view is the camera's, and its sensor or focal length gives the rest.
 #include "lens/camera_lens.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// 50 mm on 36 x 24 mm, fitted vertically.
+// A camera of 50 mm on 36 x 24 mm, fitted vertically.
 Camera physicalCamera() {
     Camera camera;
     camera.yfov = 2 * std::atan(24.0 / (2 * 50));
@@ -35,7 +35,7 @@ TEST(CameraLens, withoutAPhysicalCameraTheSensorIs36Wide) {
     Camera camera = physicalCamera();
     camera.physical.reset();
     EXPECT_NEAR(fitted(camera, 1.5).focalLength, 50, 1e-12);
-    EXPECT_NEAR(fitted(camera, 1).focalLength, 75, 1e-12) << "the same width shows less";
+    EXPECT_NEAR(fitted(camera, 1).focalLength, 75, 1e-12) << "the same sensor width shows less of the scene";
     Lens small;
     small.horizontalAperture = 18;
     EXPECT_NEAR(fitted(camera, 1.5, small, {"horizontalAperture"}).focalLength, 25, 1e-12);
@@ -45,7 +45,7 @@ TEST(CameraLens, physicalCameraKeepsItsFocalLengthAndShowsAPartOfItsSensor) {
     EXPECT_NEAR(fitted(physicalCamera(), 1.5).focalLength, 50, 1e-12);
     EXPECT_NEAR(fitted(physicalCamera(), 1.5).horizontalAperture, 36, 1e-12);
     EXPECT_NEAR(fitted(physicalCamera(), 1).focalLength, 50, 1e-12);
-    EXPECT_NEAR(fitted(physicalCamera(), 1).horizontalAperture, 24, 1e-12) << "as wide as it is high";
+    EXPECT_NEAR(fitted(physicalCamera(), 1).horizontalAperture, 24, 1e-12) << "as wide as high";
 }
 
 TEST(CameraLens, whatIsSetByNameWins) {

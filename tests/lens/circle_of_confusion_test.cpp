@@ -20,7 +20,7 @@ Lens lensAt(double focusDistance) {
     return lens;
 }
 
-// Every control at once, at random.
+// Returns a lens with random controls, many at once.
 Lens anyLens(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     Lens lens = lensAt(0.5 + 4 * unit(random));
@@ -40,7 +40,7 @@ double random(std::mt19937& source, double min, double max) {
     return std::uniform_real_distribution<double>(min, max)(source);
 }
 
-// Munkberg et al. 2012, Eq. 1 and 2 with our signs: the kink lies at w = −a/(b + R), and nothing changes behind it.
+// Munkberg et al. 2012, Eq. 1 and 2 with inverted signs: the kink lies at w = −a/(b + R), and C is unchanged behind it.
 TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
@@ -65,7 +65,7 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
-// Munkberg et al. 2012: the range in focus is extended, and the near and the far blur are preserved.
+// The range in focus is sharp, and the near and the far blur are preserved (Munkberg et al. 2012).
 TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
@@ -76,17 +76,17 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         lens.focusRangeRefocuses = refocuses;
         const ClipCircleOfConfusion range = clipCircleOfConfusion(lens, 1000, 750);
         for (const double z : {1.5, 1.7, 2.0, 4.0, 5.0}) EXPECT_NEAR(circleOfConfusion(range, z, 1000), 0, 1e-9);
-        // It grows from both ends without a step, nearer and farther all the way.
+        // The blur grows continuously from both ends of the range.
         EXPECT_NEAR(circleOfConfusion(range, 1.5 * (1 - 1e-9), 1000), 0, 1e-5);
         EXPECT_NEAR(circleOfConfusion(range, 5 * (1 + 1e-9), 1000), 0, 1e-5);
         EXPECT_LT(circleOfConfusion(range, 1.4, 1000), -1);
         EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
-        // Near the lens, |C| is the aperture's.
+        // Near the lens, |C| depends only on the aperture.
         EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
-        // Far away it is what it was, or that of a focus at 5 m.
+        // Far away, C is unchanged, or that of a focus at 5 m.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
-        // And in between: A·W/(2 tan)·(1/s)·(1 − 5/z), or ·(1/5 − 1/z).
+        // Between, C is A·W/(2 tan)·(1/s)·(1 − 5/z), or ·(1/5 − 1/z).
         const double atInfinity = circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
                     refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);
@@ -117,7 +117,7 @@ TEST(CircleOfConfusion, curvedFocusSurfaceIsWhereDesignSays) {
     }
 }
 
-// Level selection and culling rely on it.
+// The range of C over a box contains every point of the box; level selection and culling rely on it.
 TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     std::mt19937 source(7);
     for (int trial = 0; trial < 400; ++trial) {
@@ -147,8 +147,8 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// Munkberg et al. 2012, 4.1: |C/w| of a triangle that is cut at the near plane is at most the larger of the limit and
-// the thin lens's value there, wherever between the cut and the farther vertex.
+// A triangle is cut at the near plane. Between the cut and a vertex no farther than the kink, the interpolated |C/w|
+// stays within the limit (Munkberg et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;
@@ -162,14 +162,14 @@ TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
             const double linear = (1 - t) * clip(near) + t * clip(far);
             EXPECT_LE(std::abs(linear / w) * 1000, 15 * (1 + 1e-12)) << "w = " << w;
         }
-    // Not cut: from behind the camera the interpolation has no bound.
+    // Without the cut, interpolation from behind the camera has no bound.
     const double behind = -1;
     const double t = (near - behind) / (kink - behind);
     const double uncut = (1 - t) * (coc.a + coc.front * behind) + t * clip(kink);
     EXPECT_GT(std::abs(uncut / near) * 1000, 15);
 }
 
-// The bound on C's distance from its chord is one: edges inside the box, at random.
+// The bound on C's distance from its chord holds for random edges inside the box.
 TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
     std::mt19937 source(11);
     const int width = 1000;
@@ -188,7 +188,7 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         const double shrink = std::pow(10.0, random(source, -3, 0));
         ends[1] = ends[0] + (ends[1] - ends[0]) * shrink;
         const auto ndcOf = [&](const glm::dvec3& p) { return glm::dvec2(p) / (tanHalf * p.z); };
-        // What the vertices at the ends have is linear along the edge.
+        // Vertex attributes are linear along the edge.
         const bool vary = trial % 2 == 0;
         const glm::dvec2 factors(random(source, 0, 2), random(source, 0, 2));
         const glm::dvec2 added(random(source, -0.05, 0.05), random(source, -0.05, 0.05));
@@ -215,7 +215,7 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         EXPECT_LE(deviation, bound.kinks + bound.curved + 1e-6) << "trial " << trial;
         large += deviation > 0.5 ? 1 : 0;
     }
-    EXPECT_GT(large, 300) << "edges that deviate must be among them";
+    EXPECT_GT(large, 300) << "some edges must deviate";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Depth of field against the textbook's formulas and tables, and against the blur that the renderer makes.
+// Depth of field against textbook formulas and tables, and against the renderer's blur.
 #include "lens/depth_of_field.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,9 @@ Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathi
     return lens;
 }
 
-// By Newton's and Gauss's equations instead of our own: where the sensor stands for s, the image of z lies at
-// i(z) = f·z/(z − f), and a cone from the aperture f/N meets the sensor in a disk of |i(s) − i(z)|/i(z) of it.
+// Blur disk on the sensor in mm by Newton's and Gauss's equations, independent of the code under test. The sensor
+// stands at the image of s, a point at z is imaged at i(z) = f·z/(z − f). A cone from the aperture f/N meets the sensor
+// in a disk of f/N·|i(s) − i(z)|/i(z).
 double diskOfTheThinLens(const Lens& lens, double z) {
     const double f = lens.focalLength;  // all in mm
     const auto image = [&](double depth) { return 1000 * depth * f / (1000 * depth - f); };
@@ -33,7 +34,7 @@ double diskOfTheThinLens(const Lens& lens, double z) {
 }
 
 TEST(DepthOfField, limitsOfATextbookLens) {
-    // 50 mm at f/8, 0.03 mm: H = 2500/0.24 + 50 = 10466.67 mm.
+    // 50 mm at f/8 with 0.03 mm: H = 2500/0.24 + 50 = 10466.67 mm.
     const Lens lens = lensOf(50, 8, 3, true);
     const DepthOfField depth = depthOfField(lens, 0.03);
     EXPECT_NEAR(depth.hyperfocal, 10.4666667, 1e-6);
@@ -54,7 +55,7 @@ TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
         }
 }
 
-// The C of the images, at any aspect and with any scale of the blur.
+// The C of rendered images, for any aspect and any blur scale.
 TEST(DepthOfField, blurOfTheImageAtTheLimitsIsTheAcceptableOne) {
     for (const bool breathing : {false, true})
         for (const int width : {640, 300}) {

@@ -55,8 +55,8 @@ TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
     }
 }
 
-// Sheared by time or band, the lens must stay covered: in each eighth of them the mean of n independent points of the
-// disk strays by √(0.5/n).
+// The lens must stay covered within each part of the time or the band. In each eighth, the mean of n independent points
+// of the disk would deviate by √(0.5/n).
 TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
     for (const Sequence sequence : allSequences) {
         glm::dvec2 times[8] = {};

@@ -13,8 +13,8 @@ namespace defocus::engine {
 namespace {
 
 TEST(Lens, circleOfConfusionOfATextbookExample) {
-    // 50 mm at f/2, focused at 2 m: A = 25 mm, tan(θx/2) = 36/100. At 4 m c = 0.025·(1/2 − 1/4)·1000/(0.72) = 8.6806
-    // px.
+    // 50 mm at f/2, focused at 2 m: A = 25 mm and tan(θx/2) = 36/100. At 4 m, c = 0.025·(1/2 − 1/4)·1000/(0.72) =
+    // 8.6806 px.
     Lens lens;
     lens.fStop = 2;
     lens.focusDistance = 2;
@@ -46,8 +46,8 @@ TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
 }
 
 TEST(Lens, focusBreathingIsTheThinLens) {
-    // Thin lens: image distance i = f·s/(s − f); the sensor's half width over i is tan(θx/2); CoC = A·|z − s|/z · i/s
-    // on the sensor, which is W/horizontalAperture px a mm.
+    // For a thin lens, the image distance is i = f·s/(s − f), and tan(θx/2) is half the sensor's width over i. On the
+    // sensor, the CoC is A·|z − s|/z · i/s, at W/horizontalAperture px per mm.
     Lens lens;
     lens.focusBreathing = true;
     lens.focusDistance = 1;

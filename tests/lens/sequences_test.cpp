@@ -17,7 +17,7 @@ namespace {
 TEST(Sequences, radicalInverseOfTheFirstIntegers) {
     const double base2[] = {0, 0.5, 0.25, 0.75, 0.125};
     for (std::uint64_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(radicalInverse(2, i), base2[i]);
-    EXPECT_NEAR(radicalInverse(3, 5), 2.0 / 3 + 1.0 / 9, 1e-15);  // 5 = 12 in base 3, mirrored 0.21
+    EXPECT_NEAR(radicalInverse(3, 5), 2.0 / 3 + 1.0 / 9, 1e-15);  // 5 is 12 in base 3, mirrored 0.21
 }
 
 TEST(Sequences, haltonIsTheRadicalInverseMovedToTheMiddle) {
@@ -45,7 +45,7 @@ struct Region {
     std::function<bool(const glm::dvec2&)> holds;
 };
 
-// Halves of the disk that the square is mapped to: what a straight edge out of focus lets through.
+// Halves of the disk that the square is mapped to, as a blurred straight edge hides them.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 16; ++direction) {
@@ -58,7 +58,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Boxes from a corner: what an edge in focus lets through of the pixel.
+// Boxes from a corner of the pixel, as an edge in focus hides them.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 8; ++x)
@@ -67,7 +67,7 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// The largest error of a region's share, times n/log²n, over all prefixes of 16 points and more.
+// Returns the largest error of a region's share, times n/log²n, over all prefixes of at least 16 points.
 double worstPrefix(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
     double worst = 0;
     for (const Region& region : regions) {
@@ -96,8 +96,8 @@ std::vector<glm::dvec2> pointsOf(Sequence sequence, std::uint32_t count, std::ui
     return points;
 }
 
-// Low discrepancy means an error of at most c·log²n/n for n points (Niederreiter 1992); independent ones err by about
-// n^(−1/2) and leave any such bound behind.
+// Low discrepancy means an error of at most c·log²n/n for n points (Niederreiter 1992). Independent points err by about
+// n^(−1/2), which exceeds any such bound.
 constexpr double maxError = 0.5;
 
 TEST(Sequences, everyPrefixAndSuffixCoversTheLens) {
@@ -118,7 +118,7 @@ TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
-// What the bounds above are there to catch.
+// The bounds above must fail for the even points of a sequence and for independent points.
 TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {
@@ -145,7 +145,7 @@ double rootMeanSquare(const std::vector<glm::dvec2>& points, const std::vector<R
     return std::sqrt(square / static_cast<double>(regions.size()));
 }
 
-// Seed 0 of `sobol` was picked from many: over 16 to 256 points it must be ahead of nearly any other, and of Halton.
+// Seed 0 of `sobol` was chosen among many. Over 16 to 256 points it must beat nearly all others, and Halton.
 TEST(Sequences, seedZeroOfSobolIsAGoodOne) {
     const std::vector<Region> regions = halfPlanes();
     const auto meanLogError = [&](Sequence sequence, std::uint32_t seed) {
@@ -163,7 +163,7 @@ TEST(Sequences, seedZeroOfSobolIsAGoodOne) {
 
 // ---- nets -----------------------------------------------------------------------------------------------------------
 
-// How many of `points` lie in each cell of a grid of `columns` × `rows`: least and most.
+// Returns the min and max number of `points` per cell of a grid of `columns` × `rows`.
 std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int columns, int rows) {
     std::vector<int> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     for (const glm::dvec2& p : points)
@@ -173,8 +173,8 @@ std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int column
     return {*min, *max};
 }
 
-// 2ᵏ points from a multiple of 2ᵏ on: one in each elementary interval of the lens, whichever its sides (a net;
-// Niederreiter 1987), and of each other coordinate.
+// 2ᵏ points from a multiple of 2ᵏ form a net (Niederreiter 1987): every elementary interval of the lens contains one,
+// for all side ratios, and so does every interval of the other coordinates.
 TEST(Sequences, alignedBlocksOfSobolAreNets) {
     for (const std::uint32_t seed : {0u, 7u})
         for (const auto& [first, bits] : {std::pair{0u, 4u},
@@ -204,8 +204,8 @@ TEST(Sequences, alignedBlocksOfSobolAreNets) {
         }
 }
 
-// Joe and Kuo's dimensions 3 and 4 have a quality parameter t of at most 2 (1 from 32 points on): cells with the area
-// of 2ᵗ points hold so many of them.
+// Joe and Kuo's dimensions 3 and 4 have a quality parameter t of at most 2 (1 from 32 points on): a cell with the area
+// of 2ᵗ points contains 2ᵗ points.
 TEST(Sequences, pixelOfSobolIsNearlyANet) {
     for (const std::uint32_t seed : {0u, 7u})
         for (const std::uint32_t bits : {5u, 6u, 8u, 10u}) {
@@ -217,7 +217,7 @@ TEST(Sequences, pixelOfSobolIsNearlyANet) {
         }
 }
 
-// An aligned block of bᵏ scrambled points still has one in each interval of length b⁻ᵏ.
+// An aligned block of bᵏ scrambled points still has one point in each interval of length b⁻ᵏ.
 TEST(Sequences, scramblingHaltonKeepsItsIntervals) {
     for (const std::uint32_t seed : {0u, 5u}) {
         std::array<int, 64> columns{};
@@ -254,8 +254,8 @@ TEST(Sequences, longOnesStayPrecise) {
     }
 }
 
-// Over the seeds each point is anywhere: averages of renders with many seeds have no bias. Counts in 16 cells of 1,600
-// seeds; χ² with 15 degrees of freedom stays below 38 in 999 cases of 1,000.
+// Over the seeds, each point is uniform in the square, so averages over many seeds have no bias. Counts of 1,600 seeds
+// in 16 cells: χ² with 15 degrees of freedom is below 38 in 999 of 1,000 cases.
 TEST(Sequences, seedsSpreadEachPointOverTheSquare) {
     for (const Sequence sequence : allSequences)
         for (const std::uint32_t index : {0u, 1u, 37u}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Holds the levels of a mesh against its level 0, as a wide blur shows them.
+// Limits for the difference between the levels of a mesh and its level 0 under a wide blur.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct ConservedLimits {
     double outline = 0.005;
 };
 
-// Down to the level whose edges are a quarter of the mesh's size.
+// Checks levels up to those with a mean edge of a quarter of the mesh's size.
 inline void expectConserved(const Mesh& mesh, const ConservedLimits& limits) {
     const Pyramid pyramid = buildPyramid(mesh);
     const auto measured = [&](std::size_t level) {

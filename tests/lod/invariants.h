@@ -1,5 +1,5 @@
 #pragma once
-// What holds for every pyramid, whatever its mesh.
+// Properties of every pyramid, for any mesh.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// All that a cluster says holds for its triangles, and clusters tile the ranges of the primitives.
+// A cluster's bounds hold for its triangles, and clusters tile the ranges of the primitives.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();
@@ -45,8 +45,8 @@ inline void expectClustersHold(const Pyramid& pyramid) {
     }
 }
 
-// λ grows with the target from level 0 to the last, and nowhere by more than the least growth from level to level
-// allows: 5 % of the edges, 25 % of the errors (the slope is largest at an interval's end).
+// λ grows with the target from level 0 to the last level. Its slope is bounded by the min growth between levels: 5 %
+// for edges, 25 % for errors, with the largest slope at an interval's end.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;
@@ -115,7 +115,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     expectContinuousLevels(pyramid);
 }
 
-// The part with the most area keeps its shape while another part has more triangles.
+// The part with the largest area keeps its shape as long as another part has more triangles.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

@@ -1,5 +1,5 @@
 #pragma once
-// Plain lists as arrays of the simplifier's numbers.
+// Converts plain lists to arrays with the simplifier's index types.
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Small meshes with seams and borders as real files have them, and counts over the surface joined by position.
+// Small meshes with seams and borders as in real files, and counts over the surface with vertices joined by position.
 
 #include <algorithm>
 #include <array>
@@ -30,15 +30,15 @@ inline Mesh singlePrimitive(Vertices vertices, std::vector<std::uint32_t> indice
     return mesh;
 }
 
-// columns × rows quads over (u, v) ∈ [0, 1]², two triangles each, (columns + 1)·(rows + 1) vertices; where `place`
-// closes the surface the vertices of both ends are kept apart, as at a UV seam. Triangles whose corners coincide
-// (poles) are left out.
+// Returns columns × rows quads over (u, v) ∈ [0, 1]² of two triangles each, with (columns + 1)·(rows + 1) vertices. If
+// `place` closes the surface, the vertices of both ends stay separate, as at a UV seam. Triangles with coincident
+// corners, at poles, are omitted.
 template <typename Place>
 Mesh parametricSurface(std::uint32_t columns, std::uint32_t rows, const Place& place) {
     Vertices vertices;
     for (std::uint32_t j = 0; j <= rows; ++j)
         for (std::uint32_t i = 0; i <= columns; ++i) {
-            // Both ends of a closed direction take the same position to the last bit.
+            // Both ends of a closed direction have bit-identical positions.
             vertices.positions.push_back(glm::vec3(place(i, j)));
             vertices.uv0.push_back({static_cast<float>(i) / static_cast<float>(columns),
                                     static_cast<float>(j) / static_cast<float>(rows)});
@@ -63,7 +63,7 @@ inline double turn(std::uint32_t i, std::uint32_t count) {
     return 2 * std::numbers::pi * (i % count) / count;
 }
 
-// Unit sphere with a UV seam and poles of one vertex a column; `bump` modulates the radius.
+// Returns a unit sphere with a UV seam and a pole vertex per column; `bump` modulates the radius.
 inline Mesh sphere(std::uint32_t columns, std::uint32_t rows, double bump = 0) {
     return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
         if (j == 0 || j == rows) return glm::dvec3(0, 0, j == 0 ? -1 : 1);
@@ -74,7 +74,7 @@ inline Mesh sphere(std::uint32_t columns, std::uint32_t rows, double bump = 0) {
     });
 }
 
-// Radii 1 and 0.4, UV seams both ways.
+// Returns a torus of radii 1 and 0.4 with UV seams in both directions.
 inline Mesh torus(std::uint32_t columns, std::uint32_t rows) {
     return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
         const double a = turn(i, columns);
@@ -84,15 +84,15 @@ inline Mesh torus(std::uint32_t columns, std::uint32_t rows) {
     });
 }
 
-// The unit square at z = 0.
+// Returns the unit square at z = 0.
 inline Mesh flatGrid(std::uint32_t cells) {
     return parametricSurface(cells, cells, [=](std::uint32_t i, std::uint32_t j) {
         return glm::dvec3(static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0);
     });
 }
 
-// A slab of edge 1 along x with so many square holes through it, closed: of genus `holes`. The edge of a hole has
-// `cells` quads.
+// Returns a closed slab with `holes` square holes along x, so its genus is `holes`. The edge of a hole has `cells`
+// quads.
 inline Mesh slab(std::uint32_t holes, int cells) {
     const int columns = 2 * static_cast<int>(holes) + 1;
     const auto solid = [&](int i, int j) {
@@ -142,7 +142,7 @@ inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size
     return indices;
 }
 
-// For each undirected edge of the surface joined by position: forward minus backward uses, and all uses.
+// Uses of an undirected edge, joined by position: forward minus backward, and in total.
 struct EdgeUse {
     int balance = 0;
     int count = 0;
@@ -162,14 +162,14 @@ inline std::map<std::pair<PositionKey, PositionKey>, EdgeUse> edgeUses(const std
     return edges;
 }
 
-// Every edge joined by position has exactly two faces, one on either side.
+// Returns whether every edge, joined by position, has exactly two faces, one in each direction.
 inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
     const auto edges = edgeUses(positions, indices);
     return std::all_of(edges.begin(), edges.end(),
                        [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
 }
 
-// For each vertex of the mesh the number of its part, from 0 on: parts share no position.
+// Returns the part of each vertex, numbered from 0. Parts share no position.
 inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     std::map<PositionKey, std::uint32_t> ids;
     std::vector<std::uint32_t> places;
@@ -191,7 +191,8 @@ inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     return places;
 }
 
-// The triangles as corner positions, smallest first in winding order, sorted: equal for equal sets of triangles.
+// Returns the triangles as corner positions, each rotated to start with its smallest corner, sorted. Equal sets of
+// triangles give equal results.
 inline std::vector<std::array<PositionKey, 3>> triangleSet(const std::vector<glm::vec3>& positions,
                                                            const std::vector<std::uint32_t>& indices) {
     std::vector<std::array<PositionKey, 3>> result;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """package_test.py BUILD SOURCE CMAKE COMPILER
 
-Installs the library of the build tree BUILD, once static and once shared, and uses it as a stranger would: the programs of
-examples/ are copied to a folder outside the tree, built with find_package and with pkg-config, and run. Their images must
-have the size that was asked for, show something, and be the same bits however the library is linked.
+Installs the library of the build tree BUILD, once static and once shared, and uses it from an outside project. The
+programs of examples/ are copied to a folder outside the tree, built with find_package and with pkg-config, and run.
+Their images must have the requested size, show something, and have the same bits for both kinds of library.
 """
 
 import os
@@ -31,7 +31,7 @@ def check(holds, message):
 
 
 def check_headers(prefix, source):
-    """The public headers and nothing else, and in them nothing but the standard library and each other."""
+    """Checks that only public headers are installed, and that they include only the standard library and each other."""
     include = prefix / "include"
     installed = sorted(str(path.relative_to(include)) for path in include.rglob("*") if path.is_file())
     public = sorted(str(path.relative_to(source / "include")) for path in (source / "include").rglob("*.h"))
@@ -44,7 +44,9 @@ def check_headers(prefix, source):
 
 
 def check_package_files(prefix, kind):
-    """What consumers must have: of a shared library nothing, of a static one what it links, and of neither the window's."""
+    """Checks the dependencies of consumers: none for a shared library, the linked libraries for a static one, and never
+    the window's.
+    """
     files = list(prefix.rglob("*.cmake")) + list(prefix.rglob("*.pc"))
     check(len(files) >= 4, f"package files: {files}")
     foreign = ["glfw", "imgui", "CLI11", "glm", "nlohmann"]
@@ -90,7 +92,7 @@ def pkg_config_programs(folder, prefix, compiler, kind):
 
 
 def render_all(programs, output, scene, environment):
-    """The images of all examples that `programs` has, in the folder `output`."""
+    """Renders the images of all examples in `programs` into the folder `output`."""
     output.mkdir(parents=True)
     arguments = {"render": "render.exr", "progressive": "progressive.png", "animation": "frames"}
     for name, result in arguments.items():
@@ -100,7 +102,7 @@ def render_all(programs, output, scene, environment):
 
 
 def png_data(path):
-    """The pixels of a PNG as the file holds them, without its metadata."""
+    """Returns the stored pixels of a PNG without its metadata."""
     data, at, file = b"", 8, path.read_bytes()
     while at < len(file):
         size = int.from_bytes(file[at : at + 4], "big")

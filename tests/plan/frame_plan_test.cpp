@@ -38,7 +38,7 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// Continuous: the two levels cover all samples and overlap by the boundary sample alone, where there is one.
+// In continuous mode, the two levels cover all samples and share only the boundary sample, if there is one.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -72,7 +72,7 @@ TEST(FramePlan, otherModesHaveNoBoundarySample) {
 TEST(FramePlan, depthsAndBlurFollowTheFormula) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-    const ObjectPlan& nearest = plan.objects.front();  // front to back
+    const ObjectPlan& nearest = plan.objects.front();  // sorted front to back
     EXPECT_EQ(nearest.object, 0);
     EXPECT_NEAR(nearest.nearestDepth, 1.05, 0.01);
     const double A = 0.05 / 1;
@@ -100,8 +100,8 @@ TEST(FramePlan, objectsOutsideTheWidenedFrustumAreLeftOut) {
     EXPECT_FALSE(leftOut(planFrame(small->world, small->view, everything), "Object 4"));
 }
 
-// A point that only the blurred image of an object reaches must not be culled: brute force over lens points and box
-// corners.
+// An object must not be culled if its blurred image reaches the frame. The test tries lens points and box corners by
+// brute force.
 TEST(FramePlan, cullingIsConservative) {
     const auto small = fiveSpheres();
     const Bounds box = small->world.pyramids[0].bounds;
@@ -160,13 +160,13 @@ TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
 }
 
 struct DollyStep {
-    double distance = 0;  // m, of the sphere's centre
+    double distance = 0;  // of the sphere's centre, m
     double lambda = 0;
 };
 
-constexpr double dollyRadius = 0.2;  // of the sphere, m
+constexpr double dollyRadius = 0.2;  // radius of the sphere, m
 
-// A sphere that goes from 1.2 to 12 m before the lens, each step `ratio` times as far.
+// A sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the distance by `ratio`.
 std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
     std::vector<DollyStep> steps;
@@ -181,10 +181,10 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     return steps;
 }
 
-// How much may λ change in a step? An edge at distance n projects to a length that goes as 1/n. λ is where the levels'
-// edges, interpolated in their logarithm, project to τ = max(kBlur·c, kSize), and the edges of each level are at least
-// `growth` times those of the level before. So |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ, by at
-// most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+// Bound on the change of λ in a step. An edge at distance n projects to a length in proportion to 1/n. At λ, the
+// levels' edges, interpolated in their logarithm, project to τ = max(kBlur·c, kSize). Edges grow at least by the factor
+// `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ, by at most kBlur·K·(1/n −
+// 1/n'), and τ is at least kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -195,7 +195,7 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const Lens& lens = small->view.lens;
     const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
                         lens.horizontalAperture;  // K, px·m
-    const double reach = 1.03 * dollyRadius;      // of the ripples
+    const double reach = 1.03 * dollyRadius;      // radius with the ripples
     const std::vector<DollyStep> steps = dolly(settings, 1.001);
     for (std::size_t i = 1; i < steps.size(); ++i) {
         const double before = steps[i - 1].distance - reach;
@@ -217,10 +217,10 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
         return largest;
     };
     const std::vector<DollyStep> steps = dolly(settings, 1.002);
-    // A continuous λ changes half as much over half a step; a jump stays as large.
+    // A continuous λ changes half as much in half a step; a jump keeps its size.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
-    EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "from focus to blur";
+    EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";
 }
 
 TEST(FramePlan, moreSamplesMeanFinerMeasuredLevels) {
@@ -268,8 +268,8 @@ TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) 
     EXPECT_EQ(metricWith({.size = 2}), LodMetric::error);
 }
 
-// With one cause alone levels are no coarser than with both, a pinhole has size alone, and what isn't blurred has no
-// cause left.
+// Levels by a single cause are at most as coarse as with both causes. A pinhole has only the size as a cause, so all
+// causes give its levels by size.
 TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
     const auto small = fiveSpheres();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {

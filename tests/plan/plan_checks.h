@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of plans ask for, and look for.
+// Settings and queries for the tests of plans.
 
 #include <algorithm>
 #include <string>
@@ -15,7 +15,7 @@ inline RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-// Whether the plan names something left out whose name holds `what`.
+// Returns whether the plan lists something as left out whose name contains `what`.
 inline bool leftOut(const FramePlan& plan, const std::string& what) {
     return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),
                        [&](const LeftOut& entry) { return entry.what.find(what) != std::string::npos; });

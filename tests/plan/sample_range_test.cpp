@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Which levels draw a sample of an object, and at which share of the pixels.
+// The levels that draw a sample of an object, and their share of the pixels.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;
@@ -31,22 +31,22 @@ TEST(SampleRange, eachSampleIsDrawnAsInTheWholeFrame) {
         settings.lod = mode;
         settings.seed = 5;
         settings.thresholds = {0.5, 2};
-        const FramePlan whole = planFrame(small->world, small->view, settings);
+        const FramePlan full = planFrame(small->world, small->view, settings);
         std::uint64_t triangles = 0;
         for (const auto& [first, count] : {std::pair(0u, 64u), std::pair(64u, 64u), std::pair(128u, 22u)}) {
-            const FramePlan part = samplesOf(whole, first, count);
+            const FramePlan part = samplesOf(full, first, count);
             ASSERT_EQ(part.samples.size(), count);
-            ASSERT_EQ(part.objects.size(), whole.objects.size());
+            ASSERT_EQ(part.objects.size(), full.objects.size());
             EXPECT_EQ(part.settings.firstSample, first);
             triangles += part.trianglesDrawn;
             for (std::uint32_t i = 0; i < count; ++i) {
-                EXPECT_EQ(part.samples[i].lens, whole.samples[first + i].lens);
-                for (std::size_t o = 0; o < whole.objects.size(); ++o)
-                    EXPECT_EQ(drawnAt(part.objects[o], i), drawnAt(whole.objects[o], first + i))
+                EXPECT_EQ(part.samples[i].lens, full.samples[first + i].lens);
+                for (std::size_t o = 0; o < full.objects.size(); ++o)
+                    EXPECT_EQ(drawnAt(part.objects[o], i), drawnAt(full.objects[o], first + i))
                         << o << ' ' << first + i;
             }
         }
-        EXPECT_EQ(triangles, whole.trianglesDrawn);
+        EXPECT_EQ(triangles, full.trianglesDrawn);
     }
 }
 

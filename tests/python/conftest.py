@@ -1,4 +1,4 @@
-"""What the tests of the Python package share: small scenes, a cache of their own, the program."""
+"""Shared fixtures of the Python tests: small scenes, a separate cache, and the program."""
 
 import os
 import subprocess
@@ -15,13 +15,13 @@ SMALL_OPTIONS = ["--fish", "2", "--fish-triangles", "500", "--size", "64x48", "-
 
 @pytest.fixture(autouse=True, scope="session")
 def own_cache(tmp_path_factory):
-    """Of pyramids, for this process and those that it starts."""
+    """Sets a pyramid cache for this process and its children."""
     os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.mktemp("cache"))
 
 
 @pytest.fixture(scope="session")
 def gl(own_cache):
-    """For tests that render."""
+    """Skips tests that render where OpenGL is not available."""
     try:
         defocus.render(**{**SMALL, "size": (8, 8), "samples": 1})
     except defocus.Error as error:
@@ -42,7 +42,7 @@ def meshes():
 
 @pytest.fixture
 def program(tmp_path):
-    """Runs `defocus` with words, in a folder of the test's own."""
+    """Returns a function that runs `defocus` with arguments in the test's folder."""
 
     def run(*words):
         command = [os.environ["DEFOCUS_PROGRAM"], *map(str, words)]
@@ -53,7 +53,7 @@ def program(tmp_path):
 
 @pytest.fixture
 def rendered(program, tmp_path):
-    """The image that `defocus render` makes of words."""
+    """Returns a function that reads the image that `defocus render` writes for some arguments."""
 
     def image(*words):
         outcome = program("render", *words, "-o", "program.exr", "--quiet")

@@ -1,4 +1,4 @@
-"""Images in and out of files and comparisons, without copies where none are needed."""
+"""Tests that images are read, written and compared without needless copies."""
 
 import math
 

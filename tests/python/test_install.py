@@ -1,4 +1,4 @@
-"""What `cmake --install` puts below a prefix is the whole package."""
+"""Tests that `cmake --install` installs the complete Python package."""
 
 import os
 import subprocess

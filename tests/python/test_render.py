@@ -1,4 +1,4 @@
-"""Rendering: the program's pixels, as arrays that nobody copied."""
+"""Tests that rendering returns the program's pixels, as arrays without copies."""
 
 import itertools
 import json

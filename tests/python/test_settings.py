@@ -1,4 +1,4 @@
-"""Keywords and values: what the settings table has, and nothing else."""
+"""Tests that keywords and values are exactly those of the table of settings."""
 
 import ast
 import fractions
@@ -136,7 +136,9 @@ def test_stubs_have_the_keywords_of_the_table():
 
 
 def stub_parameters():
-    """Names of parameters by function, "render" and "Renderer.render", as the stub has them; None for classes."""
+    """Returns the parameter names of each function in the stub, such as "render" and "Renderer.render"; None for
+    classes.
+    """
     tree = ast.parse((pathlib.Path(defocus.__file__).parent / "__init__.pyi").read_text())
     found = {}
 
@@ -154,7 +156,7 @@ def stub_parameters():
 
 
 def own_parameters(function):
-    """Without the settings (the scene is one) and what gathers the rest."""
+    """Returns the parameters without settings (the scene is one) and without the catch-all parameter."""
     parameters = inspect.signature(function).parameters.values()
     gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     return [p.name for p in parameters

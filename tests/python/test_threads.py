@@ -1,4 +1,4 @@
-"""Other threads go on while C++ works, and Ctrl-C ends it."""
+"""Tests that other Python threads run while C++ works, and that Ctrl-C interrupts C++."""
 
 import subprocess
 import sys

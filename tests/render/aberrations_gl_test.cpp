@@ -1,4 +1,4 @@
-// Astigmatism and coma in the image: the moments of a point's blur in closed form, and the sky.
+// Astigmatism and coma: the moments of a point's blur against closed forms, and the sky seen through the lens.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,11 +36,11 @@ RenderSettings fullDetail(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // pinhole images keep all their samples
+    settings.keepAll = true;  // the pinhole image also draws all samples
     return settings;
 }
 
-// What a bright point of 2 x 2 px becomes: its centre and its moments about it, px and px².
+// Image of a bright point of 2 x 2 px: its energy, its centre in px, and its moments about the centre in px².
 struct Spot {
     glm::dvec2 centre{0};
     glm::dmat2 moments{0};
@@ -75,12 +75,12 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
 constexpr glm::dvec2 middle{80, 60};
 constexpr double perHalfWidth = 80;  // px
 constexpr double inFocus = 2;        // m
-// Of the point's two pixels, 1/3, and of the pixel that each sample has a place in, 1/12.
+// Variance that the point's two pixels (1/3) and the jitter inside a pixel (1/12) add, in px².
 constexpr double ownVariance = 5.0 / 12;
 
-// Over the disk E[u²] = 1/4: a line to the image's centre has the variance (A·|m|²)²/4 along itself and none across.
-// Its outer half is the brighter one: there the point is the image of a smaller area, by 3·A·(m·l), which moves the
-// mean by ¾·A²·|m|²·m.
+// Over the disk E[u²] = 1/4, so the line towards the image's centre has the variance (A·|m|²)²/4 along itself and none
+// across. The line's outer half is brighter: there the point is the image of a smaller area, by 3·A·(m·l), which moves
+// the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     constexpr double share = 0.05;  // A
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
@@ -99,8 +99,8 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     }
 }
 
-// ∇W = B·m·(3u² + v²) along and 2·B·m·u·v across, for which the disk has the mean B·m and the variances B²·m²/2 and
-// B²·m²/6. Rays of the rim show the point larger, by 4·B·|l|², which takes the mean to B·m·(1 + ⅔·B).
+// ∇W is B·m·(3u² + v²) along and 2·B·m·u·v across. Over the disk its mean is B·m and its variances are B²·m²/2 and
+// B²·m²/6. Rays of the rim enlarge the point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
     for (const double share : {0.03, -0.03}) {  // B
         const glm::dvec2 place(134, 60);
@@ -108,7 +108,7 @@ TEST_F(Aberrations, comaMakesComets) {
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
         const double scale = share * (place.x - middle.x);
         EXPECT_NEAR(comet.centre.x - sharp.centre.x, scale * (1 + 2 * share / 3), 0.02 * std::abs(scale))
-            << "outwards if above 0";
+            << "points outwards for positive coma";
         EXPECT_NEAR(comet.centre.y, sharp.centre.y, 0.02);
         EXPECT_NEAR(comet.moments[0][0] - ownVariance, scale * scale / 2, 0.03 * scale * scale);
         EXPECT_NEAR(comet.moments[1][1] - ownVariance, scale * scale / 6, 0.03 * scale * scale);
@@ -116,8 +116,8 @@ TEST_F(Aberrations, comaMakesComets) {
     }
 }
 
-// Blur of c px and a line of L px have (c + L)²/16 along the line and c²/16 across: as an astigmatic lens has two foci,
-// there is a depth where the point is a line across.
+// A blur of c px and a line of L px add up to the variance (c + L)²/16 along the line and c²/16 across. An astigmatic
+// lens has two foci: at one depth the point becomes a line across.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);
@@ -134,7 +134,7 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     }
 }
 
-// A gradient through a lens that is focused infinitely far away: the mean over the samples of what each ray sees.
+// An aberrated lens focused at infinity shows a gradient sky as the mean of the samples' rays.
 TEST_F(Aberrations, skyIsSeenThroughThem) {
     View view = viewOf(20, 20);
     view.lens.focusDistance = std::numeric_limits<double>::infinity();

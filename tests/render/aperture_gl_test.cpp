@@ -1,4 +1,4 @@
-// What each aperture makes of a point of light, against its definition drawn without the renderer.
+// The bokeh of each aperture against the aperture's definition, drawn without the renderer.
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,9 @@ std::unique_ptr<GlContext> ApertureBokeh::context_;
 
 constexpr double square = 5;  // px
 constexpr double energy = 2500;
-constexpr double depth = 6;  // m, behind the focus: the blur shows the aperture upright
+constexpr double depth = 6;  // m, behind the focus: the bokeh shows the aperture upright
 
-// A lens that blurs the square to about two thirds of the image's height.
+// A view whose lens blurs the square to about two thirds of the image's height.
 View wideView() {
     View view = bokehView(96, 72);
     view.lens.fStop = 0.05;
@@ -72,7 +72,7 @@ TEST_F(ApertureBokeh, showsTheApertureImageUpright) {
     expectBokeh(view, "image");
 }
 
-// The bounds above tell a shape from its neighbours.
+// The bound on misplaced light distinguishes a shape from similar ones.
 TEST_F(ApertureBokeh, differsFromOtherShapes) {
     View view = wideView();
     view.lens.bladeCount = 3;

@@ -1,4 +1,4 @@
-// The controls of C(w) in the image: what each promises, and that large triangles show the same as small ones.
+// The controls of C(w) in the image: each control keeps its promise, and large triangles look like small ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // pinhole images keep all their samples
+    settings.keepAll = true;  // the pinhole image also draws all samples
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
@@ -44,7 +44,7 @@ double rootMeanSquare(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// A checkered floor 0.5 m below the camera, from `begin` to `end` m ahead of it, of `cells` x `cells` squares of two
+// A checkered floor 0.5 m below the camera, from `begin` to `end` m ahead, of `cells` x `cells` squares of two
 // triangles.
 std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) {
     auto small = std::make_unique<SmallWorld>();
@@ -93,7 +93,8 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
-// The same floor before black, white and of triangles of many shapes: corners moved about, diagonals either way.
+// The same floor in white before black, with triangles of many shapes: jittered corners and diagonals in both
+// directions.
 std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
     auto small = checkeredFloor(cells, begin, end);
     small->scene.materials[0].baseColor.texture = -1;
@@ -133,32 +134,32 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// Munkberg et al. 2012, Figures 2 and 10: C is linear inside a triangle, so that a large one across a kink moves the
-// focus. A floor of two triangles must look like one of many (whose own deviation is small).
+// C is linear inside a triangle, so a large triangle across a kink of C moves the focus (Munkberg et al. 2012, Figures
+// 2 and 10). A floor of two triangles must look like one of many, whose own deviation is small.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
     GetParam().set(large->view.lens);
     GetParam().set(fine->view.lens);
-    const Image truth = rendered(*fine, 16, 1e6);
+    const Image reference = rendered(*fine, 16, 1e6);
     const Image divided = rendered(*large, 16, 0.1);
-    const double error = rootMeanSquare(divided, truth);
-    if (GetParam().begin < 0) {  // what reaches the camera is always cut
-        // GPUs clip and round by rules of their own: 0.0022 on an H100.
+    const double error = rootMeanSquare(divided, reference);
+    if (GetParam().begin < 0) {  // a surface that reaches the camera is always divided
+        // GPUs clip and round differently from llvmpipe: the error on an H100 is 0.0022.
         EXPECT_LT(error, currentIsSoftware() ? 0.002 : 0.003);
         return;
     }
     EXPECT_LT(error, 0.012);
-    EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), truth), 2.5 * error) << "undivided triangles must differ";
+    EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
-// Neighbours divide a common edge alike: through a white floor of uneven triangles, nothing of the black behind it
-// shows.
+// Neighbouring triangles divide their common edge alike: no black shows through a white floor of uneven triangles.
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // Nearer than 5 m no blur of the floor's edges reaches. A hole in one sample takes 1/16; the rest is rounding.
+    // The blur of the floor's edges does not reach pixels nearer than 5 m. A hole in one sample costs 1/16; the rest is
+    // rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -191,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),
     [](const testing::TestParamInfo<Control>& control) { return std::string(control.param.name); });
 
-// Three patches at 1, 2.5 and 8 m beside each other, on black.
+// Three patches side by side at 1, 2.5 and 8 m, on black.
 std::unique_ptr<SmallWorld> threePatches() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.6f, 1}));
@@ -241,8 +242,9 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
     EXPECT_GT(rootMeanSquare(part(before, 2), part(after, 2)), 0.01);
 }
 
-// The blur in front is that of a lens focused at the range's near end. Behind it, what preserves the far blur is that
-// of a lens focused at the far end, with an aperture as much larger as this end is farther away than the focus.
+// In front of the range, the blur equals that of a lens focused at the near end. Behind it, the preserved far blur
+// equals that of a lens focused at the far end, with the aperture scaled by the far end's distance over the focus
+// distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -256,7 +258,7 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
-// Refocused, with the aperture as it is.
+// A range that refocuses keeps the aperture at both ends.
 TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -273,8 +275,8 @@ TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
 TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     const auto small = threePatches();
     const Image blurred = rendered(*small, 64);
-    small->view.lens.focusRangeFront = 1.6;  // to 0.9 m
-    small->view.lens.focusRangeBehind = 2;   // to 4.5 m
+    small->view.lens.focusRangeFront = 1.6;  // near end at 0.9 m
+    small->view.lens.focusRangeBehind = 2;   // far end at 4.5 m
     const Image range = rendered(*small, 64);
     small->view.lens.dofEnabled = false;
     const Image pinhole = rendered(*small, 64);
@@ -284,8 +286,8 @@ TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
-// Munkberg et al. 2012, Figure 4: what moves in front keeps its motion blur and loses its defocus; nothing else
-// changes.
+// A moving object in front keeps its motion blur and loses its defocus; nothing else changes (Munkberg et al. 2012,
+// Figure 4).
 TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const auto small = threePatches();
     small->world.shutter.poses.assign(2, small->world.pose);
@@ -307,7 +309,8 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
 }
 
-// Munkberg et al. 2012, Figure 8: with any aperture, what is selected has the pinhole's edges and the rest its bokeh.
+// With any aperture, a selected object has the pinhole's edges and the others keep their bokeh (Munkberg et al. 2012,
+// Figure 8).
 TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     const auto small = threePatches();
     const Image circular = rendered(*small, 256);
@@ -316,7 +319,7 @@ TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     small->world.pose.objects[2].cocScale = 0;
     const Image selected = rendered(*small, 256);
     EXPECT_LT(rootMeanSquare(part(selected, 0), part(hexagonal, 0)), 1e-6);
-    EXPECT_GT(rootMeanSquare(part(hexagonal, 0), part(circular, 0)), 0.002) << "a hexagon is no disk";
+    EXPECT_GT(rootMeanSquare(part(hexagonal, 0), part(circular, 0)), 0.002) << "a hexagon must differ from a disk";
     small->view.lens.dofEnabled = false;
     EXPECT_LT(rootMeanSquare(part(selected, 2), part(rendered(*small, 256), 2)), 1e-5);
 }
@@ -330,7 +333,7 @@ TEST_F(CocControls, scaleOfAnObjectIsItsOwn) {
     EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
     small->world.pose.objects[0].cocScale = small->world.pose.objects[2].cocScale = 1;
     small->view.lens.blurScale = 2;
-    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 2), part(after, 2)), 1e-4) << "as the whole lens's scale";
+    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 2), part(after, 2)), 1e-4) << "equals the lens's blur scale";
     small->view.lens.dofEnabled = false;
     EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 0), part(after, 0)), 1e-5);
 }
@@ -340,7 +343,7 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 0.25;
     const Image expected = rendered(*small, 64);
     small->world.pose.objects[2].cocScale = 1;
-    // A mesh of its own for the third patch, with the attribute.
+    // The third patch gets its own mesh, with the attribute.
     Mesh scaled = quad(0);
     scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
     scaled.blurBounds = boundsOf(scaled.vertices.blurs);
@@ -350,12 +353,12 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     EXPECT_LT(rootMeanSquare(rendered(*small, 64), expected), 1e-6);
 }
 
-// The blurred point of the tilted plane w + m·X = s is sharp wherever it lies.
+// All points of the tilted focus plane w + m·X = s are sharp.
 TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     const auto small = threePatches();
     Lens& lens = small->view.lens;
     lens.fStop = 0.5;
-    // Patches at (X, depth) on one plane: depth = s − tan(swing)·X.
+    // Patches at (X, depth) lie on one plane: depth = s − tan(swing)·X.
     const double m = std::tan(0.9);
     lens.focusSwing = 0.9;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -372,7 +375,7 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     EXPECT_GT(rootMeanSquare(tilted, rendered(*small, 64)), 0.006) << "without the swing the sides are blurred";
 }
 
-// The AOV and the function of the plan agree, whatever is combined.
+// The CoC AOV equals the plan's function for any combination of controls.
 TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
     const auto small = checkeredFloor(4, 0.7, 12);
     Lens& lens = small->view.lens;
@@ -400,7 +403,7 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods take the same CoC: with everything limited to nothing they give the pinhole image.
+// Post-process methods use the same CoC: with all blur limited to zero they give the pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

@@ -1,4 +1,4 @@
-// The ray tracer that serves as truth, itself checked against closed forms (no GPU, none of the rasteriser's code).
+// The ray tracer, the reference of other tests, against closed forms (no GPU, no code of the rasterizer).
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(EmbreeFocus, PlaneOfFocusIsUnchangedByTheAperture) {
     View closed = open;
     closed.lens.dofEnabled = false;
     const Scene scene = rectangleScene(open, {{10.3, 5.1, 31.7, 20.9, open.lens.focusDistance}}, glm::vec3(1));
-    // Both images use the same pixel samples; a hit may differ only where float rounding meets the edge.
+    // Both images use the same pixel samples. A hit may differ only where float rounding moves it across the edge.
     EXPECT_LE(largestDifference(traced(scene, open, 64), traced(scene, closed, 64)), 1.0 / 64);
 }
 
@@ -100,8 +100,8 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
-// A lens at α (Munkberg, Toth and Akenine-Möller 2012): every ray is where C, limited in front, puts it:
-// X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d.
+// A ray of a lens with limited foreground blur (Munkberg, Toth and Akenine-Möller 2012) passes through the points that
+// C, limited in front, demands: X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d.
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -165,14 +165,14 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeBokeh,
 TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     View view = bokehView(64, 64);
     view.lens.bladeCount = 3;
-    view.lens.bladeRotation = std::numbers::pi / 2;  // first corner up
-    // Behind focus the image of a point moves with the lens point (C > 0): a corner up, so most light lies below the
-    // far corner.
+    view.lens.bladeRotation = std::numbers::pi / 2;  // the first corner points up
+    // Behind the focus, the image of a point moves with the lens point (C > 0), so a corner points up. In front it
+    // points down.
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
         const int lit = static_cast<int>(0.8 * radius);             // towards the corner
-        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;  // wholly beyond the flat side of the quad's image
+        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;  // beyond the flat side of the quad's image
         const bool upright = depth > view.lens.focusDistance;
         EXPECT_GT(*image.at(32, upright ? 31 - lit : 32 + lit), 0.5f * *image.at(32, 32));
         EXPECT_EQ(*image.at(32, upright ? 32 + dark : 31 - dark), 0);
@@ -188,11 +188,11 @@ TEST(EmbreeBokehShape, AnamorphicRatioMakesTallOvals) {
     EXPECT_NEAR(2 * std::sqrt(moments.variance.x - 10.0 / 12), radius / 2, 0.1);
 }
 
-// Shapes that are sampled by rejection, and an image, against the light's density itself. What is left is the noise of
-// 18,000 rays that hit the square.
+// Apertures that are sampled by rejection, or given by an image, show their density of light. The tolerance covers the
+// noise of the 18,000 rays that hit the square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
-    view.lens.fStop = 0.03;  // a blur of 28 px, which together with the square just fits
+    view.lens.fStop = 0.03;  // a blur of 28 px just fits the image together with the square
     std::vector<std::pair<std::string, Lens>> lenses = {{"image", view.lens}};
     lenses.front().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
     for (const ApertureShape& shape : apertureShapes)
@@ -205,7 +205,7 @@ TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     }
 }
 
-// Share of a disk of radius 1 that lies left of the chord at `x`.
+// Returns the share of a disk of radius 1 that lies left of the chord at `x`.
 double diskShareLeftOf(double x) {
     const double inside = std::clamp(x, -1.0, 1.0);
     return 0.5 + (inside * std::sqrt(1 - inside * inside) + std::asin(inside)) / std::numbers::pi;
@@ -232,10 +232,10 @@ TEST(EmbreeCulling, SingleSidedSurfacesAreSeenFromTheirFrontOnly) {
     Scene scene = rectangleScene(view, {{0, 0, 32, 32, 3}}, glm::vec3(1));
     EXPECT_EQ(*traced(scene, view, 1).at(16, 16), 1);
     std::swap(scene.meshes[0].primitives[0].indices[1],
-              scene.meshes[0].primitives[0].indices[2]);  // lower right triangle
+              scene.meshes[0].primitives[0].indices[2]);  // reverses the lower right triangle
     EXPECT_EQ(*traced(scene, view, 1).at(24, 20), 0);
-    EXPECT_EQ(*traced(scene, view, 1).at(7, 12), 1);  // upper left triangle
-    // A mirrored object's outside stays its outside, though its winding turns.
+    EXPECT_EQ(*traced(scene, view, 1).at(7, 12), 1);  // the upper left triangle is still visible
+    // A mirrored object's outside stays its outside, although its winding is reversed.
     scene.nodes[0].matrix = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
     EXPECT_EQ(*traced(scene, view, 1).at(7, 20), 0);
     EXPECT_EQ(*traced(scene, view, 1).at(24, 12), 1);
@@ -265,7 +265,7 @@ TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
     const Image image = traced(Scene{}, view, 64, sky);
     for (const int row : {0, 23, 47}) {
         const double slope = (24 - row - 0.5) * 2 * tanHalf(view) / 64;
-        const double height = std::sin(pitch + std::atan(slope));  // the middle column's direction · up
+        const double height = std::sin(pitch + std::atan(slope));  // y of the middle column's direction
         EXPECT_NEAR(image.at(32, row)[0], std::max(0.0, height), 2e-3);
         EXPECT_NEAR(image.at(32, row)[1], 1 - std::abs(height), 2e-3);
         EXPECT_NEAR(image.at(32, row)[2], std::max(0.0, -height), 2e-3);
@@ -313,8 +313,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
     const World world = flatWorld(scene, blackBackground());
     FramePlan plan = planOf(view, 1);
-    // Right and up on the lens moves what lies behind focus right and up; right and up in the pixel moves the image
-    // back.
+    // A lens point further right and up moves objects behind the focus right and up. A pixel point further right and up
+    // moves the image left and down.
     LensSample sample;
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);
@@ -323,7 +323,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
-    sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);  // 0.2 px further: only with the pixel's 0.4 across an edge
+    // 0.2 px further: crosses a pixel edge only together with the pixel offset of 0.4
+    sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
     const Moments further = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
     EXPECT_DOUBLE_EQ(further.mean.x, 31.5 + 4);
@@ -366,8 +367,7 @@ TEST(EmbreeTexture, TexelsLieWhereGltfPutsThem) {
     EXPECT_EQ(image.at(24, 8)[1], 1);
     EXPECT_EQ(image.at(8, 24)[2], 1);
     EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // sRGB 188/255
-    // Bilinear, a quarter of the way from the red to the green texel's centre along the top row's centres (decoded
-    // first).
+    // Bilinear filtering of decoded texels, about a quarter of the way between the red and the green texel's centres.
     scene.textures[0].magnification = Filter::linear;
     const Image smooth = traced(scene, view, 256);
     EXPECT_NEAR(smooth.at(12, 8)[0], 1 - (12.5 / 32 - 0.25) * 2, 0.05);

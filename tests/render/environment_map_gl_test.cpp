@@ -1,4 +1,4 @@
-// Environments that vary with the direction: what a pixel sees of them, and what they throw on a surface.
+// Environments that vary with the direction: their radiance in a pixel, and their light on a surface.
 //
 // Maps hold L(d) = 1 + linear and quadratic terms in d, which are spherical harmonics of the bands 0, 1 and 2. The
 // clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the matt reflection is known.
@@ -12,8 +12,8 @@ namespace {
 
 using EnvironmentMaps = LitWall;
 
-// No two axes alike, so that none can be exchanged or turned about. Each sum is of one band; the quadratic one has no
-// trace.
+// No two axes are alike, so that an exchanged or rotated axis fails a test. Each sum belongs to one band; the quadratic
+// one has no trace.
 glm::dvec3 first(const glm::dvec3& d) {
     return {0.3 * d.x + 0.2 * d.y - 0.1 * d.z, 0.35 * d.y, 0.3 * d.z};
 }
@@ -28,7 +28,7 @@ glm::dvec3 mattFrom(const glm::dvec3& normal) {
     return 1.0 + 2.0 / 3 * first(normal) + 0.25 * second(normal);
 }
 
-// Its centre column lies at −z, its right half at +x, its first row at +y.
+// The map's centre column lies at −z, its right half at +x, its first row at +y.
 Environment mapEnvironment() {
     constexpr int height = 128;
     auto map = std::make_shared<Image>(2 * height, height, 3);
@@ -43,7 +43,7 @@ Environment mapEnvironment() {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Half floats, and linear interpolation between texels that are π/128 apart: 2⁻¹¹·1.7 + (π/128)²/8·4.
+// Half floats, and linear interpolation between texels that are π/128 apart, err by 2⁻¹¹·1.7 + (π/128)²/8·4.
 constexpr double mapError = 1.2e-3;
 
 const std::vector<glm::dmat4>& turns() {
@@ -57,7 +57,7 @@ const std::vector<glm::dmat4>& turns() {
     return list;
 }
 
-// The wall and the camera, turned together.
+// Wall and camera, turned together.
 std::unique_ptr<SmallWorld> turnedWall(const Material& material, const glm::dmat4& turn) {
     auto small = litWall(material);
     small->view.worldFromCamera = turn;
@@ -79,7 +79,8 @@ TEST_F(EnvironmentMaps, aPixelSeesTheDirectionItLooksIn) {
     }
 }
 
-// The share of its light that a wall's matt part gets: what a black wall doesn't throw back of light 1 from everywhere.
+// Share of the light that reaches a wall's matt part: the light that a black wall does not reflect under uniform light
+// 1.
 double shareOfMattPart(Material material, const glm::dmat4& turn) {
     material.baseColorFactor = {0, 0, 0, 1};
     const auto small = turnedWall(material, turn);
@@ -87,7 +88,7 @@ double shareOfMattPart(Material material, const glm::dmat4& turn) {
     return 1 - static_cast<double>(wallImage(*small).at(16, 12)[0]);
 }
 
-// A white wall's light less a black one's is what its matt part throws back.
+// The difference between a white and a black wall is the matt part's reflection.
 TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
     for (const glm::dmat4& turn : turns())
         for (const float lighting : {1.0f, 0.5f}) {
@@ -109,7 +110,7 @@ TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
         }
 }
 
-// A smooth white metal throws back all that comes from the mirrored direction.
+// A smooth white metal reflects all the light of the mirrored direction.
 TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     for (const glm::dmat4& turn : turns()) {
         Material mirror;
@@ -126,7 +127,7 @@ TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     }
 }
 
-// E(n)/π of a gradient sky by summing over the hemisphere. The bands beyond the second are left out: the largest of
+// E(n)/π of a gradient sky, summed over the hemisphere. The renderer omits the bands beyond the second. The largest of
 // them, the fourth, is −3/32 of the poles' differences, times −1/24.
 TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
     const Environment sky = {
@@ -149,7 +150,7 @@ TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
         const glm::dmat3 wall(turn);
         glm::dvec3 sum(0);
         constexpr int steps = 200;
-        for (int i = 0; i < steps; ++i)  // in equal shares of sin²θ/2 and φ, which the cosine weighs alike
+        for (int i = 0; i < steps; ++i)  // equal shares of sin²θ/2 and φ have equal cosine weight
             for (int k = 0; k < steps; ++k) {
                 const double sine = std::sqrt((i + 0.5) / steps), azimuth = 2 * std::numbers::pi * (k + 0.5) / steps;
                 const glm::dvec3 local(sine * std::cos(azimuth), sine * std::sin(azimuth), std::sqrt(1 - sine * sine));

@@ -28,8 +28,8 @@ TEST(MeshOrigin, movesAlongTheAxesOnWhichTheMeshIsFar) {
     EXPECT_EQ(meshOrigin(boxAround({17'000, 2, -8}, 1)), glm::dvec3(17'000, 0, -8));
 }
 
-// A board whose vertices are `offset` away from where its object's matrix puts them back to. All numbers are whole
-// multiples of 1/8, so that nothing is lost on the way.
+// A board whose vertices are moved by `offset` and moved back by its object's matrix. All numbers are multiples of 1/8,
+// so nothing is rounded.
 std::unique_ptr<SmallWorld> shiftedBoard(const glm::vec3& offset, bool morphed) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({1, 1, 1, 1}));
@@ -59,7 +59,7 @@ Image shiftedImage(SmallWorld& small, double cameraX) {
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
-// Half a millimetre of the camera's way moves the picture as much as it does for a mesh around its origin.
+// A camera step of 0.5 mm moves the picture as much as for a mesh around its origin.
 TEST(FarMesh, looksLikeTheSameMeshAroundItsOrigin) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     for (const bool morphed : {false, true}) {

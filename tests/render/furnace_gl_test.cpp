@@ -1,4 +1,4 @@
-// Surfaces in a white furnace: light 1 from everywhere. None throws back more than it receives, none less than nothing.
+// Surfaces in a white furnace, with light 1 from everywhere: none reflects more than it receives, or less than zero.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using Furnace = LitWall;
 
-// A wall whose normal has about this cosine to the view's axis, wide enough to fill the frame.
+// A wall whose normal has about this cosine to the view axis, large enough to fill the frame.
 std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -45,9 +45,9 @@ Material furnaceMaterial(float base, float metallic, float roughness) {
 
 constexpr double rounding = 1e-5;
 constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
-constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // the frame adds 20° to either side
+constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // the field of view adds 20° on either side
 
-// What its coat doesn't reflect, its base does.
+// The base of a white dielectric reflects all the light that its coat lets through.
 TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {
@@ -69,7 +69,7 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
                 }
 }
 
-// Single scattering between rough facets loses light, more the rougher they are; a mirror loses none.
+// Single scattering between rough facets loses light, and loses more the rougher they are. A mirror loses none.
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {

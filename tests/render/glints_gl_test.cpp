@@ -1,5 +1,5 @@
-// Glints of a glossy surface that are far smaller than a pixel: few samples make no single white pixels of them, and
-// the light that they send is what many samples say without the filter that spreads them.
+// Glints of a glossy surface that are far smaller than a pixel. With few samples they leave no isolated white pixels,
+// and they send as much light as with many samples and without the filter that spreads them.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// About 40 px across, with a ripple every 5 to 10 px.
+// A ball about 40 px across, with a ripple every 5 to 10 px.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -45,8 +45,8 @@ PlacedLight sun(const glm::dvec3& direction, float intensity) {
     return placed;
 }
 
-// Suns all around, evenly on a spiral from pole to pole (Vogel 1979), other ones for each `set`. One alone would say
-// more of where the ripples' caustics lie than of the light that they send.
+// Suns in all directions, evenly on a spiral from pole to pole (Vogel 1979), with a different offset for each `set`. A
+// single sun would measure the positions of the ripples' caustics rather than their light.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;
@@ -59,7 +59,8 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     return suns;
 }
 
-// `filtered`: as the first samples of a frame are; else as those after a million, which spread no glint.
+// Renders a frame's first samples, whose glints are spread, if `filtered`; otherwise samples after a million, whose
+// glints are not.
 Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
     RenderSettings settings;
     settings.sampleCount = samples;
@@ -76,7 +77,7 @@ double meanOf(const Image& image) {
     return sum / (static_cast<double>(image.width) * image.height);
 }
 
-// How many times its brightest neighbour the worst pixel is; neighbours count as a dark grey at least.
+// Returns the largest ratio of a pixel to its brightest neighbour. Neighbours darker than 0.05 count as 0.05.
 double worstPixel(const Image& image) {
     double worst = 0;
     for (int y = 1; y + 1 < image.height; ++y)
@@ -102,7 +103,7 @@ TEST_F(Glints, fewSamplesMakeNoSingleWhitePixels) {
                         << roughness << ' ' << metallic << ' ' << way.x << ' ' << samples;
                 unfiltered = std::max(unfiltered, worstPixel(ballImage(*small, 16, false)));
             }
-    EXPECT_GT(unfiltered, 100) << "so many times as bright as its neighbours, or nothing is tested";
+    EXPECT_GT(unfiltered, 100) << "without the filter, single pixels are far brighter than their neighbours";
 }
 
 TEST_F(Glints, spreadingThemKeepsTheirLight) {

@@ -1,5 +1,5 @@
-// Textures of the KHR_materials extensions, slot by slot: which channel counts, how it is decoded, and that it scales
-// its factor, by pixels against the value that the texel gives.
+// Textures of the KHR_materials extensions, slot by slot: the channel that is read, its decoding, and the product with
+// its factor. Each pixel is compared with the value computed from its texel.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using LayerTextures = LitWall;
 
-// Nothing of its own: black, and without reflections.
+// Returns a material that is black and reflects nothing.
 Material blackMaterial() {
     Material result;
     result.baseColorFactor = {0, 0, 0, 1};
@@ -26,12 +26,13 @@ std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Ma
     return small;
 }
 
-// Of a decoded texel, from the driver's decoding.
+// Returns the relative error of a decoded texel that the driver's decoding may cause.
 glm::dvec3 relativeErrors(const Texel& texel) {
     return decodingErrors(texel) / decoded(texel);
 }
 
-// A wall whose material is `materialOf` the texel, lit by two suns, must show what `surfaceOf` the texel says.
+// Expects a wall of `material` under two suns to show, at each texel, the surface that `surfaceOf` computes from that
+// texel.
 void expectSurface(const Material& material, TextureUse Material::*slot,
                    const std::function<GltfSurface(const Texel&)>& surfaceOf, bool isColor = false) {
     const auto small = texturedWall(material, slot);
@@ -47,7 +48,7 @@ void expectSurface(const Material& material, TextureUse Material::*slot,
 
 // ---- transmission and volume
 
-// A white sky that lights nothing, seen through the wall.
+// Adds a white sky that is visible through the wall but lights nothing.
 void lightFromBehind(SmallWorld& small) {
     small.world.environment.zenith = glm::vec3(1);
     small.world.environment.lighting = 0;
@@ -65,7 +66,7 @@ TEST_F(LayerTextures, redOfTransmissionLetsThrough) {
     });
 }
 
-// Beer and Lambert: c^(d/D).
+// Beer-Lambert absorption: c^(d/D).
 TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
     Material glass = blackMaterial();
     glass.baseColorFactor = glm::vec4(1);
@@ -91,7 +92,7 @@ Material glossyMaterial() {
     result.metallicFactor = 0;
     result.roughnessFactor = 0.4f;
     result.specularFactor = 0.7f;
-    result.ior = 2;  // reflects 1/9
+    result.ior = 2;  // reflects 1/9 at normal incidence
     return result;
 }
 
@@ -104,7 +105,7 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    glossy.baseColorFactor = {0, 0, 0, 1};  // so that the strongest channel, of the reflectance or of the light, is one
+    glossy.baseColorFactor = {0, 0, 0, 1};  // no base colour: only the reflectance has a strongest channel
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(
         glossy, &Material::specularColor,
@@ -129,8 +130,8 @@ TEST_F(LayerTextures, redOfClearcoatIsTheCoatedShare) {
     small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
     const GltfSurface coat{glm::dvec3(0), 0, 0.3};
     forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
-        const glm::dvec3 whole = litRadiance(coat, point, point.normal, small->world.lights);
-        expectLitRadiance(image, point, 0.8 * texel[0] / 255 * whole, 0.3);
+        const glm::dvec3 full = litRadiance(coat, point, point.normal, small->world.lights);
+        expectLitRadiance(image, point, 0.8 * texel[0] / 255 * full, 0.3);
     });
 }
 
@@ -165,7 +166,7 @@ TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
 
 // ---- sheen
 
-// Cloth whose sheen is `sheenOf` the texel: its colour, its roughness.
+// Expects cloth to show, at each texel, the sheen that `sheenOfTexel` computes from that texel: colour and roughness.
 void expectSheen(const Material& cloth, TextureUse Material::*slot,
                  const std::function<std::pair<glm::dvec3, double>(const Texel&)>& sheenOfTexel, bool isColor = false) {
     const auto small = texturedWall(cloth, slot);

@@ -1,5 +1,4 @@
-// What a lens does to colours and corners: axial chromatic aberration and the cat's eye, on the bokeh of one bright
-// point.
+// Axial chromatic aberration and the cat's eye, measured on the bokeh of one bright point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +20,7 @@ std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance
-    glm::dvec3 moment{0};  // Σ radiance · distance² from the centroid / energy, px²
+    glm::dvec3 moment{0};  // Σ radiance · squared distance from the centroid / energy, px²
     glm::dvec2 centre{0};
 };
 
@@ -72,8 +71,8 @@ View viewOf(double fStop) {
     return view;
 }
 
-// E[w(t)·c(t)²]/8 over the band: the second moment of a disk of diameter c is c²/8; the point's own 2 x 2 px add 2/3,
-// the pixel filter 1/6 (a box's variance 1/12 per axis) and the read-out another box.
+// A band's second moment is E[w(t)·c(t)²]/8, as a disk of diameter c has c²/8. The point's own 2 x 2 px add 2/3, the
+// pixel filter 1/6 (a box has the variance 1/12 per axis), and the read-out another box.
 TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     View view = viewOf(0.35);
     view.lens.axialChromaticAberration = 0.08;
@@ -95,7 +94,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
         central += middle * middle / 8 / steps;
     }
     EXPECT_NEAR(plain.moment.r - central, plain.moment.b - central, 1e-6);
-    const double box = plain.moment.g - central;  // of the point and the pixel
+    const double box = plain.moment.g - central;  // contribution of the point and the pixel filter
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(blob.moment[c], expected[c] + box, 0.02 * expected[c]) << "channel " << c;
         EXPECT_NEAR(blob.energy[c] / plain.energy[c], 1, 0.01) << "channel " << c;
@@ -103,7 +102,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     EXPECT_GT(blob.moment.b, 1.1 * blob.moment.r) << "behind the focus blue is blurred more";
 }
 
-// Each alone; together, a pixel's own selection of samples has a tint of sampling noise.
+// Each aberration alone. With both, a pixel's own selection of samples would be tinted by sampling noise.
 TEST_F(LensColour, greyStaysGrey) {
     const Scene empty;
     Environment grey = blackBackground();
@@ -126,8 +125,8 @@ TEST_F(LensColour, greyStaysGrey) {
         }
 }
 
-// In the corner the aperture is the intersection of two circles that are `catEye` radii apart: lens-shaped, its short
-// axis towards the image's centre. As bright as ever in total, as its rays weigh more.
+// In the corner the aperture is the intersection of two circles that are `catEye` radii apart, with its short axis
+// towards the image's centre. Its total brightness is unchanged, as its rays weigh more.
 TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     View view = viewOf(0.35);
     view.lens.catEye = 0.8;
@@ -137,7 +136,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     const Blob round = blobOf(renderedPoint(view, 108, 16, depth));
     const Blob cut = blobOf(inCorner);
 
-    // Second moments along the direction to the centre and across it.
+    // Second moments along the direction to the centre and across that direction.
     const glm::dvec2 outward = glm::normalize(glm::dvec2(108 - 64, 16 - 48));
     double along = 0;
     double across = 0;
@@ -149,7 +148,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // The same of points drawn in both circles, seen from each pixel of the bokeh.
+    // Expected moments of points inside both circles, as seen from each pixel of the bokeh.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;
@@ -176,7 +175,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     EXPECT_LT(along, 0.75 * across) << "narrower towards the centre";
     EXPECT_NEAR(along / across, expectedAlong / expectedAcross, 0.08);
     EXPECT_NEAR(glm::length(cut.centre - mean), 0, 0.4);
-    EXPECT_LT(glm::dot(cut.centre - round.centre, outward), -0.5) << "what remains lies towards the centre";
+    EXPECT_LT(glm::dot(cut.centre - round.centre, outward), -0.5) << "the remaining part lies towards the centre";
 }
 
 }  // namespace

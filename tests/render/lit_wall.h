@@ -1,6 +1,7 @@
 #pragma once
-// A wall that fills the frame of a pinhole camera, one sample a pixel, and what glTF 2.0's equations say that each
-// pixel of it shows: in double, with half vectors and angles written out as the equations have them.
+// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance that glTF 2.0's
+// equations give for each pixel. The equations are evaluated in double precision, with half vectors and angles as
+// written in glTF.
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,10 @@
 
 namespace defocus::engine {
 
-inline constexpr double wallDepth = 2;  // m before the camera
+inline constexpr double wallDepth = 2;  // m in front of the camera
 
-// The camera looks neither along an axis nor from the origin, so that none of them is taken for the camera's.
+// The camera looks along no axis and does not stand at the origin, so that world axes and camera axes cannot be
+// confused.
 inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -30,7 +32,8 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
         glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -1, 2)), 0.7, glm::dvec3(0, 1, 0)), 0.4,
                     glm::dvec3(1, 0, 0));
     place(*small, 0,
-          glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));  // [−1, 1]² m, 0.72 of it seen
+          // [−1, 1]² m, of which 0.72 are visible
+          glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     small->view.width = 32;
     small->view.height = 24;
@@ -50,20 +53,20 @@ inline Image wallImage(const SmallWorld& small) {
     return imageInFloats(small.world, wallPlan(small));
 }
 
-// What a pixel's one sample meets on the wall. Directions and places are the world's.
+// The point of the wall that a pixel's single sample sees, in world coordinates.
 struct WallPoint {
     int x = 0, y = 0;
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};  // towards the camera
     glm::dvec3 toEye{0.0};
-    glm::dvec2 uv{0.0};  // of the first set
+    glm::dvec2 uv{0.0};  // first texture coordinate set
 };
 
 inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     const View& view = small.view;
     const FramePlan plan = wallPlan(small);
     const glm::dvec2 offset(plan.samples[0].pixel);
-    const double tanX = 36.0 / (2 * 50);  // the lens that every view starts with
+    const double tanX = 36.0 / (2 * 50);  // default lens of a view
     std::vector<WallPoint> points;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -80,17 +83,17 @@ inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     return points;
 }
 
-// glTF 2.0, appendix B, of one surface point.
+// Parameters of one surface point in glTF 2.0, appendix B.
 struct GltfSurface {
     glm::dvec3 baseColor{1.0};
     double metallic = 0;
     double roughness = 1;
-    glm::dvec3 dielectric{0.04};  // reflectance at normal incidence of what isn't metal
-    double grazing = 1;           // and along the surface
+    glm::dvec3 dielectric{0.04};  // reflectance of the dielectric part at normal incidence
+    double grazing = 1;           // reflectance of the dielectric part at grazing incidence
 };
 
-// f(l, v)·(n·l)₊ by the appendix's equations: Lambert, Schlick's Fresnel and GGX; the masking and shadowing by Hammon's
-// fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v), n·l + n·v, α).
+// Returns f(l, v)·(n·l)₊ by the appendix's equations: Lambert, Schlick's Fresnel and GGX. Masking and shadowing follow
+// Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v), n·l + n·v, α).
 inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n, const glm::dvec3& v,
                                  const glm::dvec3& l) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
@@ -105,13 +108,14 @@ inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n
     const double distribution = alpha * alpha / (std::numbers::pi * spread * spread);
     const double visibility = 0.5 / glm::mix(2 * nl * nv, nl + nv, alpha);
     const glm::dvec3 diffuse = surface.baseColor * (1 - surface.metallic) / std::numbers::pi;
-    // KHR_materials_specular: a coloured reflection leaves what its strongest channel leaves.
+    // KHR_materials_specular: the strongest channel of a coloured reflection reduces the diffuse part.
     const bool colored = surface.dielectric != glm::dvec3(surface.dielectric.r);
     const glm::dvec3 reflected = colored ? glm::dvec3(std::max({fresnel.r, fresnel.g, fresnel.b})) : fresnel;
     return nl * ((1.0 - reflected) * diffuse + fresnel * (distribution * visibility));
 }
 
-// Light on a point: illuminance across its own direction, and the unit direction towards it (KHR_lights_punctual).
+// Light on a point: illuminance across the light's direction, and the unit direction towards the light
+// (KHR_lights_punctual).
 struct Illumination {
     glm::dvec3 illuminance{0.0};
     glm::dvec3 toLight{0.0};
@@ -150,7 +154,7 @@ inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
     return sun;
 }
 
-// The wall's own axes in the world: right, up, towards the camera.
+// Converts a direction from the wall's axes (right, up, towards the camera) to the world.
 inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
     return glm::dmat3(small.view.worldFromCamera) * direction;
 }
@@ -162,8 +166,8 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
             << "at " << point.x << ", " << point.y << ", channel " << c;
 }
 
-// Single precision over some dozens of operations: 2e-5. In D, the cosine of the half vector is held against α², which
-// magnifies its rounding. `slope`: what the light changes by over what the place may be off.
+// Single precision over some dozens of operations errs by 2e-5. In D, the cosine of the half vector is compared with
+// α², which magnifies rounding. `slope` is the change of the light over the position's uncertainty.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

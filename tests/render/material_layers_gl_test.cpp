@@ -1,5 +1,5 @@
-// KHR_materials_ior, _specular, _clearcoat and _sheen: what a wall shows against their equations in double, and energy
-// in a white furnace.
+// KHR_materials_ior, _specular, _clearcoat and _sheen: a wall's radiance against their equations in double precision,
+// and energy in a white furnace.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Material material(const glm::vec3& base, float roughness) {
     return result;
 }
 
-// Nothing of its own: black, and without reflections.
+// Returns a material that is black and reflects nothing.
 Material nothing() {
     Material result = material(glm::vec3(0), 1);
     result.specularFactor = 0;
@@ -30,7 +30,7 @@ double reflectanceOf(double ior) {
     return std::pow((ior - 1) / (ior + 1), 2);
 }
 
-// A furnace of light 1 around a wall whose normal has about this cosine to the view's axis.
+// Image in a furnace of light 1, of a wall whose normal has about this cosine to the view axis.
 Image furnace(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -39,7 +39,7 @@ Image furnace(const Material& material, double cosine) {
     return wallImage(*small);
 }
 
-// By how much the pixels of a channel differ from `expected` at most.
+// Returns the largest difference of an image's colour channels from `expected`.
 double farthestFrom(const Image& image, double expected) {
     double max = 0;
     for (int y = 0; y < image.height; ++y)
@@ -77,7 +77,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // a metal has neither
+    colored.metallicFactor = 1;  // both factors are ignored by metal
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 
@@ -88,7 +88,8 @@ TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
     expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
 }
 
-// ((1.5 − 1)/(1.5 + 1))² = 0.04 of the light never reaches the base, and the furnace's other light does.
+// A coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light, which is all the light that black shows. With a
+// glowing base, coat and base add up to 1.
 TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     Material coated = nothing();
     coated.clearcoatFactor = 1;
@@ -96,7 +97,7 @@ TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     EXPECT_NEAR(image.at(image.width / 2, image.height / 2)[0], 0.04, 0.01);
     Material glowing = coated;
     glowing.emissiveFactor = glm::vec3(1);
-    EXPECT_LT(farthestFrom(furnace(glowing, 1), 1), 1e-5) << "what the coat keeps from the glow it adds of the furnace";
+    EXPECT_LT(farthestFrom(furnace(glowing, 1), 1), 1e-5) << "the coat reflects what it blocks of the glow";
 }
 
 constexpr float layerRoughnesses[] = {0, 0.1f, 0.3f, 0.6f, 1};
@@ -145,7 +146,7 @@ TEST_F(MaterialLayers, sheenThrowsBackItsIntegralOfAFurnacesLight) {
             velvet.sheenColorFactor = glm::vec3(1);
             velvet.sheenRoughnessFactor = static_cast<float>(roughness);
             const Image image = furnace(velvet, cosine);
-            // Between the two pixels in the middle the view goes along the axis.
+            // The view axis passes between the four pixels in the middle.
             const double seen =
                 0.25 * (image.at(15, 11)[0] + image.at(16, 11)[0] + image.at(15, 12)[0] + image.at(16, 12)[0]);
             EXPECT_NEAR(seen, sheenAlbedo(cosine, roughness), 0.012) << roughness << ' ' << cosine;
@@ -162,7 +163,7 @@ TEST_F(MaterialLayers, sheenUnderALightIsTheStandardsAndTakesFromTheBase) {
         small->world.lights = {sunFrom(fromWall(*small, {1.5, -0.4, -1}), 4)};
         const Image image = wallImage(*small);
         const std::vector<WallPoint> points = wallPoints(*small);
-        for (std::size_t i = 0; i < points.size(); i += 101) {  // the integrals are slow
+        for (std::size_t i = 0; i < points.size(); i += 101) {  // a subset, as the integrals are slow
             const WallPoint& point = points[i];
             const glm::dvec3 l = -glm::normalize(small->world.lights[0].direction);
             const double nl = glm::dot(point.normal, l), nv = glm::dot(point.normal, point.toEye);

@@ -1,4 +1,5 @@
-// Textured pixels against computed ones: which channel means what, how it is decoded, and where on the surface it lies.
+// Textured pixels against computed ones: the meaning of each channel, its decoding, and the texel's position on the
+// surface.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
     });
 }
 
-// Occlusion darkens what comes from all around, by its red channel; lamps and emission pass.
+// Occlusion, in the red channel, darkens only the environment's light. Lamps and emission pass.
 TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     Material material;
     material.metallicFactor = 0;
@@ -46,7 +47,7 @@ TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     });
 }
 
-// sRGB texels times a linear factor, which may be above 1; light by no lamp.
+// Emission is the sRGB texel times a linear factor, which may exceed 1, and needs no lamp.
 TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
     Material material;
     material.emissiveFactor = {5, 0.5f, 1};
@@ -76,7 +77,7 @@ TEST_F(MaterialTextures, theNormalTextureTiltsTheNormal) {
     });
 }
 
-// Below the cutoff is a hole, at it is none. Texture alpha times the factor's.
+// Texture alpha times the factor cuts a hole below the cutoff, but not at the cutoff.
 TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     Material material = unlitMaterial({1, 1, 1, 0.5f});
     material.alphaMode = AlphaMode::mask;
@@ -98,18 +99,18 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     }
     EXPECT_GT(holes, 100);
     EXPECT_GT(left, 100);
-    // 1 · 1 is not below 1.
+    // An alpha of 1 · 1 is not below a cutoff of 1.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
-    const Image whole = wallImage(*small);
+    const Image full = wallImage(*small);
     for (const WallPoint& point : wallPoints(*small)) {
         const std::optional<glm::ivec2> at = texelAt(point.uv, 4);
         if (!at) continue;
-        ASSERT_NEAR(whole.at(point.x, point.y)[0], *at == glm::ivec2(3, 3) ? 1 : 0, 1e-3);
+        ASSERT_NEAR(full.at(point.x, point.y)[0], *at == glm::ivec2(3, 3) ? 1 : 0, 1e-3);
     }
 }
 
-// Each texture has its own set of coordinates and its own transform (KHR_texture_transform: offset, rotation
+// Each texture has its own coordinate set and its own transform (KHR_texture_transform: offset, rotation
 // counter-clockwise about the origin, scale).
 TEST_F(MaterialTextures, transformsAndSetsAreEachTexturesOwn) {
     Material material;
@@ -159,7 +160,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
     };
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     Mesh& mesh = small->scene.meshes[0];
-    for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;  // the 0.72 of the wall that are seen: −1.7 … 2.7
+    for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;  // −1.7 … 2.7 over the visible 0.72 of the wall
     finish(*small);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, 4, scrambled);
     for (const Wrap wrapS : {Wrap::repeat, Wrap::clampToEdge, Wrap::mirroredRepeat})
@@ -170,7 +171,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
                 *small,
                 [&](const glm::dvec2& uv) {
                     const glm::dvec2 wide = 6.0 * uv - 2.5;
-                    // The edge's texel goes on for ever: its middle stands for it.
+                    // An edge texel extends to infinity under clamping, so any point of it maps to the texel's middle.
                     const auto inside = [](double u, Wrap wrap) {
                         return wrap == Wrap::clampToEdge && (u < 0.25 || u > 0.75) ? (u < 0.5 ? 0.125 : 0.875) : u;
                     };
@@ -182,7 +183,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
         }
 }
 
-// Codes are decoded one by one, then multiplied by the linear factor and the linear colours of the vertices.
+// Each code is decoded, then multiplied by the linear factor and the linear vertex colours.
 TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     Mesh& mesh = small->scene.meshes[0];
@@ -210,10 +211,11 @@ TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
         ASSERT_TRUE(nearestCode(5.0 * pixel[1], texel[1])) << texel[1] << ": " << pixel[1];
         ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
     }
-    EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);  // of the part that is seen
+    // at least 80 codes lie in the visible part
+    EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);
 }
 
-// Linear colours of 16 bits: those of 8 would make nothing of the first.
+// Vertex colours are linear with 16 bits. With 8 bits, the first would become zero.
 TEST_F(MaterialTextures, darkVertexColoursAreKept) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     small->scene.meshes[0].vertices.colors.assign(4, {118.0f / 65535, 0.0005f, 0.3f, 1});
@@ -223,7 +225,7 @@ TEST_F(MaterialTextures, darkVertexColoursAreKept) {
         expectRadiance(image, point, {118.0 / 65535, 0.0005, 0.3}, glm::dvec3(8e-6));
 }
 
-// A level may have colours beyond [0, 1].
+// Fitted colours of a level may lie outside [0, 1].
 TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
@@ -242,7 +244,7 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
         expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }
 
-// Between two texels the light is interpolated, not the codes. Weights have 8 bits at least.
+// Filtering interpolates decoded light, not codes. The interpolation weights have at least 8 bits.
 TEST_F(MaterialTextures, filteringMixesLight) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     const auto code = [](int column, int) { return column == 0 ? Texel{0, 40, 255, 255} : Texel{255, 200, 90, 255}; };

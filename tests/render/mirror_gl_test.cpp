@@ -1,4 +1,4 @@
-// Near-mirrors: their brightness at every level of detail, and how soon their highlights converge.
+// Near-mirrors: their brightness at every level of detail, and the convergence of their highlights.
 
 #include <gtest/gtest.h>
 
@@ -19,11 +19,11 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-constexpr double ballDepth = 200;  // m: far enough for all of its light to go one way
+constexpr double ballDepth = 200;  // m: so far that reflected light leaves in one direction
 constexpr double ballRadius = 1;
 constexpr double ballFocalLength = 2000;  // mm
 
-// A smooth ball of white metal, 64 × 48 px with about 36 px across the ball.
+// A smooth ball of white metal, about 36 px across in 64 × 48 px.
 std::unique_ptr<SmallWorld> mirrorBall(float roughness) {
     auto small = std::make_unique<SmallWorld>();
     Material metal;
@@ -50,9 +50,9 @@ Image ballImage(const SmallWorld& small, const RenderSettings& settings) {
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
-// ∫ L dΩ over the image, of its red.
+// Returns ∫ L dΩ over the image's red channel.
 double intensityOf(const Image& image) {
-    const double pixel = 36.0 / ballFocalLength / image.width;  // on the image plane at distance 1
+    const double pixel = 36.0 / ballFocalLength / image.width;  // pixel size on the image plane at distance 1
     double sum = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
@@ -71,8 +71,8 @@ RenderSettings ballSettings(std::uint32_t samples, std::uint32_t seed) {
     return settings;
 }
 
-// A mirror ball of radius r under a sun of illuminance E sends the intensity E·r²/4 to all sides alike. A highlight
-// that is far smaller than a pixel is met by few samples, or by none.
+// A mirror ball of radius r under a sun of illuminance E sends the intensity E·r²/4 in all directions. Few samples meet
+// a highlight far smaller than a pixel, or none.
 TEST_F(Mirror, aBallSendsTheSunsLightToAllSidesAlike) {
     for (const float roughness : {0.0f, 0.05f, 0.2f})
         for (const glm::dvec3& way : {glm::dvec3(-0.3, -0.8, -1), {1, -0.3, -0.2}, {0.6, 0.7, -0.5}}) {
@@ -88,7 +88,7 @@ TEST_F(Mirror, aBallSendsTheSunsLightToAllSidesAlike) {
         }
 }
 
-// In light from everywhere a mirror is as bright as that light, whichever level stands for it.
+// Under uniform light, a mirror is as bright as that light at every level of detail.
 TEST_F(Mirror, everyLevelIsAsBright) {
     const auto small = mirrorBall(0);
     const glm::vec3 white(1);

@@ -37,7 +37,7 @@ Image renderedInFloat(const World& world, const View& view, const RenderSettings
     return imageInFloats(world, planFrame(world, view, settings));
 }
 
-// Of a sample, as the plan has it.
+// Returns the time that the plan gives a sample.
 double timeOf(const View& view, std::uint32_t index) {
     return static_cast<double>(lensSamples(view.lens, RenderSettings{}.sequence, index, 1, 0).front().time);
 }
@@ -49,7 +49,7 @@ double sumOf(const Image& image) {
     return sum;
 }
 
-// A white square, 128 × 96 px, black all around; a pixel is `pixelSize` m wide at its depth of 4 m.
+// A white square in 128 × 96 px on black. A pixel is `pixelSize` m wide at the square's depth of 4 m.
 struct WhiteSquare : SmallWorld {
     static constexpr double depth = 4;
     double pixelSize = 0;
@@ -64,15 +64,15 @@ struct WhiteSquare : SmallWorld {
         place(*this, 0, at({0, 0}, halfSizePixels));
         finish(*this);
     }
-    // Its matrix with the middle `pixels` to the right of and above the image's.
+    // Returns the square's matrix with its centre moved by `pixels` right and up from the image's centre.
     [[nodiscard]] glm::dmat4 at(const glm::dvec2& pixels, double halfSizePixels) const {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(pixelSize * pixels, -depth)),
                           glm::dvec3(halfSizePixels * pixelSize));
     }
 };
 
-// A square of width 2a that goes by D covers pixel x for the share of the exposure for which |x − D(t − 1/2)| < a: a
-// trapezoid.
+// A square of width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a. The covered share of the exposure is
+// a trapezoid.
 TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     constexpr double a = 8, way = 40;
     WhiteSquare square(a);
@@ -84,7 +84,7 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
         const double place = x + 0.5 - 64;
         const double from = std::max((place - a) / way + 0.5, 0.0);
         const double to = std::min((place + a) / way + 0.5, 1.0);
-        // Half a pixel's width and the discrepancy of the points in time.
+        // Tolerance: half a pixel's width, and the discrepancy of the sample times.
         ASSERT_NEAR(image.at(x, 48)[0], std::max(to - from, 0.0), 0.02) << "column " << x;
     }
 }
@@ -125,7 +125,7 @@ TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     EXPECT_TRUE(sameBits(circular(), still));
 }
 
-// A quarter turn: the corners of a square go along an arc, but with one segment along its chord.
+// The corners of a turning square move along arcs. A single segment moves them along chords.
 TEST_F(Motion, segmentsFollowARotation) {
     WhiteSquare square(16);
     const glm::dmat4 middle = square.world.pose.objects[0].worldFromObject;
@@ -146,15 +146,16 @@ TEST_F(Motion, segmentsFollowARotation) {
     const Image exact = image(exactShares, true);
     const Image sixteen = image(sixteenShares, false);
     const Image one = image({0, 1}, false);
-    // 16 segments of 11.25° leave the arc by 0.5 % of the radius: a tenth of a pixel.
+    // 16 segments of 11.25° deviate from the arc by 0.5 % of the radius, a tenth of a pixel.
     EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
     EXPECT_LT(compareImages(exact, one).psnr, 20);
-    // Half a turn in straight lines shrinks the square to a point on its way: less light.
+    // With one segment, half a turn moves corners along straight lines through the centre, so the square shrinks to a
+    // point and sends less light.
     EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
 
-// The mean of renders of one sample each, every one at that sample's moment with a scene that stands still.
+// Returns the mean of one-sample renders. Each renders the still scene at its sample's moment.
 Image meanOfMoments(const World& world, const View& view, std::uint32_t samples) {
     Image sum;
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -174,8 +175,8 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
     return sum;
 }
 
-// Skin, moving camera, defocus, and lights that must not turn with the camera, all at once. The lens is as wide and the
-// lamp as strong as the figure is large.
+// Skin, moving camera, defocus, and a lamp that must not turn with the camera, all at once. `fStop` and `candela` suit
+// the size of the figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;
     const auto small = posedWorld(path, 0.3, clip);
@@ -210,7 +211,7 @@ TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     expectMeanOfMoments(path, 2, 0.02, 20'000);  // the fox is a hundred metres long
 }
 
-// Five spheres with a morph target, all of them on straight ways, before a camera that moves too.
+// Five spheres with a morph target that move along straight lines before a moving camera.
 std::unique_ptr<SmallWorld> straightWays() {
     auto small = fiveSpheres();
     small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
@@ -238,7 +239,7 @@ void openShutter(SmallWorld& small, const std::vector<double>& shares) {
     }
 }
 
-// Translation is linear: one segment is exact, for morph targets too, and whatever controls the blur.
+// Translation is linear, so one segment is exact, also for morph targets and under blur controls.
 TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
     constexpr std::uint32_t samples = 16;
     for (const bool controlled : {false, true}) {

@@ -1,4 +1,4 @@
-// Skins and morph targets on the GPU against the same moment posed on the CPU, as meshes that stand still.
+// Skins and morph targets on the GPU against static meshes that the CPU posed at the same moment.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ RenderSettings levelZeroSettings() {
     return settings;
 }
 
-// Both are single precision by different ways: pixels may differ where an edge passes a sample by a hair.
+// GPU and CPU round differently in single precision: pixels may differ where an edge passes close to a sample.
 void expectSamePicture(const Image& posed, const Image& baked, const std::string& what) {
     const Difference difference = compareImages(baked, posed);
     EXPECT_EQ(difference.nonFinite, 0u) << what;
@@ -56,7 +56,7 @@ TEST_P(PosingOf, equalsTheBakedMeshes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, PosingOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Not only level 0: the coarsest level of an unlit figure against that level, posed on the CPU.
+// Coarse levels are posed too: an unlit figure's coarsest level against the same level posed on the CPU.
 TEST_F(Posing, coarseLevelsArePosedToo) {
     for (const char* file : {"meshes/reed.glb", "Fox.glb", "RiggedFigure.glb"}) {
         const auto posed = posedWorld(modelPath(file), 0.4, 0);
@@ -73,7 +73,7 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
     }
 }
 
-// Eight influences, one of them beyond the skin, and morph targets with normals.
+// Eight influences, one of them beyond the skin's joints, combine with morph targets that have normals.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
     Material plain;
@@ -145,7 +145,7 @@ TEST_F(Posing, depthsAreThoseOfTheWalkingFox) {
     expectDepthsOfThePosedSurface(path, 1);
 }
 
-// A wall with a normal map: by a joint, by a morph target or by its own place, it is the same wall.
+// A wall with a normal map looks the same whether a joint, a morph target or its own matrix turns it.
 TEST_F(Posing, tangentsTurnToo) {
     const auto wall = [] {
         auto small = std::make_unique<SmallWorld>();

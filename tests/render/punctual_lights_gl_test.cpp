@@ -1,4 +1,4 @@
-// Directional, point and spot lights, pixel by pixel against glTF's equations in double.
+// Directional, point and spot lights in each pixel against glTF's equations in double precision.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ Material materialOf(const GltfSurface& surface) {
     return material;
 }
 
-// GPUs put corners on a grid of 1/256 px, so that what is interpolated may lie half its step beside. What the light
-// changes by over that.
+// GPUs snap corners to a grid of 1/256 px, so interpolated positions may be off by half a step. Returns the change of
+// the light over that distance.
 glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point, const std::vector<PlacedLight>& lights,
                              const SmallWorld& small) {
     if (currentIsSoftware()) return glm::dvec3(0);
@@ -46,7 +46,7 @@ void expectClosedForm(const GltfSurface& surface, const std::vector<PlacedLight>
     EXPECT_GT(brightest, 1e-3) << "the light reaches the wall";
 }
 
-// A lamp 1.2 m before the wall, off its middle.
+// A lamp 1.2 m in front of the wall, off its centre.
 PlacedLight lampBefore(const SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;
@@ -81,14 +81,14 @@ TEST_F(PunctualLights, aLampFallsOffWithTheSquareOfItsDistance) {
     const auto small = litWall(materialOf(surface));
     small->world.lights = {lampBefore(*small)};
     expectClosedForm(surface, small->world.lights, *small);
-    // The same from ten times as far, a hundred times as strong.
+    // A lamp ten times as far and a hundred times as strong gives the same result.
     PlacedLight& lamp = small->world.lights[0];
     lamp.position += fromWall(*small, {0, 0, 9 * 1.2});
     lamp.light.intensity *= 100;
     expectClosedForm(surface, small->world.lights, *small);
 }
 
-// 1.3 m: the wall's nearest point is 1.2 m away, the frame's corners more.
+// The range of 1.3 m ends within the wall: the nearest point is 1.2 m away, the frame's corners more.
 TEST_F(PunctualLights, aLampsRangeEndsItsLight) {
     const GltfSurface surface{{0.8, 0.8, 0.8}, 0, 1};
     const auto small = litWall(materialOf(surface));
@@ -129,7 +129,7 @@ TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
     EXPECT_GT(dark, 50);
 }
 
-// Few lights are constants of the shader, many a buffer: both are sums.
+// Few lights are constants of the shader and many are read from a buffer. Both add up.
 TEST_F(PunctualLights, severalAddUp) {
     const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};
     const auto small = litWall(materialOf(surface));

@@ -1,5 +1,5 @@
 #pragma once
-// Whole images from a renderer: all samples of a plan, drawn.
+// Complete images from a renderer, with all samples of a plan.
 
 #include "plan/frame_plan.h"
 #include "render/methods.h"
@@ -13,7 +13,7 @@ inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
-// That of a method as the command line has it, without rounding of its layers to half floats.
+// Image by a method given as on the command line, with 32-bit float layers.
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);
     RendererOptions options;
@@ -22,7 +22,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
     return imageOf(*use.method->make(world, options), plan);
 }
 
-// The accumulation's, without rounding of its layers to half floats.
+// Image by the accumulation, with 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

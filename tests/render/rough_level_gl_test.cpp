@@ -1,4 +1,4 @@
-// What coarse levels shade: their normals stand for a relief that they have lost.
+// Shading of coarse levels, whose normals describe a relief that their triangles have lost.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// A square of edge 2 with 12 × 12 hills, as steep as 27°, whose normals are those of the relief.
+// A square of edge 2 with 12 × 12 hills of slopes up to 27° and the normals of that relief.
 Mesh hills() {
     constexpr int cells = 96;
     constexpr double waves = 12;
@@ -60,8 +60,8 @@ double meanLight(const SmallWorld& small, LodMode lod) {
     return sum / covered;
 }
 
-// Seen aslant, the sides of the hills that look to the eye cover more of the picture. A level without hills that shades
-// with their mean normal alone is too dark by 0.06 at 55°.
+// In an oblique view, the hillsides that face the eye cover more of the picture. A flat level with only a mean normal
+// is too dark, by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     Material matt;
@@ -83,9 +83,10 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             PlacedLight sun;
             sun.direction = glm::normalize(way);
             small.world.lights = {sun};
-            // In units of what a white face straight to the sun throws back.
-            const double truth = std::numbers::pi * meanLight(small, LodMode::off);
-            EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), truth, 0.02) << degrees << ' ' << way.x;
+            // In units of the radiance of a white face towards the sun.
+            const double reference = std::numbers::pi * meanLight(small, LodMode::off);
+            EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)
+                << degrees << ' ' << way.x;
         }
 }
 

@@ -1,4 +1,4 @@
-// Shadows against what a disk of light leaves behind an edge, in closed form.
+// Shadows of edges under a disk of light, against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double receiverDepth = 4;  // m before the camera, as everything here
+constexpr double receiverDepth = 4;  // m in front of the camera, as all depths here
 constexpr double tanHalfWidth = 36.0 / (2 * 50);
 
 Material matt() {
@@ -28,7 +28,7 @@ Material matt() {
     return material;
 }
 
-// A white wall that fills the image of a pinhole camera at the origin, and no light yet.
+// A white wall that fills the image of a pinhole camera at the origin, without a light.
 std::unique_ptr<SmallWorld> wall() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(matt());
@@ -49,7 +49,7 @@ void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
     small.world.lights.push_back(sun);
 }
 
-// Parallel to the wall, `height` m before it: x from `left` on, 4 m wide.
+// Adds a board parallel to the wall, `height` m in front of it, 4 m wide from x = `left`.
 void addEdge(SmallWorld& small, double left, double height) {
     place(small, 0,
           glm::scale(glm::translate(glm::dmat4(1), {left + 2, 0, height - receiverDepth}), glm::dvec3(2, 6, 1)));
@@ -77,12 +77,12 @@ Image shadowImage(const SmallWorld& small, const RenderSettings& settings, const
     return renderer->image();
 }
 
-// Where on the wall the column's middle looks.
+// Returns the x on the wall that the column's centre shows.
 double wallX(const View& view, int column) {
     return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
 }
 
-// What arrives in each column of the image's middle row, of what arrives without shadows.
+// Returns, for each column of the image's middle row, the light relative to the light without shadows.
 std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
                               const std::string& method = "accumulation") {
     RenderSettings without = settings;
@@ -95,14 +95,14 @@ std::vector<double> litShares(const SmallWorld& small, const RenderSettings& set
     return shares;
 }
 
-// Of a disk of radius 1, the part left of x = a.
+// Returns the share of the unit disk left of x = a.
 double diskShare(double a) {
     a = std::clamp(a, -1.0, 1.0);
     return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
 }
 
-// The sun at 45° to the right: a point of its disk a·t beside its middle, t the tangent of half its diameter, throws
-// the edge, d before the wall, to left − d·(1 + t·a)/(1 − t·a).
+// The sun stands 45° to the right; t is the tangent of half its diameter. A point of its disk at a·t from its centre
+// casts the edge, d in front of the wall, to left − d·(1 + t·a)/(1 − t·a).
 double litShareBehindEdge(double x, double left, double d, double t) {
     const double q = (left - x) / d;
     return diskShare((q - 1) / ((q + 1) * t));
@@ -123,14 +123,14 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             finish(*small);
             const RenderSettings settings = settingsFor(256, Shadows::on);
             const std::vector<double> shares = litShares(*small, settings);
-            // A place is lifted by a texel at most before it is looked up, which moves the edge by as much at 45°.
+            // The lookup is lifted by at most a texel, which moves the edge by as much at 45°.
             const FramePlan plan = planFrame(small->world, small->view, settings);
             const double bias = shadowProjections(small->world, plan, {}).front().texel;
-            double width = 0;  // columns that are neither lit nor dark
+            double width = 0;  // number of columns in the penumbra
             double expectedWidth = 0;
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = wallX(small->view, x);
-                if (std::abs(place) > 0.7 * height) continue;  // the edge itself hides the wall further right
+                if (std::abs(place) > 0.7 * height) continue;  // the board itself hides the wall further right
                 const double share = shares[static_cast<std::size_t>(x)];
                 EXPECT_LT(share, litShareBehindEdge(place - bias, height, height, t) + 0.04) << place;
                 EXPECT_GT(share, litShareBehindEdge(place + bias, height, height, t) - 0.04) << place;
@@ -161,7 +161,8 @@ TEST_F(Shadowed, umbraIsDarkAndWhatNothingHidesIsLitUnchanged) {
     }
 }
 
-// A board that stands on the wall, its foot at x = 0: dark from the foot on, but for the bias and the texel's width.
+// A board stands on the wall with its foot at x = 0. The wall is dark from the foot on, except for the bias and a
+// texel's width.
 TEST_F(Shadowed, noLightLeaksAtAContact) {
     const auto small = wall();
     addSun(*small, {1, 0, 1}, glm::radians(1.0));
@@ -178,14 +179,14 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // 1 m high, and a texel is wider along the wall than across the light
+            continue;  // the board is 1 m high, and a texel is wider along the wall than across the light
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
     EXPECT_GT(dark, 15);
 }
 
-// Planes that the sun grazes, and a rippled ball of which each facet could shadow itself: the ball's lit side, well
+// Planes at grazing incidence, and a rippled ball whose facets could shadow themselves. The ball's lit side, well
 // inside its outline, is as bright as without shadows.
 TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     for (const double degrees : {0.0, 45.0, 80.0, 87.0}) {
@@ -209,8 +210,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// A lamp 1 m before a board of 0.4 m and 2 m before the wall: the shadow measures 0.8 m. With one map, and with six
-// where something stands behind the lamp too.
+// A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall: the shadow measures 0.8 m. The lamp uses one
+// map, or six if an object stands behind it too.
 TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     for (const bool amid : {false, true}) {
         for (const LightType type : {LightType::point, LightType::spot}) {
@@ -231,7 +232,7 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
             const std::vector<double> shares = litShares(*small, settingsFor(16, Shadows::on));
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = std::abs(wallX(small->view, x));
-                if (place < 0.29) continue;  // the board itself, as the camera sees it
+                if (place < 0.29) continue;  // the camera sees the board there
                 if (std::abs(place - 0.4) < 0.08) continue;
                 EXPECT_NEAR(shares[static_cast<std::size_t>(x)], place < 0.4 ? 0 : 1, 1e-4) << place;
             }
@@ -239,7 +240,7 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     }
 }
 
-// An even sky, and a board so high and wide that it hides half of it from the wall at its foot.
+// Under a uniform sky, a tall, wide board hides half of the sky from the wall at its foot.
 TEST_F(Shadowed, surroundingsAreHiddenByHalf) {
     const auto small = wall();
     small->world.environment = {EnvironmentType::uniform, glm::vec3(1), glm::vec3(1), glm::vec3(1), nullptr, 1};
@@ -296,7 +297,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // groups have other points on the lights
+              35);  // groups use other points on the lights
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);
@@ -309,7 +310,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
         max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
                                      litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(max, 0.12);  // of 16 points on the sun for each of 4 pinholes
+    EXPECT_LT(max, 0.12);  // noise of 16 points on the sun for each of 4 pinholes
 }
 
 }  // namespace

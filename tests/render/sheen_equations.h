@@ -1,5 +1,5 @@
 #pragma once
-// KHR_materials_sheen's equations in double.
+// KHR_materials_sheen's equations in double precision.
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Estevez and Kulla 2017, as KHR_materials_sheen prints it.
+// Lambda of Estevez and Kulla 2017, as KHR_materials_sheen prints it.
 inline double sheenLambda(double cosine, double alpha) {
     const auto l = [&](double x) {
         const double t = (1 - alpha) * (1 - alpha);
@@ -19,7 +19,7 @@ inline double sheenLambda(double cosine, double alpha) {
     return cosine < 0.5 ? std::exp(l(cosine)) : std::exp(2 * l(0.5) - l(1 - cosine));
 }
 
-// D·V under cosines of the angles from the normal to light, eye and half vector; `roughness` is perceptual.
+// Returns D·V for the cosines from the normal to light, eye and half vector; `roughness` is perceptual.
 inline double sheenOf(double nl, double nv, double nh, double roughness) {
     const double alpha = roughness * roughness;
     const double sine = std::sqrt(std::max(1 - nh * nh, 0.0));

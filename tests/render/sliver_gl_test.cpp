@@ -1,4 +1,4 @@
-// Triangles far narrower than the fraction of a pixel to which rasterisers round corners.
+// Triangles far narrower than the fraction of a pixel to which rasterizers round corners.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ private:
     std::uint64_t state_ = 1;
 };
 
-// Slivers in all directions, 1e-6 to 1 px wide; the corners of each are either dark or bright.
+// Slivers in all directions, 1e-6 to 1 px wide. The corners of each are all dark or all bright.
 Mesh slivers(int count, double pixel) {
     Mesh mesh;
     RandomUnits random;

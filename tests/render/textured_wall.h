@@ -1,5 +1,5 @@
 #pragma once
-// Textures on the lit wall whose texels are told apart, and which of them a pixel of the wall shows.
+// Textures on the lit wall with distinct texels, and the texel that a pixel of the wall shows.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// IEC 61966-2-1.
+// Decodes sRGB (IEC 61966-2-1).
 inline double linearOf(int code) {
     const double encoded = code / 255.0;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -19,7 +19,8 @@ inline double linearOf(int code) {
 
 using Texel = std::array<int, 4>;
 
-// Adds an image of `size`² texels to the scene, with a texture of it that shows each texel as a square.
+// Adds an image of `size`² texels to the scene, and a texture that shows each texel as a square. Returns the texture's
+// index.
 inline int addTexture(Scene& scene, int size, const std::function<Texel(int column, int row)>& texel) {
     TextureImage image;
     image.width = image.height = size;
@@ -35,13 +36,13 @@ inline int addTexture(Scene& scene, int size, const std::function<Texel(int colu
     return static_cast<int>(scene.textures.size()) - 1;
 }
 
-// Different values in all channels of all texels.
+// Returns a texel; all channels of all texels have different values.
 inline Texel scrambled(int column, int row) {
     const int i = 4 * row + column;
     return {(i * 37 + 11) % 256, (i * 61 + 50) % 256, (i * 89 + 5) % 256, (i * 23 + 90) % 256};
 }
 
-// The texel of a square image of `size` at `uv`; nothing near a border, where rounding decides.
+// Returns the texel of a `size`² image at `uv`, or nullopt near a border, where rounding decides.
 inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     const glm::dvec2 place = uv * double(size);
     const glm::dvec2 away = glm::abs(place - glm::round(place));
@@ -49,7 +50,7 @@ inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     return glm::ivec2(glm::floor(place));
 }
 
-// Drivers decode by polynomials: half the step to the next code may be lost.
+// Returns the tolerance of decoding: half the step to the next code, as drivers decode by polynomials.
 inline double decodingError(int code) {
     return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
 }
@@ -60,7 +61,8 @@ inline glm::dvec3 decodingErrors(const Texel& texel) {
     return {decodingError(texel[0]), decodingError(texel[1]), decodingError(texel[2])};
 }
 
-// Calls `check` for the pixels of a 4 × 4 texture that lies at `placed` of each pixel's coordinates.
+// Calls `check` for each pixel with its texel of a 4 × 4 texture; `placed` maps the pixel's coordinates to the
+// texture's.
 inline void forTexels(const SmallWorld& small, const std::function<glm::dvec2(const glm::dvec2&)>& placed,
                       const std::function<void(const Image&, const WallPoint&, const Texel&)>& check) {
     const Image image = wallImage(small);

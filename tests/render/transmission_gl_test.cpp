@@ -1,5 +1,4 @@
-// KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, through the
-// accumulation of lens samples.
+// KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, by the accumulation.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +18,7 @@ Material glass(float roughness = 0) {
     return result;
 }
 
-// It reflects nothing.
+// Returns glass that reflects nothing.
 Material clear(const glm::vec3& tint = glm::vec3(1)) {
     Material result = glass();
     result.baseColorFactor = glm::vec4(tint, 1);
@@ -52,7 +51,7 @@ TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
             }
 }
 
-// Beer and Lambert: c^(d/D). The thickness grows with the object, the distance is the scene's.
+// Beer-Lambert absorption: c^(d/D). The thickness scales with the object, the attenuation distance does not.
 TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
     const glm::dvec3 color(0.5, 0.25, 1);
     for (const double thickness : {0.1, 0.4})
@@ -72,7 +71,7 @@ TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
             }
 }
 
-// A copy of the wall's quad, `depth` m before the camera, of another material.
+// Adds a copy of the wall's quad with another material, `depth` m in front of the camera.
 void addWall(SmallWorld& small, double depth, const Material& material, double scale = 1) {
     small.scene.materials.push_back(material);
     Mesh mesh = quad(static_cast<int>(small.scene.materials.size()) - 1);
@@ -84,7 +83,7 @@ void addWall(SmallWorld& small, double depth, const Material& material, double s
     finish(small);
 }
 
-// The pixel shows what is seen where the refracted ray leaves the volume.
+// A pixel on a volume shows the background at the point where the refracted ray leaves the volume.
 TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     Material material = clear();
     material.ior = 1.5f;
@@ -98,7 +97,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     const glm::dvec3 normal(placed[2]);
     int compared = 0;
     for (const WallPoint& point : wallPoints(*small)) {
-        // Where the view's ray meets the tilted pane, which passes through the middle of the untilted one.
+        // The view ray meets the tilted pane at `entry`. The pane rotates about the centre of the untilted one.
         const glm::dvec3 eye(small->view.worldFromCamera[3]);
         const double along = glm::dot(glm::dvec3(placed[3]) - eye, normal) / glm::dot(-point.toEye, normal);
         const glm::dvec3 entry = eye - point.toEye * along;
@@ -106,7 +105,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
         if (std::max(std::abs(on.x), std::abs(on.y)) > 0.95) continue;
         const glm::dvec3 exit = entry + 0.5 * glm::refract(-point.toEye, normal, 1 / 1.5);
         const glm::dvec3 seen(cameraFromWorld * glm::dvec4(exit, 1));
-        const double right = 4 * seen.x / -seen.z;  // on the wall behind, m
+        const double right = 4 * seen.x / -seen.z;  // x in m on the wall behind
         const double edge = 4 * 0.36 * (1 - 2.0 / image.width);
         if (std::abs(right) > edge || std::abs(seen.y / seen.z) > 0.36 * 0.75 * 0.9) continue;
         ASSERT_NEAR(image.at(point.x, point.y)[0], (right / 2 + 1) / 2, 2e-4) << point.x << ' ' << point.y;
@@ -115,8 +114,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     EXPECT_GT(compared, 200);
 }
 
-// Also where a pane hides another and an alpha-blended surface stands between them, in whichever order the file has
-// them.
+// Panes behind each other, with an alpha-blended surface in between, are all visible, in any order of the file.
 TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     for (const bool nearestFirst : {false, true}) {
         const auto small = litWall(clear({1, 0.5f, 1}));
@@ -132,7 +130,7 @@ TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     }
 }
 
-// More of them than backdrops are copied.
+// More panes than backdrop copies still show the background.
 TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     const auto small = litWall(clear(glm::vec3(0.9f)));
     light(*small);
@@ -140,7 +138,7 @@ TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     for (Mesh& mesh : small->scene.meshes) mesh.vertices.colors.clear();
     finish(*small);
     EXPECT_LT(farthestFrom(wallImage(*small), glm::dvec3(std::pow(0.9, 9))), 1e-5)
-        << "the eight nearest, and one of the others";
+        << "the eight nearest panes and one of the others";
 }
 
 Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {
@@ -154,7 +152,8 @@ Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples
     return imageOf(*use.method->make(small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Through the lens, each sample shows its own background, and so does the pane in front of all spheres.
+// A pane without effect in front of all spheres leaves the image unchanged through a lens: each sample shows its own
+// background.
 TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
     const auto without = fiveSpheres();
     const auto with = fiveSpheres();
@@ -198,8 +197,7 @@ Spread redOf(const Image& image) {
     return {sum / count, std::sqrt(squares / count - sum * sum / count / count)};
 }
 
-// Red runs from one side to the other behind the pane: the rougher it is the less of that is left, and none of the
-// light is lost.
+// Red varies across the wall behind the pane. A rougher pane leaves less of that variation and keeps the light.
 TEST_F(Transmission, roughnessSpreadsWhatLiesBehindAndKeepsItsLight) {
     double before = 1;
     Spread smooth;

@@ -1,4 +1,4 @@
-// The rasteriser against truth: an independent ray tracer on real geometry, and the closed forms of a small quad's
+// The rasterizer against an independent ray tracer on real geometry, and against the closed forms of a small quad's
 // bokeh. With DEFOCUS_TEST_OUTPUT set to a folder, images and their differences (× 16 around grey) are written there.
 
 #include <gtest/gtest.h>
@@ -33,23 +33,23 @@ Image traced(const World& world, const View& view, const RenderSettings& setting
     return renderedImage(*makeEmbreeRenderer(world, sampling), plan);
 }
 
-void writeForPeople(const std::string& name, const Image& truth, const Image& image) {
+void writeForPeople(const std::string& name, const Image& reference, const Image& image) {
     const char* folder = std::getenv("DEFOCUS_TEST_OUTPUT");
     if (folder == nullptr) return;
     const std::filesystem::path path(folder);
-    writeImage(path / (name + "-embree.png"), truth);
+    writeImage(path / (name + "-embree.png"), reference);
     writeImage(path / (name + "-accumulation.png"), image);
-    writeImage(path / (name + "-difference.png"), differenceImage(truth, image, 16));
+    writeImage(path / (name + "-difference.png"), differenceImage(reference, image, 16));
 }
 
-// What is left at equal lens points: no structure, no image that is moved or scaled, no blur that is
-// wider or narrower. All are far below what 256 samples can show against an independent sequence.
-void expectNoStructure(const std::string& name, const TruthScene& truth, const Image& image,
+// At equal lens points, the remaining difference has no structure: no shift, no scale and no change of the blur's
+// width. The bounds are far below the noise of 256 samples against an independent sequence.
+void expectNoStructure(const std::string& name, const TruthScene& baked, const Image& image,
                        const RenderSettings& settings) {
-    const Image planned = traced(truth.world, truth.view, settings, EmbreeSampling::planned);
-    View widerLens = truth.view;
+    const Image planned = traced(baked.world, baked.view, settings, EmbreeSampling::planned);
+    View widerLens = baked.view;
     widerLens.lens.fStop /= 1.05;
-    const Image wider = traced(truth.world, widerLens, settings, EmbreeSampling::planned);
+    const Image wider = traced(baked.world, widerLens, settings, EmbreeSampling::planned);
 
     writeForPeople(name + "-planned", planned, image);
     const BlockDifference blocks = blockDifference(planned, image);
@@ -58,29 +58,29 @@ void expectNoStructure(const std::string& name, const TruthScene& truth, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // share of the blur's width
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // fraction of the blur's width
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * truth.view.width, 0, 2e-3) << name;  // px over the image's width
+    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // growth in px over the image's width
 }
 
 void expectTruth(const std::string& name, Scene scene) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
-    const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), 512, 384);
+    const std::unique_ptr<TruthScene> baked = truthScene(std::move(scene), 512, 384);
     const RenderSettings settings = fullDetailSettings(256);
-    const Image image = rasterised(truth->world, truth->view, settings);
-    const Image reference = traced(truth->world, truth->view, settings);
+    const Image image = rasterised(baked->world, baked->view, settings);
+    const Image reference = traced(baked->world, baked->view, settings);
     writeForPeople(name, reference, image);
 
     const Difference difference = compareImages(reference, image);
     EXPECT_GE(difference.psnr, 45) << name;
     EXPECT_EQ(difference.nonFinite, 0) << name;
-    // What may be left of 256 samples: noise of the ray tracer's own points, and the plan's points being up to 0.006
-    // off the lens's centre in the mean.
+    // Allowed differences at 256 samples: the noise of the ray tracer's own points, and an offset of the plan's mean
+    // lens point of up to 0.006.
     const BlockDifference blocks = blockDifference(reference, image);
     EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of 8 bits
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;
-    expectNoStructure(name, *truth, image, settings);
+    expectNoStructure(name, *baked, image, settings);
 }
 
 TEST(Truth, FishSchoolEqualsTheRayTracer) {

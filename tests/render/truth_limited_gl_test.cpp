@@ -1,5 +1,5 @@
-// The limited foreground against an independent truth (Munkberg, Toth and Akenine-Möller 2012, Figure 9): a ray tracer
-// that puts a lens of its own at the depth α before every pixel.
+// The limited foreground against an independent ray tracer that puts a separate lens at the depth α in front of each
+// pixel (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
 
 #include <gtest/gtest.h>
 
@@ -15,44 +15,44 @@ namespace {
 
 constexpr double limit = 5;  // px
 
-// A small school whose nearest fish would be blurred to much more than the limit.
+// A small school whose nearest fish, without the limit, would be blurred far beyond it.
 std::unique_ptr<TruthScene> nearSchool() {
     FishSchoolOptions school;
     school.fishCount = 8;
     school.trianglesPerFish = 2000;
-    auto truth = truthScene(fishSchool(school), 200, 150);
-    truth->view.lens.focusDistance *= 1.6;
-    truth->view.lens.fStop /= 4;
-    return truth;
+    auto baked = truthScene(fishSchool(school), 200, 150);
+    baked->view.lens.focusDistance *= 1.6;
+    baked->view.lens.fStop /= 4;
+    return baked;
 }
 
-Image rasterised(const TruthScene& truth, const RenderSettings& settings) {
+Image rasterised(const TruthScene& baked, const RenderSettings& settings) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    return renderedImage(*methodNamed("accumulation").make(truth.world, options),
-                         planFrame(truth.world, truth.view, settings));
+    return renderedImage(*methodNamed("accumulation").make(baked.world, options),
+                         planFrame(baked.world, baked.view, settings));
 }
 
-Image traced(const TruthScene& truth, const RenderSettings& settings, EmbreeSampling sampling) {
-    return renderedImage(*makeEmbreeRenderer(truth.world, sampling), planFrame(truth.world, truth.view, settings));
+Image traced(const TruthScene& baked, const RenderSettings& settings, EmbreeSampling sampling) {
+    return renderedImage(*makeEmbreeRenderer(baked.world, sampling), planFrame(baked.world, baked.view, settings));
 }
 
 TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
     const auto context = createHeadlessContext();
-    const auto truth = nearSchool();
+    const auto baked = nearSchool();
     RenderSettings settings = fullDetailSettings(128);
     settings.cocTolerance = 0.05;
-    const FramePlan plan = planFrame(truth->world, truth->view, settings);
+    const FramePlan plan = planFrame(baked->world, baked->view, settings);
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, -object.coc.nearest);
     ASSERT_GT(largest, 3 * limit) << "the limit must matter";
-    const Image unlimited = rasterised(*truth, settings);
-    truth->view.lens.foregroundLimit = limit;
-    const Image image = rasterised(*truth, settings);
-    const Image planned = traced(*truth, settings, EmbreeSampling::planned);
+    const Image unlimited = rasterised(*baked, settings);
+    baked->view.lens.foregroundLimit = limit;
+    const Image image = rasterised(*baked, settings);
+    const Image planned = traced(*baked, settings, EmbreeSampling::planned);
     EXPECT_GT(compareImages(planned, image).psnr, 60);
-    EXPECT_GT(compareImages(traced(*truth, settings, EmbreeSampling::perPixel), image).psnr, 45);
-    EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "without the limit it is another image";
+    EXPECT_GT(compareImages(traced(*baked, settings, EmbreeSampling::perPixel), image).psnr, 45);
+    EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "the unlimited image differs";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Posed objects on the GPU against the ray tracer, which takes them from the CPU, at the same lens points.
+// Objects posed on the GPU against the ray tracer, which uses poses of the CPU, at the same lens points.
 
 #include <gtest/gtest.h>
 

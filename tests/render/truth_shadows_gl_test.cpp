@@ -1,5 +1,5 @@
-// Soft shadows on the GPU against the ray tracer's shadow rays: a matt ball before a wall under one light, through a
-// wide lens.
+// Soft shadows on the GPU against the ray tracer's shadow rays: a matt ball before a wall, under one light and through
+// a wide lens.
 
 #include <gtest/gtest.h>
 
@@ -71,14 +71,14 @@ void expectTheSameShadows(const SmallWorld& small, std::uint32_t samples, double
     EXPECT_GT(psnr, minPsnr) << psnr;
 }
 
-// At the same points of lens and sun. What is left to differ is a texel: maps round the shadow's edge to texels, in
-// each sample to others, and lift places by a part of one, which shows where the light grazes the ball.
+// With the same points on lens and sun, the images differ only by shadow-map texels. Maps round a shadow's edge to
+// different texels in each sample. They also lift lookups by part of a texel, which shows where light grazes the ball.
 TEST(TruthOfShadows, rasteriserAndRayTracerSeeTheSamePenumbrae) {
     expectTheSameShadows(*ballBeforeAWall(), 64, 37);
 }
 
-// The tracer's lamps face each place that they shine on, the rasteriser's the middle of the scene: other points of the
-// same disk, whose means are alike. A map of all that a lamp without a cone shines on has wider texels.
+// The ray tracer's lamp disks face each lit point, the rasterizer's face the middle of the scene. Their points differ,
+// but their means are alike. The map of a lamp without a cone has wider texels.
 TEST(TruthOfShadows, lampsThrowTheSamePenumbrae) {
     for (const LightType type : {LightType::point, LightType::spot}) {
         const auto small = ballBeforeAWall();

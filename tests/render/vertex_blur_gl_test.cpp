@@ -1,4 +1,4 @@
-// Blur that vertices have themselves, as closed forms have it: a small square is spread as its disk says.
+// Blur from vertex attributes against closed forms: a small square spreads as the disk of its blur.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double blurredSide = 4;  // px, a side of what is blurred
+constexpr double blurredSide = 4;  // px, side of the blurred square
 constexpr double focus = 2;        // m
 constexpr int blurSamples = 256;
 
@@ -27,7 +27,7 @@ protected:
 };
 std::unique_ptr<GlContext> VertexBlurs::context_;
 
-// A white square in the middle of a black image, whose vertices all have `blur`.
+// A white square in the middle of a black image. All its vertices have the blur `blur`.
 std::unique_ptr<SmallWorld> blurredSquare(double depth, const VertexBlur& blur) {
     auto small = std::make_unique<SmallWorld>();
     small->view = bokehView(120, 90);
@@ -55,20 +55,21 @@ Image renderedBlur(const SmallWorld& small, const char* method = "accumulation",
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
-// px a millimetre on the sensor.
+// px per millimetre on the sensor
 double perMillimetre(const SmallWorld& small) {
     return small.view.width / small.view.lens.horizontalAperture;
 }
 
-// Of a disk whose squared diameter is `squared` on average, the square and the pixel.
+// Variance in px² of a disk whose mean squared diameter is `squared`, with the square and the pixel.
 double varianceOf(double squared) {
     return squared / 16 + blurredSide * blurredSide / 12 + 1.0 / 12;
 }
 
-// Of the sharp square, whose edges lie between pixels.
+// Variance of the sharp square, whose edges lie between pixels.
 constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
-// What a rasteriser of points or lines makes of it. The post-process methods blur with other kernels.
+// Expects energy, centre and variance for methods that rasterize points or lines. Post-process methods blur with other
+// kernels.
 void expectVariance(const SmallWorld& small, double expected, const char* method, double relative = 0.02) {
     const Moments moments = momentsOf(renderedBlur(small, method));
     EXPECT_NEAR(moments.energy, blurredSide * blurredSide, 0.02 * blurredSide * blurredSide) << method;
@@ -102,7 +103,7 @@ TEST_F(VertexBlurs, addsToTheLenss) {
         }
 }
 
-// What the vertices add takes away just what the lens gives.
+// Blur from vertices can cancel the blur of the lens.
 TEST_F(VertexBlurs, canBringIntoFocus) {
     const auto small = blurredSquare(5, {1, 0, 0});
     const double ofLens = blurDiameter(small->view, 5) / perMillimetre(*small);
@@ -110,8 +111,8 @@ TEST_F(VertexBlurs, canBringIntoFocus) {
     expectVariance(*sharp, sharpVariance, "accumulation");
 }
 
-// Munkberg et al. 2012: C(t) is linear between the opening of the shutter and its closing. The squared diameter is then
-// (c₀² + c₀c₁ + c₁²)/3 on average.
+// C(t) is linear between the opening and the closing of the shutter (Munkberg et al. 2012), so the mean squared
+// diameter is (c₀² + c₀c₁ + c₁²)/3.
 TEST_F(VertexBlurs, changesWhileTheShutterIsOpen) {
     const double opening = 2, closing = -10;
     const auto small = blurredSquare(focus, {0, static_cast<float>(opening), static_cast<float>(closing)});
@@ -147,7 +148,8 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
-// By the edges of what post-process methods show: sharp without a blur, and as wide as the same blur of the lens.
+// Post-process methods draw sharp edges without a vertex blur. With one, edges are as wide as under the same blur of
+// the lens.
 TEST_F(VertexBlurs, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens,max-coc=unlimited", "layered"}) {
         const auto ofLens = blurredSquare(5, {1, 0, 0});
@@ -170,7 +172,7 @@ TEST_F(VertexBlurs, postProcessMethodsFollow) {
     }
 }
 
-// A slanted floor, whose blur grows from one end to the other: two triangles, divided, show what many do.
+// A slanted floor whose blur grows from one end to the other: two divided triangles look like many small ones.
 std::unique_ptr<SmallWorld> slantedFloor(int cells, const std::function<VertexBlur(double)>& blur) {
     auto small = std::make_unique<SmallWorld>();
     small->view = bokehView(120, 90);
@@ -229,14 +231,14 @@ TEST_F(VertexBlurs, largeTrianglesLookLikeSmallOnes) {
             const auto large = slantedFloor(1, blur);
             const auto fine = slantedFloor(128, blur);
             large->view.lens.backgroundLimit = fine->view.lens.backgroundLimit = limit;
-            const Image truth = floorImage(*fine, 1e6, Refinement::none);
-            const double error = meanDifference(floorImage(*large, 0.1, Refinement::subdivide), truth);
+            const Image reference = floorImage(*fine, 1e6, Refinement::none);
+            const double error = meanDifference(floorImage(*large, 0.1, Refinement::subdivide), reference);
             EXPECT_LT(error, 2e-3);
-            EXPECT_GT(meanDifference(floorImage(*large, 1e6, Refinement::none), truth), 3 * error);
+            EXPECT_GT(meanDifference(floorImage(*large, 1e6, Refinement::none), reference), 3 * error);
         }
 }
 
-// The AOV shows the vertices' blur, interpolated on the surface.
+// The AOV shows the vertices' blur, interpolated over the surface.
 TEST_F(VertexBlurs, aovIsTheFunctionOfThePlan) {
     const auto small = slantedFloor(1, [](double far) {
         return VertexBlur{static_cast<float>(0.5 + far), static_cast<float>(3 - 9 * far),

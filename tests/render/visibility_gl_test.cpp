@@ -1,4 +1,4 @@
-// Leaving out clusters changes no bit of the image: what is left out shows nothing.
+// Culling of clusters does not change a bit of the image.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wav
     return renderer->image();
 }
 
-// Everything that the plan draws, whole.
+// Returns the plan with all of its triangles drawn.
 FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
     plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
     for (ObjectPlan& object : plan.objects) {
@@ -52,7 +52,7 @@ FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
     return plan;
 }
 
-// How many triangles are left out, as a share.
+// Expects the same image with and without culling. Returns the culled share of the triangles.
 double expectSameImage(const SmallWorld& small, LodMode lod) {
     const FramePlan seen = planFrame(small.world, small.view, settingsFor(lod, false));
     const FramePlan all = drawnWhole(small, seen);
@@ -88,7 +88,7 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// Where C is curved, or differs from vertex to vertex, corners decide (visibility.h).
+// If C is curved, or differs between vertices, corners are tested (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;
@@ -116,7 +116,7 @@ TEST_F(Visibility, blendedSurfaces) {
     EXPECT_GT(expectSameImage(*small, LodMode::off), 0.2);
 }
 
-// Their backs show.
+// Double-sided surfaces show their backs, so nothing is culled.
 TEST_F(Visibility, doubleSidedSurfacesLeaveNothingOut) {
     const auto small = fiveSpheres();
     small->scene.materials[0].alphaMode = AlphaMode::blend;
@@ -151,7 +151,7 @@ TEST_F(Visibility, filesOfTheRepository) {
     EXPECT_GT(max, 0.02);
 }
 
-// Scanned and modelled surfaces: needles, folds, holes.
+// Scanned and modelled surfaces with needles, folds and holes.
 class VisibilityOf : public Visibility, public testing::WithParamInterface<const char*> {};
 
 TEST_P(VisibilityOf, leavingOutChangesNothing) {

@@ -123,7 +123,7 @@ TEST(DefaultLights, giveWayToTheScenesOwn) {
     scene.materials.resize(1);
     scene.materials[0].unlit = true;
     scene.meshes[0].primitives[0].material = 0;
-    EXPECT_EQ(count(), 0u) << "nothing that light would change";
+    EXPECT_EQ(count(), 0u) << "light changes nothing in an unlit scene";
     scene.materials[0] = {};
     scene.lights.resize(1);
     scene.nodes[0].light = 0;

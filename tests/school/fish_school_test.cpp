@@ -246,7 +246,7 @@ TEST(FishSchool, someFishAreSharpAndNoneTooBlurred) {
     std::sort(centres.begin(), centres.end());
     EXPECT_LT(centres[3], 2.0) << "fewer than four fish in focus";
     EXPECT_LE(0.5 * (centres[9] + centres[10]), 20.0);
-    EXPECT_GE(0.5 * (centres[9] + centres[10]), 5.0) << "too little to blur";
+    EXPECT_GE(0.5 * (centres[9] + centres[10]), 5.0) << "too little blur";
     EXPECT_LE(largest, 40.0);
     EXPECT_GE(largest, 20.0);
     EXPECT_LT(nearest, 1.3);

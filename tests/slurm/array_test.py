@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Job arrays of Slurm, on a real cluster of two nodes on the loopback interface. A film: one task is killed half way and
-queued again; the film must be complete and the same bits as that of a single run. One frame, by its samples and by its
-rows, as scripts/slurm/README.md has it: what is merged must be the bits of a single run.
+"""Tests Slurm job arrays on a real cluster of two nodes on the loopback interface.
 
-array_test.py PROGRAM BATCH_FILE; exit code 77: skipped, with the reason."""
+A film: one task is killed half-way and queued again. The film must be complete, with the bits of a single run. One
+frame, split by samples and by rows as in scripts/slurm/README.md: the merged file must have the bits of a single run.
+
+array_test.py PROGRAM BATCH_FILE. Exit code 77: skipped; the reason is printed.
+"""
 
 import json
 import os
@@ -27,8 +29,9 @@ def skip(reason):
 
 
 def reserved_ports(count):
-    """Sockets that keep a free port each. Who allows it to be shared, as Slurm's daemons do, may listen there all the same;
-    nobody else is given it."""
+    """Returns sockets that reserve a free port each. Programs that share ports, such as Slurm's daemons, can still
+    listen there; the system gives the port to no one else.
+    """
     sockets = [socket.socket() for _ in range(count)]
     for each in sockets:
         each.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -46,7 +49,7 @@ def wait_until(what, condition, seconds=240):
 
 
 class Cluster:
-    """munged, slurmctld and two slurmd in a folder of their own."""
+    """munged, slurmctld and two slurmd in a temporary folder."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -111,7 +114,9 @@ MinJobAge=600
         self.processes.append(subprocess.Popen(words, env=self.environment, stdout=log, stderr=log))
 
     def ask(self, *words):
-        """What a command of Slurm prints; None where it failed, as it does while the controller is too busy to answer."""
+        """Returns the output of a Slurm command, or None if it fails, as it does while the controller is too busy to
+        answer.
+        """
         result = subprocess.run(words, env=self.environment, capture_output=True, text=True)
         return result.stdout if result.returncode == 0 else None
 
@@ -134,13 +139,14 @@ MinJobAge=600
 
 
 def frame_bytes(folder):
-    """The frames under their final names. Not those in the making: such a name begins with a dot, which glob() takes for
-    any other character, and is gone as soon as the frame is done."""
+    """Returns the frames under their final names. Unfinished frames have names that begin with a dot and disappear when
+    they are finished.
+    """
     return {path.name: path.read_bytes() for path in sorted(folder.glob("[!.]*.exr"))}
 
 
 def task_process(cluster, job, task):
-    """The id of the program's process of an array task: the leaf of its batch step."""
+    """Returns the process id of the program in an array task: the leaf of its batch step."""
     for status in Path("/proc").glob("[0-9]*/environ"):
         try:
             words = status.read_bytes().split(b"\0")
@@ -155,12 +161,13 @@ def task_process(cluster, job, task):
 
 
 def share_film(cluster, program, batch, folder, samples):
-    """A film by an array of tasks, one of which dies with a frame done, and is queued again. False where it had rendered
-    all of its frames by then."""
+    """Renders a film by an array of tasks, one of which is killed after a frame and queued again. Returns False if that
+    task had already rendered all of its frames.
+    """
     shot = {"fish": {"count": 4, "triangles": 4000}, "range": [0, FRAMES - 1], "size": [256, 192], "samples": samples,
             "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}
     (folder / "shot.json").write_text(json.dumps(shot))
-    whole, frames = folder / f"single{samples}", folder / f"frames{samples}"
+    full, frames = folder / f"single{samples}", folder / f"frames{samples}"
     subprocess.run([program, "capture", "shot.json", "--quiet", "-o", f"{whole}/####.exr"], cwd=folder, check=True)
     job = cluster.submit(f"--array=0-{TASKS - 1}", f"--chdir={folder}", str(batch), "shot.json", "--quiet", "-o",
                          f"{frames}/####.exr")
@@ -190,7 +197,7 @@ def share_film(cluster, program, batch, folder, samples):
     cluster.wait_for_all()
 
     # The array's files are exactly those of the single run.
-    single, array = frame_bytes(whole), frame_bytes(frames)
+    single, array = frame_bytes(full), frame_bytes(frames)
     assert len(single) == FRAMES
     assert array.keys() == single.keys(), f"missing: {sorted(single.keys() - array.keys())}"
     assert array == single, "frames differ from those of a single run"
@@ -201,7 +208,7 @@ def share_film(cluster, program, batch, folder, samples):
 
 
 def share_frame(cluster, program, folder):
-    """One frame by arrays of four tasks, split in each way."""
+    """Renders one frame by arrays of four tasks, split by samples and by rows."""
     frame = ["render", "--quiet", "--fish", "4", "--fish-triangles", "4000", "--size", "256x192", "--samples", "256"]
     subprocess.run([program, *frame, "-o", "single.exr"], cwd=folder, check=True)
     tasks = {

@@ -18,13 +18,13 @@ namespace defocus::engine {
 class Dice {
 public:
     explicit Dice(std::uint32_t seed) : engine_(seed) {}
-    bool coin() { return whole(0, 1) == 1; }
-    int whole(int min, int max) { return std::uniform_int_distribution<int>(min, max)(engine_); }
+    bool coin() { return integer(0, 1) == 1; }
+    int integer(int min, int max) { return std::uniform_int_distribution<int>(min, max)(engine_); }
     double number(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
     std::string name() {
         static const char* const names[] = {"plain",           "two words", "it's \"quoted\"",
                                             "$HOME `ls` \\ *", "-dash",     "a=b;c"};
-        return names[whole(0, 5)];
+        return names[integer(0, 5)];
     }
 
 private:
@@ -36,15 +36,15 @@ inline Request randomOptions(Dice& dice) {
     if (dice.coin()) {
         options.scene = dice.name() + ".glb";
     } else {
-        options.fishCount = dice.whole(1, 30);
-        options.trianglesPerFish = dice.whole(200, 5000);
+        options.fishCount = dice.integer(1, 30);
+        options.trianglesPerFish = dice.integer(200, 5000);
     }
     if (dice.coin()) options.clip = dice.name();
     if (dice.coin()) options.time = dice.number(-2, 9);
     options.loop = dice.coin();
     if (dice.coin()) options.shutter = dice.number(0, 0.1);
-    options.shutterPosition = static_cast<ShutterPosition>(dice.whole(0, 2));
-    options.motionSegments = static_cast<std::uint32_t>(dice.whole(1, 64));
+    options.shutterPosition = static_cast<ShutterPosition>(dice.integer(0, 2));
+    options.motionSegments = static_cast<std::uint32_t>(dice.integer(1, 64));
     if (dice.coin()) options.motionSegments = ExactMotion{};
     if (dice.coin()) options.environment = dice.name() + ".hdr";
     if (dice.coin()) options.background = TransparentBackground{};
@@ -54,12 +54,12 @@ inline Request randomOptions(Dice& dice) {
     if (dice.coin()) options.nodeBlur = {{dice.name(), dice.number(0, 3)}, {"another", 0}};
     if (dice.coin()) options.hide = {dice.name(), "7"};
     if (dice.coin()) options.cocTolerance = dice.number(0.01, 3);
-    options.samples = static_cast<std::uint32_t>(dice.whole(1, 4096));
-    options.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
-    if (dice.coin()) options.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
-    options.lod = static_cast<LodMode>(dice.whole(0, 3));
-    options.lodMetric = static_cast<LodMetric>(dice.whole(0, 2));
-    options.levelVertices = static_cast<LevelVertices>(dice.whole(0, 1));
+    options.samples = static_cast<std::uint32_t>(dice.integer(1, 4096));
+    options.sequence = allSequences[static_cast<std::size_t>(dice.integer(0, 3))];
+    if (dice.coin()) options.seed = static_cast<std::uint32_t>(dice.integer(0, 1'000'000));
+    options.lod = static_cast<LodMode>(dice.integer(0, 3));
+    options.lodMetric = static_cast<LodMetric>(dice.integer(0, 2));
+    options.levelVertices = static_cast<LevelVertices>(dice.integer(0, 1));
     if (dice.coin()) options.lodCoc = LodCoc::centre;
     if (dice.coin()) options.blurThreshold = dice.number(0, 2);
     if (dice.coin()) options.sizeThreshold = dice.number(0, 9);
@@ -68,7 +68,7 @@ inline Request randomOptions(Dice& dice) {
     if (!options.noCache && dice.coin()) options.cacheFolder = dice.name();
     if (dice.coin()) setByName(options, "method", "circular:far-components=3");
     if (dice.coin()) options.layerFormat = LayerFormat::rgba32f;
-    if (dice.coin()) options.wave = static_cast<std::uint32_t>(dice.whole(1, 64));
+    if (dice.coin()) options.wave = static_cast<std::uint32_t>(dice.integer(1, 64));
     return options;
 }
 
@@ -80,7 +80,7 @@ inline void changeFields(Lens& lens, Dice& dice) {
         const double max = std::min(field.max, 60.0);
         double value = dice.number(min, max);
         if (!std::holds_alternative<double Lens::*>(field.member)) value = std::round(value);
-        if (field.name == std::string_view("bladeCount")) value = dice.whole(3, 9);
+        if (field.name == std::string_view("bladeCount")) value = dice.integer(3, 9);
         if (field.name == std::string_view("exposureTime") && dice.coin()) value = 0;
         setLensField(lens, field, value);
     }

@@ -195,10 +195,10 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         View view;
         view.lens = frame.cameraLens;
         changeFields(view.lens, dice);
-        view.width = dice.whole(1, 4000);
-        view.height = dice.whole(1, 4000);
+        view.width = dice.integer(1, 4000);
+        view.height = dice.integer(1, 4000);
         view.worldFromCamera = randomCamera(dice);
-        WriteOptions write{static_cast<ToneMap>(dice.whole(0, 3)), dice.coin() ? dice.number(-5, 5) : 0};
+        WriteOptions write{static_cast<ToneMap>(dice.integer(0, 3)), dice.coin() ? dice.number(-5, 5) : 0};
         if (view.lens.exposureTime > 0) write.exposure = photographicExposure(view.lens);
         const std::string command = renderCommand({options, frame, view, dice.number(0.1, 20), write, "-out.png"});
         SCOPED_TRACE(command);

@@ -323,7 +323,7 @@ TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
     };
     int triangles = 90'000;
     while (!changesTheStopOfCoarseShapes(triangles)) {
-        ASSERT_LT(triangles, 3'000'000) << "the coarse shapes were never seen: " << state();
+        ASSERT_LT(triangles, 3'000'000) << "the coarse shapes must appear first: " << state();
         key("ctrl+q");
         ASSERT_EQ(ended(), 0);
         triangles *= 2;

@@ -71,7 +71,7 @@ protected:
     }
 };
 
-TEST_F(ViewTools, whatMovesIsDrawnAtHalfTheSizeAtLeast) {
+TEST_F(ViewTools, movingViewsAreDrawnAtHalfSizeOrLarger) {
     openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
     act("mousemove 100 200 keydown d");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == true && s.at("changes") > 5; })) << state();

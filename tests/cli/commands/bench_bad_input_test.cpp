@@ -61,7 +61,7 @@ TEST_F(Bench, convergenceLeavesNothingWhereItCannotBegin) {
 TEST(BenchResults, areNotWrittenFromChangedSources) {
     try {
         refuseChangedSources("out", false, "0123456789ab-changed");
-        FAIL() << "nothing was thrown";
+        FAIL() << "an Error must be thrown";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("out: "), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();

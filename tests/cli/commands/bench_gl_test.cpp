@@ -41,7 +41,7 @@ protected:
             for (std::string cell; std::getline(values, cell, ',');) cells.push_back(cell);
             std::string key;
             for (std::size_t i = first; i < first + keys; ++i) key += cells.at(i) + ' ';
-            EXPECT_TRUE(rows.emplace(key, cells).second) << key << "is there twice in " << file;
+            EXPECT_TRUE(rows.emplace(key, cells).second) << key << " occurs twice in " << file;
         }
         return rows;
     }
@@ -70,7 +70,7 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
 
 TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
-    const auto whole = rowsOf("out/runs.csv", 1, 5);
+    const auto full = rowsOf("out/runs.csv", 1, 5);
     const std::string journal = textOf(folder() / "out/runs.csv");
     for (const double share : {0.1, 0.43, 0.77, 0.999, 1.0}) {
         const auto length = static_cast<std::size_t>(share * static_cast<double>(journal.size()));
@@ -78,8 +78,8 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
         const Outcome outcome = bench({"-o", "out", "--resume"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         const auto rows = rowsOf("out/runs.csv", 1, 5);
-        ASSERT_EQ(rows.size(), whole.size()) << share;
-        for (const auto& [key, cells] : whole) {
+        ASSERT_EQ(rows.size(), full.size()) << share;
+        for (const auto& [key, cells] : full) {
             ASSERT_TRUE(rows.contains(key)) << key;
             EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // mse
         }

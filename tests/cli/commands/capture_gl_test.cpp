@@ -92,7 +92,7 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
         const std::string text = resumed(options).err;
         return text.find("rendered") == std::string::npos ? 0 : std::atoi(text.c_str() + text.find(": ") + 2);
     };
-    EXPECT_EQ(rendered({}), 0) << "PNG and JPEG say of what they were made, too";
+    EXPECT_EQ(rendered({}), 0) << "PNG and JPEG store their settings, too";
     const std::string first = bytesOf("a0.png");
     const Outcome refused = resumed({"--samples", "9"});
     expectOneLine(refused, 1);
@@ -122,12 +122,12 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(readImage(folder() / "x3.exr", metadata).width, 32);
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 4);
     EXPECT_EQ(std::get<double>(metadata.at("aperture")), 4);
-    EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-6) << "the camera stands still again";
+    EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-6) << "the scene's camera does not move";
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
-// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at its own time,
-// whichever frames are rendered with it.
+// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at the frame's
+// own time, independent of the other frames in the run.
 TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     json dolly = shot();
     dolly.erase("focus");
@@ -221,7 +221,7 @@ TEST_F(Capture, faultsAreOneLine) {
     }
     writeShot(shot());
     EXPECT_NE(capture({"--clip", "Nobody"}).err.find("defocus: there is no animation 'Nobody'"), std::string::npos)
-        << "an option has no place in the shot";
+        << "an option has no path in the shot";
     wrong["focus"] = 3;
     writeShot(wrong);
     const Outcome focus = capture({});
@@ -247,7 +247,7 @@ TEST_F(Capture, fullDiskIsOneLineAndKeepsWhatIsThere) {
     EXPECT_NE(outcome.err.find("--resume"), std::string::npos) << outcome.err;
     EXPECT_TRUE(bytesOf(name(0)) == first);
     EXPECT_FALSE(fs::exists(folder() / name(3)));
-    EXPECT_EQ(fileCount(), 2u + 1 + 3 + 1) << "scene, shot, folder, frames, times";
+    EXPECT_EQ(fileCount(), 2u + 1 + 3 + 1) << "scene, shot, folder, three frames, times";
 }
 
 TEST_F(Capture, withoutFfmpegAFilmIsRefusedBeforeTheWork) {

@@ -73,8 +73,8 @@ protected:
 
 // The capture is killed before a write into one of the next frames, or before a frame is renamed.
 TEST_F(Survival, killedFiftyTimesAndResumed) {
-    const Outcome whole = capture({"--range", "0:23", "-o", "whole/####.exr"});
-    ASSERT_EQ(whole.exitCode, 0) << whole.err;
+    const Outcome full = capture({"--range", "0:23", "-o", "whole/####.exr"});
+    ASSERT_EQ(full.exitCode, 0) << full.err;
     TracedChild undisturbed = startTraced();
     DEFOCUS_TRACED_OR_SKIP(undisturbed);
     ASSERT_EQ(undisturbed.end(), 0) << bytesOf("said");

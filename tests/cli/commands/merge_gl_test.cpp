@@ -29,11 +29,11 @@ TEST_F(Merge, partsGiveTheBitsOfASingleRun) {
         const std::vector<std::string> more = {"--background", background, "--lod", "continuous"};
         ASSERT_EQ(part("0:64", "a.exr", more).exitCode, 0);
         ASSERT_EQ(part("64:150", "b.exr", more).exitCode, 0);
-        std::vector<std::string> whole = {"render", "quads.gltf", "--quiet", "--size", "64x48",     "--fstop",
-                                          "1",      "--samples",  "150",     "-o",     "whole.exr", "--focus-distance",
-                                          "3"};
-        whole.insert(whole.end(), more.begin(), more.end());
-        ASSERT_EQ(run(whole).exitCode, 0);
+        std::vector<std::string> full = {"render", "quads.gltf", "--quiet", "--size", "64x48",     "--fstop",
+                                         "1",      "--samples",  "150",     "-o",     "whole.exr", "--focus-distance",
+                                         "3"};
+        full.insert(full.end(), more.begin(), more.end());
+        ASSERT_EQ(run(full).exitCode, 0);
         const Outcome merged = run({"merge", "b.exr", "a.exr", "-o", "merged.exr", "-o", "merged.png"});
         ASSERT_EQ(merged.exitCode, 0) << merged.err;
         EXPECT_EQ(pixelsOf("merged.exr"), pixelsOf("whole.exr")) << background;
@@ -51,17 +51,17 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     ASSERT_EQ(capture({"--range", "2", "-o", "f#.exr"}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "2", "-o", "f#.exr", "--sample-range", "0:64"}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "2", "-o", "f#.exr", "--sample-range", "64:128", "--resume"}).exitCode, 0);
-    const std::string whole = bytesOf("f2.exr");
+    const std::string full = bytesOf("f2.exr");
     ASSERT_EQ(
         run({"merge", "--quiet", "f2.part00000-00064.exr", "f2.part00064-00128.exr", "-o", "merged.exr"}).exitCode, 0);
-    EXPECT_TRUE(bytesOf("merged.exr") == whole);
+    EXPECT_TRUE(bytesOf("merged.exr") == full);
     // The merged file counts as a finished frame and is kept.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});
     EXPECT_NE(resumed.err.find("1 of them there before"), std::string::npos) << resumed.err;
 }
 
-// The camera turns while the shutter is open. Each sample has its own time, whichever part contains the sample.
+// The camera turns while the shutter is open. Each sample has its own time, independent of the part that contains it.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;
@@ -74,13 +74,13 @@ TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
             return capture(more).exitCode;
         };
         ASSERT_EQ(film({}), 0);
-        const std::string whole = bytesOf("f2.exr");
+        const std::string full = bytesOf("f2.exr");
         for (const char* range : {"0:64", "64:128", "128:150"}) ASSERT_EQ(film({"--sample-range", range}), 0);
         ASSERT_EQ(run({"merge", "--quiet", "f2.part00128-00150.exr", "f2.part00000-00064.exr", "f2.part00064-00128.exr",
                        "-o", "merged.exr"})
                       .exitCode,
                   0);
-        EXPECT_TRUE(bytesOf("merged.exr") == whole) << segments;
+        EXPECT_TRUE(bytesOf("merged.exr") == full) << segments;
         EXPECT_NE(pixelsOf("merged.exr"), pixelsOf("still2.exr")) << "nothing moves";
     }
 }

@@ -55,7 +55,7 @@ TEST_F(NewShot, replacesNoneUnasked) {
     EXPECT_EQ(textOf(folder() / "ball.json"), "mine");
     ASSERT_EQ(run({"new-shot", "scenes/ball.glb", "--overwrite"}).exitCode, 0);
     EXPECT_EQ(shot("ball.json").at("frameRate"), 24);
-    EXPECT_EQ(textOf(folder() / "shot.schema.json"), "mine too") << "a schema that is there stays";
+    EXPECT_EQ(textOf(folder() / "shot.schema.json"), "mine too") << "an existing schema is kept";
 }
 
 TEST_F(NewShot, faultsAreOneLine) {

@@ -22,7 +22,7 @@ TEST_F(SettingsPages, shotSchemaIsThatOfTheProgram) {
     const Outcome outcome = run({"settings", "--shot-schema", DEFOCUS_SOURCE_DIR "/docs/shot.schema.json"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out, published("shot.schema.json"))
-        << "defocus settings --shot-schema docs/shot.schema.json writes it anew";
+        << "defocus settings --shot-schema docs/shot.schema.json regenerates the file";
 }
 
 TEST_F(SettingsPages, tableAndJsonNameEverySetting) {

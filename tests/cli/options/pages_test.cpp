@@ -52,10 +52,10 @@ TEST_F(Pages, bashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(offered("defocus re"), Words({"render"}));
     EXPECT_EQ(offered("defocus bench spe"), Words({"speedup"}));
     EXPECT_EQ(offered("defocus render --fst"), Words({"--fstop"}));
-    EXPECT_EQ(offered("defocus render --qui"), Words({"--quiet"})) << "options of the program, too";
+    EXPECT_EQ(offered("defocus render --qui"), Words({"--quiet"})) << "includes the program's own options";
     EXPECT_EQ(offered("defocus --quiet render --fst"), Words({"--fstop"}));
     EXPECT_EQ(offered("defocus render --lod ''"), Words({"fractional", "continuous", "nearest", "off"}));
-    EXPECT_EQ(offered("defocus render --lod = o"), Words({"off"})) << "bash parts words at =";
+    EXPECT_EQ(offered("defocus render --lod = o"), Words({"off"})) << "bash splits words at =";
     EXPECT_EQ(offered("defocus render --aov depth,c"), Words({"depth,coc"}));
     EXPECT_EQ(offered("defocus render --method circ"), Words({"circular"}));
     EXPECT_EQ(offered("defocus render --fstop ''"), Words()) << "a number";
@@ -119,14 +119,14 @@ TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
         return std::distance(std::sregex_iterator(help.begin(), help.end(), line), std::sregex_iterator());
     };
     const std::string brief = run({"render", "--help"}).out;
-    const std::string whole = run({"render", "--help-all"}).out;
+    const std::string full = run({"render", "--help-all"}).out;
     EXPECT_LE(optionLines(brief), 16);
-    EXPECT_EQ(static_cast<std::size_t>(optionLines(whole)), optionsOffered("render").size() - 1 + 2)
-        << "the scene has no dash; both helps are lines";
+    EXPECT_EQ(static_cast<std::size_t>(optionLines(full)), optionsOffered("render").size() - 1 + 2)
+        << "the scene has no dash; --help and --help-all have a line each";
     EXPECT_NE(brief.find("--fstop"), std::string::npos);
     EXPECT_EQ(brief.find("--coc-tolerance"), std::string::npos);
     EXPECT_NE(brief.find("--help-all"), std::string::npos);
-    EXPECT_NE(whole.find("--coc-tolerance"), std::string::npos);
+    EXPECT_NE(full.find("--coc-tolerance"), std::string::npos);
     for (const char* line : {"--range FIRST:LAST", "--sample-range FIRST:END", "--set /PLACE=VALUE"})
         EXPECT_NE(run({"capture", "--help-all"}).out.find(line), std::string::npos) << line;
 }

@@ -31,7 +31,7 @@ protected:
 };
 
 TEST_F(SceneOptionsTest, camerasFieldOfViewGivesTheFocalLength) {
-    // tan(θx/2) = k·0.27; f = 36 mm / (2·tan(θx/2)).
+    // tan(θx/2) is the aspect ratio times 0.27, and f = 36 mm / (2·tan(θx/2)).
     EXPECT_NEAR(lens("focalLength", {"--size", "1024x768"}), 50, 1e-6);
     EXPECT_NEAR(lens("focalLength", {"--size", "300x300"}), 36 / (2 * 0.27), 1e-6);
     EXPECT_NEAR(lens("focalLength", {"--horizontal-aperture", "24"}), 24 / (2 * 0.36), 1e-6);

@@ -28,7 +28,7 @@ TEST(TimeLeft, followsThePaceOfAStage) {
     TimeLeft time;
     EXPECT_FALSE(time.after("samples", 0, 100));
     EXPECT_FALSE(time.after("samples", 0.5, 100.5)) << "too early to tell";
-    EXPECT_FALSE(time.after("samples", 0.25, 110)) << "a share that falls begins anew";
+    EXPECT_FALSE(time.after("samples", 0.25, 110)) << "a smaller share restarts the estimate";
     EXPECT_NEAR(time.after("samples", 0.5, 120).value(), 20, 1e-9);
     EXPECT_FALSE(time.after("pyramids", 0.1, 130)) << "another stage";
     EXPECT_NEAR(time.after("pyramids", 0.2, 140).value(), 80, 1e-9);

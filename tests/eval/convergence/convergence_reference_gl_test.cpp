@@ -102,7 +102,7 @@ TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
     EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
     writeFile(folder_ / "reference-half.exr", "");
-    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file is no loss";
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file may be replaced";
     writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // another image under the reference's name
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
 }
@@ -110,15 +110,15 @@ TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
 TEST_F(ConvergenceReference, isRenderedAnewWhereTheFileIsDamaged) {
     const ReferenceImage first = reference();
     const fs::path path = folder_ / "reference.exr";
-    const std::vector<std::byte> whole = readFile(path);
+    const std::vector<std::byte> full = readFile(path);
     for (const double share : {0.0, 0.01, 0.5, 0.99}) {
-        writeFile(path, std::span(whole).first(static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+        writeFile(path, std::span(full).first(static_cast<std::size_t>(share * static_cast<double>(full.size()))));
         const ReferenceImage anew = reference();
         EXPECT_FALSE(anew.reused) << share;
         EXPECT_EQ(anew.image.pixels, first.image.pixels);
     }
     for (const double place : {0.3, 0.6, 0.9}) {
-        std::vector<std::byte> bytes = whole;
+        std::vector<std::byte> bytes = full;
         bytes[static_cast<std::size_t>(place * static_cast<double>(bytes.size()))] ^= std::byte{0x10};
         writeFile(path, bytes);
         EXPECT_EQ(reference().image.pixels, first.image.pixels) << place;

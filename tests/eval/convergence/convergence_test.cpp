@@ -173,7 +173,7 @@ TEST(ConvergenceRows, errorsAreMeansOverSeeds) {
     EXPECT_EQ(row.ofSeeds.size(), 2u);
     EXPECT_DOUBLE_EQ(row.error.mse, 0.5);
     EXPECT_DOUBLE_EQ(row.error.flip, 0.25);
-    EXPECT_NE(convergenceRows(runs)[0].fault, "") << "of one seed they would be no one image";
+    EXPECT_NE(convergenceRows(runs)[0].fault, "") << "runs with the same seed must give the same image";
     EXPECT_NE(convergenceRows(std::vector{runs[0], runs[1], runOf("a", "x", 8, 2, 1, 0.3)}, {}, 2)[0].fault, "");
 }
 

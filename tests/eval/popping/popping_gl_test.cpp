@@ -63,7 +63,7 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     for (const PoppingFrame& frame : frames_) {
         EXPECT_GE(frame.frame, 1);
         EXPECT_LE(frame.frame, 5);
-        EXPECT_GE(frame.change.objects.rmse, frame.change.image.rmse) << "what differs lies in the objects' pixels";
+        EXPECT_GE(frame.change.objects.rmse, frame.change.image.rmse) << "differences lie in the objects' pixels";
         EXPECT_GE(frame.step.objects.rmse, frame.step.image.rmse);
         fastest = std::max(fastest, frame.speed);
         worst = std::max(worst, frame.step.image.rmse);
@@ -72,8 +72,8 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// A whole level's pop is the sum of N steps. By the triangle inequality each step is at least 1/N of it in the mean.
-// Steps of different samples add up at most like random ones: 1/√N.
+// A full level's pop is the sum of N steps. By the triangle inequality, the mean step is at least 1/N of the pop. Steps
+// of different samples add up at most like random ones: 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -89,7 +89,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
     const auto small = spheres();
     EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 1), Error);
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 3.14, glm::dvec3(0, 1, 0));
-    EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "nothing to be seen";
+    EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "the camera sees no object";
 }
 
 // The busiest stretch has the max number of changes of the nearest level among all stretches of its length.
@@ -124,8 +124,7 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
 
 // ---- the objects' pixels --------------------------------------------------------------------------------------------
 
-// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing, whatever
-// its blur.
+// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);

@@ -47,7 +47,7 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
             EXPECT_LE(row.predicted, 2 * row.rendered) << predictionLine(row);
         }
     }
-    EXPECT_GE(used, 3) << "the samples, and levels";
+    EXPECT_GE(used, 3) << "too few rows were compared";
     // The share of misplaced light increases from level to level.
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].level > 1) {

@@ -52,7 +52,7 @@ TEST(ScalingFit, needsTwoDifferentPlaces) {
     EXPECT_FALSE(fittedPowerLaw({}));
     EXPECT_FALSE(fittedPowerLaw(Points{{5, 1}}));
     EXPECT_FALSE(fittedPowerLaw(Points{{5, 1}, {5, 2}}));
-    EXPECT_FALSE(fittedPowerLaw(Points{{1, 1}, {100, 2}})) << "only one of them in the upper half";
+    EXPECT_FALSE(fittedPowerLaw(Points{{1, 1}, {100, 2}})) << "only one point in the upper half";
 }
 
 // ---- what bounds a frame --------------------------------------------------------------------------------------------
@@ -71,7 +71,7 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 2, 3).largestParts(), Parts{ScalingPart::fill});
     EXPECT_EQ(rowOf(1, 10, 6, 3).largestParts(), Parts{ScalingPart::layers});
     EXPECT_EQ(rowOf(1, 10, 1, 8).largestParts(), Parts{ScalingPart::vertices});
-    EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "parts that overlap leave nothing";
+    EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "overlapping parts leave no time for fill";
 }
 
 // The unexplained time differs from run to run: 5, 7 and 6 ms.
@@ -143,7 +143,7 @@ TEST(ScalingFiles, csvJsonAndSummaryHoldEveryCurve) {
     EXPECT_NEAR(json["curves"][0]["time"]["exponent"].get<double>(), 1, 1e-9);
     EXPECT_NEAR(json["curves"][1]["time"]["exponent"].get<double>(), 0, 1e-9);
     EXPECT_EQ(json["leftOut"][0]["value"], 50e6);
-    EXPECT_TRUE(json["curves"][0]["gpuMemory"].is_null()) << "none was measured";
+    EXPECT_TRUE(json["curves"][0]["gpuMemory"].is_null()) << "no GPU memory was measured";
     EXPECT_NE(scalingSummary(rows).find("exponent  1.00"), std::string::npos) << scalingSummary(rows);
 }
 
@@ -198,7 +198,8 @@ TEST(ScalingWorlds, aGridFillsTheSameView) {
             EXPECT_LE(-middle.z, 6);
             const Bounds placed = transformed(box, viewFromWorld * object.worldFromObject);
             const double longest = std::max({placed.size().x, placed.size().y, placed.size().z});
-            EXPECT_LE(longest, 2 * 0.8 * tanX * 0.75 * -middle.z / side * 1.8) << "it stays by its cell";
+            EXPECT_LE(longest, 2 * 0.8 * tanX * 0.75 * -middle.z / side * 1.8)
+                << "an instance must not exceed its cell";
         }
     }
 }

@@ -154,9 +154,9 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
     const std::vector<double> numbers = {nan,  infinity, -infinity, 0, -0.0, -1,  1e-300,
                                          1e-9, 0.5,      1,         3, 64,   1e6, 1e300};
     const auto number = [&] { return numbers[generator() % numbers.size()]; };
-    const auto whole = [&] {
-        const std::vector<std::int64_t> wholes = {-2147483648LL, -1, 0, 1, 2, 3, 63, 64, 16'384, 2147483647LL};
-        return wholes[generator() % wholes.size()];
+    const auto integer = [&] {
+        const std::vector<std::int64_t> integers = {-2147483648LL, -1, 0, 1, 2, 3, 63, 64, 16'384, 2147483647LL};
+        return integers[generator() % integers.size()];
     };
     const std::vector<std::function<void(Request&)>> setters = {
         [&](Request& r) { r.lens.focalLength = number(); },
@@ -166,7 +166,7 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.lens.blurScale = number(); },
         [&](Request& r) { r.lens.focusBreathing = true; },
         [&](Request& r) { r.lens.anamorphicRatio = number(); },
-        [&](Request& r) { r.lens.bladeCount = static_cast<int>(whole()); },
+        [&](Request& r) { r.lens.bladeCount = static_cast<int>(integer()); },
         [&](Request& r) { r.lens.bladeCurvature = number(); },
         [&](Request& r) { r.lens.catEye = number(); },
         [&](Request& r) { r.lens.axialChromaticAberration = number(); },
@@ -178,8 +178,8 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.lens.focusTilt = number(); },
         [&](Request& r) { r.lens.fieldCurvature = number(); },
         [&](Request& r) { r.lens.radialBlurGain = number(); },
-        [&](Request& r) { r.size.width = static_cast<int>(whole()); },
-        [&](Request& r) { r.size.height = static_cast<int>(whole()); },
+        [&](Request& r) { r.size.width = static_cast<int>(integer()); },
+        [&](Request& r) { r.size.height = static_cast<int>(integer()); },
         [&](Request& r) { r.time = number(); },
         [&](Request& r) { r.shutter = number(); },
         [&](Request& r) {
@@ -192,14 +192,14 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
             r.cameraUp = Vector3{number(), number(), number()};
         },
         [&](Request& r) {
-            r.focus = FocusPixel{{static_cast<int>(whole()), static_cast<int>(whole())}};
+            r.focus = FocusPixel{{static_cast<int>(integer()), static_cast<int>(integer())}};
         },
-        [&](Request& r) { r.samples = static_cast<std::uint32_t>(whole() & 0xff); },
-        [&](Request& r) { r.seed = static_cast<std::uint32_t>(whole()); },
-        [&](Request& r) { r.sequence = static_cast<Sequence>(whole()); },
-        [&](Request& r) { r.lod = static_cast<LodMode>(whole()); },
-        [&](Request& r) { r.lodMetric = static_cast<LodMetric>(whole()); },
-        [&](Request& r) { r.levelVertices = static_cast<LevelVertices>(whole()); },
+        [&](Request& r) { r.samples = static_cast<std::uint32_t>(integer() & 0xff); },
+        [&](Request& r) { r.seed = static_cast<std::uint32_t>(integer()); },
+        [&](Request& r) { r.sequence = static_cast<Sequence>(integer()); },
+        [&](Request& r) { r.lod = static_cast<LodMode>(integer()); },
+        [&](Request& r) { r.lodMetric = static_cast<LodMetric>(integer()); },
+        [&](Request& r) { r.levelVertices = static_cast<LevelVertices>(integer()); },
         [&](Request& r) { r.blurThreshold = number(); },
         [&](Request& r) { r.sizeThreshold = number(); },
         [&](Request& r) { r.lightThreshold = number(); },

@@ -48,11 +48,11 @@ protected:
 };
 
 TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
-    const Image whole = render(smallRequest());
-    ASSERT_EQ(whole.width, 96);
-    ASSERT_EQ(whole.height, 72);
-    ASSERT_EQ(whole.channels, 4);
-    EXPECT_GT(std::set<float>(whole.pixels.begin(), whole.pixels.end()).size(), 100u);  // the image is not empty
+    const Image full = render(smallRequest());
+    ASSERT_EQ(full.width, 96);
+    ASSERT_EQ(full.height, 72);
+    ASSERT_EQ(full.channels, 4);
+    EXPECT_GT(std::set<float>(full.pixels.begin(), full.pixels.end()).size(), 100u);  // the image is not empty
 
     SceneRenderer renderer(smallRequest());
     EXPECT_EQ(renderer.samples(), 0u);
@@ -66,7 +66,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
         EXPECT_FALSE(renderer.image().empty());
     }
     EXPECT_EQ(steps, (std::vector<std::uint32_t>{4, 8, 12, 16}));
-    EXPECT_EQ(renderer.image().pixels, whole.pixels);
+    EXPECT_EQ(renderer.image().pixels, full.pixels);
     const RenderStatistics statistics = renderer.statistics();
     EXPECT_EQ(statistics.samples, 16u);
     EXPECT_GT(statistics.trianglesDrawn, 0u);
@@ -138,7 +138,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
 
 TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     struct Cancelled {};
-    const Image whole = render(smallRequest());
+    const Image full = render(smallRequest());
     SceneRenderer renderer(smallRequest());
     EXPECT_THROW(renderer.render([](std::string_view, std::uint64_t done, std::uint64_t) {
         if (done >= 8) throw Cancelled();
@@ -146,7 +146,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
                  Cancelled);
     EXPECT_EQ(renderer.samples(), 8u);
     EXPECT_FALSE(renderer.image().empty());
-    EXPECT_EQ(renderer.render().pixels, whole.pixels);
+    EXPECT_EQ(renderer.render().pixels, full.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
     // The same holds while levels are built for the first time.
@@ -156,7 +156,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     const Image sharpImage = late.render();
     EXPECT_THROW(late.render(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
     EXPECT_EQ(late.image().pixels, sharpImage.pixels);  // the previous frame is still available
-    EXPECT_EQ(late.render(smallRequest()).pixels, whole.pixels);
+    EXPECT_EQ(late.render(smallRequest()).pixels, full.pixels);
 }
 
 TEST_F(SceneRendererTest, aStopThatIsAskedForEndsWithWhatThereIs) {
@@ -181,7 +181,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     EXPECT_THROW(static_cast<void>(renderer.planJson()), Error);
     renderer.start();
     EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample has been rendered
-    const Image whole = renderer.render();
+    const Image full = renderer.render();
 
     std::vector<Request> bad(5, smallRequest());
     bad[0].fishCount = 3;  // a different scene
@@ -190,7 +190,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     bad[3].environment = folder_ / "missing.hdr";
     bad[4].nodeBlur["none such"] = 1;
     for (const Request& request : bad) EXPECT_THROW(renderer.start(request), Error);
-    EXPECT_EQ(renderer.image().pixels, whole.pixels);
+    EXPECT_EQ(renderer.image().pixels, full.pixels);
 }
 
 TEST_F(SceneRendererTest, aSceneIsSharedAndNobodyChangesIt) {
@@ -306,7 +306,7 @@ TEST_F(SceneRendererTest, interleavedRenderersDrawWhatTheyDrawAlone) {
 }
 
 TEST_F(SceneRendererTest, anotherThreadMayGoOn) {
-    const Image whole = render(smallRequest());
+    const Image full = render(smallRequest());
     auto renderer = std::make_unique<SceneRenderer>(smallRequest());
     renderer->start();
     renderer->advance();
@@ -316,8 +316,8 @@ TEST_F(SceneRendererTest, anotherThreadMayGoOn) {
         }
         image = renderer->image();
     }).join();
-    EXPECT_EQ(image.pixels, whole.pixels);
-    EXPECT_EQ(renderer->render().pixels, whole.pixels);
+    EXPECT_EQ(image.pixels, full.pixels);
+    EXPECT_EQ(renderer->render().pixels, full.pixels);
     std::thread([&] { renderer.reset(); }).join();
 }
 
@@ -336,7 +336,7 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
 
 // A frame that exceeds the memory limit in one piece has the same bits in tiles, from the top row on.
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
-    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
+    if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     Request request = smallRequest();
     request.size.width = 1600;
     request.size.height = 1200;
@@ -344,11 +344,11 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.samples = 4;
     (void)render(smallRequest());
     const std::uint64_t held = residentMemory();  // before the first large image, whose memory the driver keeps
-    Image whole;
+    Image full;
     std::vector<std::string> warnings;
     {
         SceneRenderer renderer(request);
-        whole = renderer.render();
+        full = renderer.render();
         warnings = renderer.warnings();
     }
 
@@ -367,13 +367,13 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
         before = other.samples();
     }
     EXPECT_EQ(other.samples(), 4u);
-    EXPECT_GT(steps, 1) << "it was one piece, which is drawn at once";
-    EXPECT_TRUE(other.image().pixels == whole.pixels);
+    EXPECT_GT(steps, 1) << "a frame in one piece is drawn in a single step";
+    EXPECT_TRUE(other.image().pixels == full.pixels);
     EXPECT_EQ(other.statistics().samples, 4u);
     EXPECT_EQ(other.warnings(), warnings);
     EXPECT_THROW(other.aovs(), std::exception);
     other.write(folder_ / "image.exr", other.image());
-    EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == whole.pixels);
+    EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == full.pixels);
 
     // Another frame of the same size is drawn in the same way.
     Request moved = request;

@@ -22,7 +22,8 @@ TEST(ClippingWarnings, tellOfAPictureThatIsMostlyWhite) {
     EXPECT_TRUE(lines.front().starts_with("60 % of the picture is white at an exposure of 0 EV")) << lines.front();
     EXPECT_TRUE(lines.front().ends_with("--exposure -12")) << "log2(0.18 / 1000) " << lines.front();
     EXPECT_TRUE(clippingWarnings(twoParts(60, 1000, 0.1f), {ToneMap::none, -12.0}).empty());
-    EXPECT_TRUE(clippingWarnings(twoParts(40, 1000, 0.1f), {ToneMap::none, 0}).empty()) << "a bright window is none";
+    EXPECT_TRUE(clippingWarnings(twoParts(40, 1000, 0.1f), {ToneMap::none, 0}).empty())
+        << "a bright window is no fault";
 }
 
 TEST(ClippingWarnings, tellOfAPictureThatIsAllBlack) {
@@ -30,7 +31,7 @@ TEST(ClippingWarnings, tellOfAPictureThatIsAllBlack) {
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_TRUE(lines.front().starts_with("100 % of the picture is black")) << lines.front();
     EXPECT_TRUE(lines.front().ends_with("--exposure 11")) << "log2(0.18 / 1e-4) " << lines.front();
-    EXPECT_TRUE(clippingWarnings(twoParts(100, 0, 0), {ToneMap::none, 0}).empty()) << "no exposure helps";
+    EXPECT_TRUE(clippingWarnings(twoParts(100, 0, 0), {ToneMap::none, 0}).empty()) << "no exposure can brighten black";
 }
 
 TEST(ClippingWarnings, colouredLightIsNotWhite) {

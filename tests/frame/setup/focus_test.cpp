@@ -61,30 +61,31 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
         return std::uniform_real_distribution<double>(min, max)(generator);
     };
     for (int i = 0; i < 100; ++i) {
-        Lens truth;
-        truth.focusDistance = std::exp(random(-2, 3));
-        truth.focusSwing = random(-0.6, 0.6);
-        truth.focusTilt = random(-0.6, 0.6);
-        truth.fieldCurvature = random(-0.5, 1);
-        const double tanX = tanHalfHorizontalFov(truth);
+        Lens expected;
+        expected.focusDistance = std::exp(random(-2, 3));
+        expected.focusSwing = random(-0.6, 0.6);
+        expected.focusTilt = random(-0.6, 0.6);
+        expected.fieldCurvature = random(-0.5, 1);
+        const double tanX = tanHalfHorizontalFov(expected);
         std::vector<glm::dvec3> points;
         const int count = 4 + i % 13;
         while (points.size() < static_cast<std::size_t>(count)) {
             const glm::dvec2 field(random(-1, 1), random(-0.75, 0.75));
-            const double focus = 1 + truth.fieldCurvature * glm::dot(field, field) +
-                                 tanX * (std::tan(truth.focusSwing) * field.x + std::tan(truth.focusTilt) * field.y);
+            const double focus =
+                1 + expected.fieldCurvature * glm::dot(field, field) +
+                tanX * (std::tan(expected.focusSwing) * field.x + std::tan(expected.focusTilt) * field.y);
             ASSERT_GT(focus, 0);
-            const double depth = truth.focusDistance / focus;
+            const double depth = expected.focusDistance / focus;
             points.emplace_back(depth * tanX * field.x, depth * tanX * field.y, -depth);
         }
         Lens lens;
         focusThrough(points, lens, "test");
         // Four points may be almost concyclic.
         const double tolerance = count == 4 ? 1e-5 : 1e-7;
-        EXPECT_NEAR(lens.focusDistance / truth.focusDistance, 1, tolerance);
-        EXPECT_NEAR(lens.focusSwing, truth.focusSwing, tolerance);
-        EXPECT_NEAR(lens.focusTilt, truth.focusTilt, tolerance);
-        EXPECT_NEAR(lens.fieldCurvature, truth.fieldCurvature, tolerance);
+        EXPECT_NEAR(lens.focusDistance / expected.focusDistance, 1, tolerance);
+        EXPECT_NEAR(lens.focusSwing, expected.focusSwing, tolerance);
+        EXPECT_NEAR(lens.focusTilt, expected.focusTilt, tolerance);
+        EXPECT_NEAR(lens.fieldCurvature, expected.fieldCurvature, tolerance);
         EXPECT_NEAR(circleOfConfusion(clipCircleOfConfusion(lens, 1000, 750), -points[0].z, 1000,
                                       glm::dvec2(points[0]) / (-points[0].z * tanX) * glm::dvec2(1, 4.0 / 3)),
                     0, 1e-3);
@@ -122,7 +123,7 @@ TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     Lens lens;
     focusThrough(points, lens, "test");
     EXPECT_NEAR(lens.focusSwing, 0, 1e-9);
-    EXPECT_LT(lens.focusTilt, -0.01) << "its top lies farther away";
+    EXPECT_LT(lens.focusTilt, -0.01) << "the top of the plane is farther away";
 }
 
 // The default focus on a box is its visible front, not its centre. If the middle of the image is empty, the scene's

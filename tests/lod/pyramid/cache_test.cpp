@@ -1,4 +1,4 @@
-// A cache must be invisible: what comes out of it is what would have been built, bit for bit, whatever happens to it.
+// Loading from the cache equals building, bit for bit, even after damage to a file.
 
 #include "lod/pyramid/cache.h"
 
@@ -63,7 +63,8 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
     }
 }
 
-// Every stream, two primitives, a morph target, and colours that differ within a vertex's place.
+// A torus with every vertex stream, two primitives, a morph target, and colours that differ between vertices at one
+// position.
 Mesh decoratedTorus(std::uint32_t columns = 24, std::uint32_t rows = 16) {
     Mesh mesh = torus(columns, rows);
     MorphTarget target;
@@ -101,14 +102,14 @@ struct Encoded {
     Bytes bytes = encodePyramid(pyramid, mesh, key);
 };
 
-// The checksum that a file with these bytes would have been written with.
+// Writes the checksum that belongs to the file's bytes.
 void seal(Bytes& bytes) {
     const std::size_t checked = offsetof(PyramidFileHeader, checksum) + sizeof(std::uint64_t);
     const std::uint64_t checksum = hashBytes(std::span(bytes).subspan(checked));
     std::memcpy(bytes.data() + offsetof(PyramidFileHeader, checksum), &checksum, sizeof checksum);
 }
 
-// First bytes of the sections, from what the format says, and the end.
+// Returns the first byte of each section by the format's definition, and the file's end.
 std::vector<std::size_t> sectionBorders(const Encoded& file) {
     const Pyramid& pyramid = file.pyramid;
     std::vector<std::size_t> borders = {0};
@@ -132,7 +133,7 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     return borders;
 }
 
-// Safe to draw: whoever follows its indices stays inside its arrays and the mesh's.
+// Expects a pyramid that is safe to draw: all indices lie inside its own arrays and the mesh's.
 void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     ASSERT_FALSE(pyramid.levels.empty());
     ASSERT_EQ(pyramid.source.size(), pyramid.vertices.count());
@@ -209,7 +210,7 @@ TEST(PyramidKey, everyInputCounts) {
         [](Mesh& m) { std::swap(m.vertices.uv0, m.vertices.uv1); },
         [](Mesh& m) { std::swap(m.primitives[0].indices, m.primitives[1].indices); },
         [](Mesh& m) { m.primitives.push_back({}); },
-        [](Mesh& m) {  // a triangle moves to the other primitive
+        [](Mesh& m) {  // moves a triangle to the other primitive
             auto& from = m.primitives[0].indices;
             auto& to = m.primitives[1].indices;
             to.insert(to.begin(), from.end() - 3, from.end());
@@ -243,7 +244,7 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     EXPECT_FALSE(decodedWith({file.key.mesh + 1, {}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.minTriangles = 65}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.maxLevels = 23}}));
-    // The same key for another mesh, as if hashes had met.
+    // A hash collision: the same key for another mesh.
     EXPECT_FALSE(decodePyramid(file.bytes, torus(24, 16), file.key));
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
 }
@@ -298,7 +299,7 @@ TEST(PyramidFile, aShorterOrLongerFileIsAMiss) {
     EXPECT_FALSE(file.decode(longer));
 }
 
-// A wrong value under a right checksum, as a faulty writer would leave it: the checks behind the checksum.
+// Decodes the file with a wrong value and a matching checksum, as a faulty writer would leave it.
 template <typename T>
 std::optional<Pyramid> decodeWith(const Encoded& file, std::size_t offset, T value) {
     Bytes bytes = file.bytes;
@@ -412,7 +413,7 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
         ++sound;
         expectSound(*decoded, file.mesh);
     }
-    EXPECT_GT(sound, 100u);  // most words are coordinates, which may have any value
+    EXPECT_GT(sound, 100u);  // most words are coordinates, and any coordinate is valid
 }
 
 // ---- folder ------------------------------------------------------------------------------------
@@ -442,7 +443,7 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
     expectBuilt(first, meshes);
     EXPECT_EQ(first.loaded, 0u);
     EXPECT_EQ(first.failure, "");
-    EXPECT_EQ(fileCount(folder), 3u);  // neither the empty mesh nor the one of 8 triangles
+    EXPECT_EQ(fileCount(folder), 3u);  // no file for the empty mesh and the one of 8 triangles
 
     std::uint64_t left = 1;
     const CachedPyramids second = cachedPyramids(
@@ -467,7 +468,7 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     }
 }
 
-// Even if it were under another's name.
+// A file is tied to its LevelVertices option, even under the other option's name.
 TEST(PyramidCache, aFileIsOfItsOwnVertices) {
     const Mesh mesh = sphere(24, 16);
     const PyramidOptions surviving{.vertices = LevelVertices::surviving};
@@ -513,7 +514,7 @@ TEST(PyramidCache, aFolderThatCannotBeMadeIsOneFailureAndNoFault) {
     EXPECT_EQ(cached.failure.find('\n'), std::string::npos);
 }
 
-// A full disk: writes beyond a limit fail half-way.
+// Simulates a full disk: writes beyond a limit fail.
 TEST(PyramidCache, aFullDiskLeavesNoFile) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(48, 32)};
@@ -530,7 +531,7 @@ TEST(PyramidCache, aFullDiskLeavesNoFile) {
     EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
-// Processes that fill, read and damage one folder at the same time: all get what they would have built.
+// Processes that fill, read and damage one folder at the same time all get the pyramids that they would build.
 TEST(PyramidCache, processesMayShareAFolder) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(24, 16), torus(16, 12)};
@@ -549,7 +550,7 @@ TEST(PyramidCache, processesMayShareAFolder) {
                 const auto loaded = loadPyramid(meshes[i], scratch.path());
                 good = !loaded || sameBits(loaded->indices, built[i].indices);
                 storePyramid(built[i], meshes[i], scratch.path());
-                // Whole from now on, whoever writes.
+                // From here on, the file is complete at any time.
                 good = good && loadPyramid(meshes[i], scratch.path()).has_value();
             }
         ::_exit(good ? 0 : 1);
@@ -572,7 +573,8 @@ TEST(PyramidCache, listsAndClearsItsOwnFilesOnly) {
     const Bytes bytes = readFile(own);
     const std::string stem = own.stem().string();
 
-    // A left-over of a killed process is ours; another name or other bytes under such a name are not.
+    // A left-over of a killed process belongs to the cache. A file with another name, or with other bytes under such a
+    // name, does not.
     writeFile(scratch / ("." + stem + ".123-0.pyramid"), bytes);
     std::vector<std::string> foreign = {"notes.txt", "0123456789abcdef.pyramid", ".0123456789abcdef.1-0.pyramid"};
     for (const std::string& name : foreign) writeFile(scratch / name, std::string_view("somebody's"));
@@ -625,7 +627,7 @@ private:
     std::optional<std::string> home_ = valueOf("HOME");
 };
 
-// XDG Base Directory Specification: empty counts as unset, and relative paths are ignored.
+// XDG Base Directory Specification: an empty variable counts as unset, and relative paths are ignored.
 TEST_F(CacheEnvironment, tellsTheDefaultFolder) {
     set("/caches", "/home/me");
     EXPECT_EQ(defaultCacheFolder(), "/caches/defocus");

@@ -24,7 +24,7 @@ GrownClusters grow(const Soup& soup) {
     return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, max);
 }
 
-// A sheet of n × n unit squares, its rows in the plane z = 0; beyond half of them it is folded up by 90°.
+// A sheet of n × n unit squares with its rows in the plane z = 0. The half beyond n/2 is folded up by 90°.
 Soup foldedSheet(std::uint32_t n) {
     Soup sheet;
     for (std::uint32_t y = 0; y <= n; ++y)
@@ -41,7 +41,7 @@ Soup foldedSheet(std::uint32_t n) {
     return sheet;
 }
 
-// Every triangle is in one cluster, and none is larger than allowed.
+// Expects every triangle in one cluster, and no cluster above the size limit.
 void expectPartition(const Soup& soup, const GrownClusters& grown) {
     std::vector<TriangleNumber> sorted = grown.triangles;
     std::sort(sorted.begin(), sorted.end());
@@ -65,7 +65,7 @@ std::vector<glm::vec3> clusterPoints(const Soup& soup, const GrownClusters& grow
     return points;
 }
 
-// More than are looked at at once; without a bound this takes minutes.
+// More triangles than the search examines per vertex. Without that bound the test would take minutes.
 TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
     Soup fan;
     Soup point;
@@ -86,7 +86,7 @@ TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
 }
 
 TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
-    // Edges of any number of faces, corners that coincide, a vertex of very many triangles, places that are none.
+    // Edges of any number of faces, coincident corners, a vertex of very many triangles, and NaN and huge coordinates.
     std::mt19937 random(1);
     Soup soup;
     for (int v = 0; v < 300; ++v) soup.positions.emplace_back(random() % 100, random() % 100, random() % 100);

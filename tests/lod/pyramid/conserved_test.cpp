@@ -1,4 +1,4 @@
-// The project's own models: what is left of a level under a wide blur is what is left of level 0.
+// Levels and level 0 of the project's own models are alike under a wide blur.
 
 #include <gtest/gtest.h>
 

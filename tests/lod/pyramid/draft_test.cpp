@@ -18,8 +18,8 @@ TEST(Draft, isTheMeshRoughlyFromFewTriangles) {
     EXPECT_GT(draft.levels[0].triangleCount, 500u);
     for (const glm::vec3& p : draft.levels[0].positions) EXPECT_NEAR(glm::length(p), 1, 0.031);
     const Surface shown = prepareSurface(draft.levels[0].positions, draft.indices);
-    const Surface whole = prepareSurface(mesh.vertices.positions, mesh.primitives[0].indices);
-    EXPECT_LT(surfaceDistance(shown, whole, 500).both.percentile99, 0.06);
+    const Surface full = prepareSurface(mesh.vertices.positions, mesh.primitives[0].indices);
+    EXPECT_LT(surfaceDistance(shown, full, 500).both.percentile99, 0.06);
 }
 
 TEST(Draft, verticesAreSomeOfTheMeshs) {
@@ -47,11 +47,11 @@ TEST(Draft, trianglesThatShareNoVertexGetFewerToo) {
 
 TEST(Draft, primitivesStayApartAndInOrder) {
     Mesh mesh = bumpySphere(100, 60, 5);
-    const Primitive whole = mesh.primitives[0];
-    const auto middle = static_cast<std::ptrdiff_t>(whole.indices.size() / 6 * 3);
-    mesh.primitives = {{5, {whole.indices.begin(), whole.indices.begin() + middle}},
+    const Primitive full = mesh.primitives[0];
+    const auto middle = static_cast<std::ptrdiff_t>(full.indices.size() / 6 * 3);
+    mesh.primitives = {{5, {full.indices.begin(), full.indices.begin() + middle}},
                        {6, {}},
-                       {7, {whole.indices.begin() + middle, whole.indices.end()}}};
+                       {7, {full.indices.begin() + middle, full.indices.end()}}};
     const Pyramid draft = draftPyramid(mesh, 1000);
     ASSERT_EQ(draft.levels[0].primitives.size(), 3u);
     EXPECT_GT(draft.levels[0].primitives[0].count, 0u);

@@ -1,4 +1,4 @@
-// What materials do to the pictures that levels are judged by.
+// The effect of materials on the pictures that measure a level's error.
 
 #include "lod/pyramid/finish.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int texelsAcross = 64;
 
-// Columns of black and white, eight texels wide, below half its height; white above.
+// Black and white columns, eight texels wide, in the lower half; white in the upper half.
 TextureImage stripedTexture() {
     TextureImage image{texelsAcross, texelsAcross, {}};
     for (int y = 0; y < texelsAcross; ++y)
@@ -44,7 +44,7 @@ Scene texturedBall() {
     return scene;
 }
 
-// Of level 1, which is level 0 after `change`.
+// Returns a pyramid of two levels. Level 1 is level 0 modified by `change`.
 Pyramid withFinish(const Mesh& mesh, const Finish& finish, const std::function<void(PyramidLevel&)>& change) {
     Pyramid pyramid = fullDetail(mesh);
     for (glm::vec3& normal : pyramid.levels[0].normals) normal = glm::normalize(normal);
@@ -79,7 +79,7 @@ TEST(Finish, largeTexturesAreMeansOfLinearLight) {
         const std::uint8_t value = x % 2 == 0 ? 0 : 255;
         scene.images[0].rgba.insert(scene.images[0].rgba.end(), {value, value, value, 255});
     }
-    EXPECT_NEAR(Finishes(scene).of(0).baseColorMap.at({0.3f, 0.5f}, {}).x, 0.5, 0.005) << "but for 8 bits";
+    EXPECT_NEAR(Finishes(scene).of(0).baseColorMap.at({0.3f, 0.5f}, {}).x, 0.5, 0.005) << "up to 8-bit rounding";
 }
 
 TEST(Finish, wrapsMirrorAndClamp) {
@@ -95,7 +95,7 @@ TEST(Finish, wrapsMirrorAndClamp) {
     EXPECT_EQ(at(0.25f, 7), 1);
 }
 
-// A level whose stripes stand half a period further shows the opposite, until a blur hides both.
+// A level with stripes moved by half a period shows the opposite colours, until a blur hides both.
 TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     const Scene scene = texturedBall();
     const Finish finish = Finishes(scene).of(0);
@@ -106,7 +106,7 @@ TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     };
     const Pyramid opposite = moved(8);
     EXPECT_GT(squaredError(opposite, 1, 0), 10 * squaredError(moved(0.5f), 1, 0));
-    EXPECT_LT(squaredError(moved(16), 1, 0), 1e-3 * squaredError(opposite, 1, 0)) << "a whole period";
+    EXPECT_LT(squaredError(moved(16), 1, 0), 1e-3 * squaredError(opposite, 1, 0)) << "a full period";
     EXPECT_LT(squaredError(opposite, 1, 2), 0.02 * squaredError(opposite, 1, 0));
     EXPECT_GT(squaredContrast(opposite, 2), 0.5);
 }
@@ -120,7 +120,7 @@ TEST(Finish, whatIsUnlitHasNoNormals) {
     EXPECT_GT(error({}), 1e-4);
 }
 
-// The smoother a metal is, the more its highlights move with a normal.
+// On smoother metals, highlights move more with the normals.
 TEST(Finish, smoothMetalsShowFineNormals) {
     const Mesh mesh = sphere(96, 48);
     double last = 0;
@@ -134,7 +134,7 @@ TEST(Finish, smoothMetalsShowFineNormals) {
     }
 }
 
-// White is as bright as it gets: a glow of a hundred times the mean, doubled, is the same picture.
+// Radiance above white is clamped: a glow of a hundred times the mean looks the same when doubled.
 TEST(Finish, lightBeyondWhiteIsWhite) {
     Mesh mesh = sphere(96, 48);
     for (const glm::vec3& p : mesh.vertices.positions)
@@ -181,7 +181,7 @@ TEST(Finish, theHashFollowsAllThatIsSeen) {
     }
 }
 
-// A pyramid that was measured with other materials isn't taken from the cache.
+// A pyramid measured with other materials is not taken from the cache.
 TEST(Finish, isPartOfThePyramidsKey) {
     const Scene scene = texturedBall();
     const Finishes finishes(scene);
@@ -190,7 +190,7 @@ TEST(Finish, isPartOfThePyramidsKey) {
     const Pyramid white = buildPyramid(mesh);
     const Pyramid own = buildPyramid(mesh, {.finishes = &finishes});
     ASSERT_EQ(white.levels.size(), own.levels.size());
-    EXPECT_EQ(white.levels[1].positions, own.levels[1].positions) << "the levels themselves know no material";
+    EXPECT_EQ(white.levels[1].positions, own.levels[1].positions) << "levels do not depend on materials";
     EXPECT_NE(white.contrast, own.contrast);
 }
 

@@ -1,4 +1,4 @@
-// How long the normals of coarser levels are: as much as the normals that they stand for agree with them.
+// The length of a coarse level's normals equals their mean cosine to the normals that they replace.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Over every fifth of a ball's own vertices: the mean cosine of their normals with those of a level, and the mean
-// length of the latter where the ray from the ball's middle through the vertex meets the level.
+// Means over every fifth vertex of a ball: the cosine of its normal to the level's normal, and the length of the
+// level's normal where the radial ray through the vertex meets the level.
 struct Agreement {
     double cosine = 0;
     double length = 0;
@@ -47,8 +47,8 @@ Agreement agreementOf(const Mesh& ball, const Pyramid& pyramid, std::size_t numb
     return {sum.cosine / count, sum.length / count};
 }
 
-// What a level interpolates differs from a smooth ball's normals by little, whatever the angle between its corners' is:
-// it stays a mirror.
+// A level's interpolated normals hardly differ from a smooth ball's, even on large triangles, so the level stays a
+// mirror.
 TEST(LevelNormals, ofASmoothBallStayWhole) {
     Mesh ball = sphere(96, 48);
     for (std::size_t v = 0; v < ball.vertices.count(); ++v)
@@ -61,7 +61,7 @@ TEST(LevelNormals, ofASmoothBallStayWhole) {
     }
 }
 
-// With bumps that coarse levels can't have.
+// The ball has bumps that coarse levels cannot represent.
 TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
     const Mesh ball = sphere(96, 48, 0.04);
     const Pyramid pyramid = buildPyramid(ball);

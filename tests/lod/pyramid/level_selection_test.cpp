@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Edges 1, √2, 2, 2√2, 4; errors 0, 0.01, 0.02, 0.04, 0.08.
+// A pyramid with edges 1, √2, 2, 2√2, 4 and errors 0, 0.01, 0.02, 0.04, 0.08.
 Pyramid uniformPyramid() {
     Pyramid pyramid;
     for (int l = 0; l < 5; ++l) {
@@ -26,7 +26,7 @@ Pyramid uniformPyramid() {
 
 TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     const Pyramid pyramid = uniformPyramid();
-    const double pixelsPerUnit = 3;  // d = 3 px
+    const double pixelsPerUnit = 3;  // an edge of 1 covers d = 3 px
     for (double coc = 0.5; coc < 40; coc *= 1.1) {
         const double target = std::max(0.7 * coc, 1.5);
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
@@ -34,7 +34,7 @@ TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     }
 }
 
-// Whatever sizes the coarser levels have: each is taken for half of the one before.
+// The metric `halving` ignores the stored sizes of coarser levels and takes each for half of the previous level.
 TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     Pyramid pyramid = uniformPyramid();
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) pyramid.levels[l].meanEdge *= 5;
@@ -43,7 +43,7 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
         EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::halving, {0.7, 1.5}), expected, 1e-12);
     }
-    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // a point
+    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // a mesh the size of a point
     EXPECT_EQ(levelOfDetail(pyramid, {3, 1}, LodMetric::halving, {0, 0}), 0);
     EXPECT_EQ(levelOfDetail(pyramid, {-1, 1}, LodMetric::halving, {0.7, 1.5}), 0);
     EXPECT_EQ(levelOfDetail({}, {3, 1}, LodMetric::halving, {0.7, 1.5}), 0);
@@ -51,7 +51,7 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
-// λ is where the stored edges have grown by the threshold times the score, c/d.
+// λ is the level whose stored edges have grown by the threshold times the score, c/d.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -67,7 +67,8 @@ TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
 TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {
-        return levelOfDetail(pyramid, {100, 0}, LodMetric::error, {0, target});  // errors project to 0, 1, 2, 4, 8 px
+        // errors project to 0, 1, 2, 4 and 8 px
+        return levelOfDetail(pyramid, {100, 0}, LodMetric::error, {0, target});
     };
     EXPECT_DOUBLE_EQ(lambda(0.25), 0.25);
     EXPECT_DOUBLE_EQ(lambda(1), 1);
@@ -81,15 +82,15 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // Plateaus as tight as they are allowed.
+    // Plateaus at their min allowed growth.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
 }
 
-// λ's slope over the target between two levels is 1/ln(e[l+1]/e[l]) by the logarithm of edges, 1/(e[l+1] − e[l]) by
-// errors: over a step it changes by no more than its steepest stretch in between allows, and by no less than its
-// flattest. In the blur, in the threshold and in the distance, which all end in target over projected size.
+// Between two levels, λ's slope is 1/ln(e[l+1]/e[l]) over the logarithm of the target for edges, and 1/(e[l+1] − e[l])
+// over the target for errors. A step in blur, threshold or distance changes the same quotient, target over projected
+// size, so λ changes by the integral of that slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -99,7 +100,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
         };
         const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
-        // ∫ of the slope from one target to another, both in the object's units.
+        // Returns the integral of the slope between two targets in the object's units.
         const auto growth = [&](double from, double to) {
             double sum = 0;
             for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
@@ -110,7 +111,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return sum;
         };
         constexpr double step = 1.003;
-        constexpr double unit = 7;  // px an object unit
+        constexpr double unit = 7;  // px per object unit
         for (double target = 1e-3; target < 10; target *= step) {
             const double expected = growth(target, target * step);
             const auto lambda = [&](double pixelsPerUnit, double coc, const LodThresholds& thresholds) {
@@ -124,7 +125,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             ASSERT_NEAR(byBlur, expected, 1e-10) << target;
             ASSERT_NEAR(byDistance, expected, 1e-10) << target;
         }
-        EXPECT_NEAR(growth(0, 10), 4, 1e-12) << "all levels are passed";
+        EXPECT_NEAR(growth(0, 10), 4, 1e-12) << "the sweep passes all levels";
     }
 }
 
@@ -137,7 +138,7 @@ TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {
         EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";
         EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {std::nan(""), std::nan("")}), 0);
         EXPECT_EQ(levelOfDetail(Pyramid{}, {1, 10}, metric, {1, 1}), 0);
-        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point may be as coarse as it gets";
+        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point uses the coarsest level";
     }
 }
 
@@ -175,7 +176,7 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// Coarse samples and the share of the boundary sample are f·N together, whatever λ.
+// Coarse samples and the share of the boundary sample add up to f·N for every λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {
@@ -185,10 +186,10 @@ TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
             ASSERT_LE(split.coarseCount + (split.boundaryShare > 0 ? 1u : 0u), count);
             ASSERT_NEAR(split.level + (split.coarseCount + split.boundaryShare) / count, lambda, 1e-12);
         }
-        const SampleSplit whole = splitSamples(3, count, LodMode::continuous);
-        EXPECT_EQ(whole.level, 3u);
-        EXPECT_EQ(whole.coarseCount, 0u);
-        EXPECT_EQ(whole.boundaryShare, 0);
+        const SampleSplit full = splitSamples(3, count, LodMode::continuous);
+        EXPECT_EQ(full.level, 3u);
+        EXPECT_EQ(full.coarseCount, 0u);
+        EXPECT_EQ(full.boundaryShare, 0);
         const SampleSplit justBelow = splitSamples(std::nextafter(1.0, 0.0), count, LodMode::continuous);
         EXPECT_LE(justBelow.coarseCount, count);
     }

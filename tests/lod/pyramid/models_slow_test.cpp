@@ -1,4 +1,4 @@
-// Real models: every one must become a pyramid, whatever its surface.
+// Real models with all kinds of surfaces: each must become a pyramid.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ bool isModel(const fs::path& path) {
     return path.extension() == ".glb" || path.extension() == ".gltf";
 }
 
-// Each once, wherever it lies.
+// Returns each model once, even if both folders contain it.
 std::vector<fs::path> publicModels() {
     std::vector<fs::path> models;
     for (const fs::path& folder : {keptModelsDirectory(), modelsDirectory()}) {
@@ -42,10 +42,10 @@ std::vector<fs::path> publicModels() {
 
 struct BuiltModel {
     std::vector<Mesh> meshes;
-    std::vector<Pyramid> pyramids;  // one a mesh
+    std::vector<Pyramid> pyramids;  // one per mesh
 };
 
-// A process builds each model once, however many tests look at it.
+// Returns a model with its pyramids. A process builds each model only once for all tests.
 const BuiltModel& built(const fs::path& path) {
     static std::map<fs::path, BuiltModel> known;
     const auto found = known.find(path);
@@ -71,7 +71,7 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// What a level stores is no less than 0.9 of what a far denser measurement finds, and rarely far more.
+// Stored errors are at least 0.9 of the result of a far denser measurement, and rarely far above it.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();
@@ -130,7 +130,7 @@ TEST(RealModels, ClosedMeshesStayClosed) {
     EXPECT_GT(closed, 0u);
 }
 
-// Its cap has four fifths of the area, and straps of many handles have the most triangles.
+// The cap has four fifths of the area, but the straps with their many handles have the most triangles.
 TEST(RealModels, LeatherCapOutlastsItsStraps) {
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet.gltf");
     const auto& [meshes, pyramids] = built(path);
@@ -141,7 +141,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // The outline shrinks by no more than what the stored error allows along its length.
+    // The outline shrinks by no more than the stored error allows at each end.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

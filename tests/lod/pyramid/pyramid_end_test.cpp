@@ -1,4 +1,4 @@
-// Where pyramids end, and why.
+// The end of a pyramid and its reason.
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,14 @@
 namespace defocus::engine {
 namespace {
 
-// Triangles of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs a vertex more).
+// Returns the triangle count of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs one
+// more vertex).
 std::uint32_t minOfGenus(std::uint32_t genus) {
     const auto vertices = static_cast<std::uint32_t>(std::ceil((7 + std::sqrt(1 + 48.0 * genus)) / 2));
     return 2 * (vertices + (genus == 2 ? 1 : 0)) + 4 * genus - 4;
 }
 
-TEST(PyramidEnd, SurfacesOfUpToFourHandlesComeDownToTheLeast) {
+TEST(PyramidEnd, SurfacesOfUpToFourHandlesReachMinTriangles) {
     for (const std::uint32_t genus : {1u, 2u, 3u, 4u}) {
         const Pyramid pyramid = buildPyramid(slab(genus, 4));
         EXPECT_LE(pyramid.levels.back().triangleCount, 64u) << genus;
@@ -42,7 +43,7 @@ TEST(PyramidEnd, ALevelThatSavesLessThanAQuarterIsNotMade) {
     EXPECT_EQ(pyramid.end, PyramidEnd::smallSaving);
 }
 
-// The slab is the widest part and can become no smaller, and the ball has most of the area.
+// The slab is the widest part and cannot be simplified further; the ball has most of the area.
 TEST(PyramidEnd, NeitherTheWidestNorTheLargestPartGoes) {
     Mesh mesh;
     addPart(mesh, sphere(96, 48), 1, {});

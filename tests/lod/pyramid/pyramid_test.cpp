@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// Every attribute takes part: what a level draws at a position must be a vertex of the mesh.
+// Adds every attribute, so that a level's vertices must match the mesh's in all of them.
 Mesh decorated(Mesh mesh) {
     const std::size_t count = mesh.vertices.count();
     for (std::size_t v = 0; v < count; ++v) {
@@ -60,7 +60,7 @@ TEST(Pyramid, HalvesAClosedSphereWithASeamDownToItsFloorAndKeepsItClosed) {
     EXPECT_EQ(pyramid.repairedFaces, 0u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
         EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l))) << "level " << l;
-    // 3968, 1984, 992, 496, 248, 124, 64
+    // Triangle counts: 3968, 1984, 992, 496, 248, 124, 64.
     ASSERT_EQ(pyramid.levels.size(), 7u);
     EXPECT_EQ(pyramid.levels[3].triangleCount, 496u);
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
@@ -73,7 +73,7 @@ TEST(Pyramid, KeepsATorusWithTwoSeamsClosed) {
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
         EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
-        // V − E + F = 0 as for every torus.
+        // V − E + F = 0 for every torus.
         std::map<PositionKey, int> positions;
         for (const std::uint32_t v : indices) ++positions[keyOf(pyramid.vertices.positions[v])];
         EXPECT_EQ(positions.size(), indices.size() / 6) << "level " << l;
@@ -90,20 +90,20 @@ double volume(const std::vector<glm::vec3>& positions, const std::vector<std::ui
     return sum;
 }
 
-// A polyhedron whose vertices lie on a sphere is inside of it: fitted, it loses at most a third of that volume.
+// A polyhedron with vertices on a sphere lies inside the sphere. A fitted one loses at most a third of the volume that
+// the inscribed one loses.
 TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48));
-    const double whole = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
+    const double full = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
     ASSERT_GT(pyramid.levels.size(), 5u);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-        const double inscribed = whole - volume(pyramid.vertices.positions, indices);
-        EXPECT_LT(std::abs(whole - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
+        const double inscribed = full - volume(pyramid.vertices.positions, indices);
+        EXPECT_LT(std::abs(full - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
     }
 }
 
-// A square sheet of thickness 0.004 with both sides and its rim in smooth normals, as scans and sculpted fins have
-// them.
+// A square sheet of thickness 0.004: front, back and rim share smooth normals, as in scans and sculpted fins.
 Mesh thinSheet(std::uint32_t cells) {
     Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
         const std::uint32_t around = i % (2 * cells + 2);
@@ -126,7 +126,7 @@ TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
                 const glm::vec3& a = level.positions[indices[i]];
                 const glm::vec3 cross =
                     glm::cross(level.positions[indices[i + 1]] - a, level.positions[indices[i + 2]] - a);
-                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // of the rim
+                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // skips the rim
                 glm::vec3 mean(0);
                 for (std::size_t k = 0; k < 3; ++k) mean += level.normals[indices[i + k]] / 3.0f;
                 EXPECT_GT(glm::dot(mean, glm::normalize(cross)), 0.6f) << cells << " cells, level " << l;
@@ -135,7 +135,7 @@ TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
     }
 }
 
-// The rim is next to no area, but all of the outline.
+// The rim has almost no area, but forms the entire outline.
 TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
     const Pyramid pyramid = buildPyramid(thinSheet(64));
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
@@ -143,7 +143,7 @@ TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
 }
 
 TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
-    // A triangle with corners from both ends of the seam would span nearly all of the texture.
+    // A triangle with corners at both ends of the seam would span nearly the entire texture.
     const Mesh mesh = torus(96, 48);
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 0; l + 2 < pyramid.levels.size(); ++l) {
@@ -158,9 +158,9 @@ TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
 }
 
 TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
-    // One sphere, its southern half in one primitive and its northern half, with vertices of its own, in another.
+    // A sphere whose southern and northern halves belong to two primitives with separate vertices.
     Mesh mesh = sphere(48, 24);
-    const Mesh whole = mesh;
+    const Mesh full = mesh;
     const auto count = static_cast<std::uint32_t>(mesh.vertices.count());
     const auto appendAgain = [&](auto& values) {
         auto copy = values;
@@ -169,10 +169,11 @@ TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     appendAgain(mesh.vertices.positions);
     appendAgain(mesh.vertices.normals);
     appendAgain(mesh.vertices.uv0);
-    for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;  // else they are joined
+    // other texture coordinates keep the copies from being joined
+    for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;
     mesh.primitives = {{0, {}}, {1, {}}};
-    for (std::size_t i = 0; i < whole.primitives[0].indices.size(); i += 3) {
-        const std::uint32_t* v = &whole.primitives[0].indices[i];
+    for (std::size_t i = 0; i < full.primitives[0].indices.size(); i += 3) {
+        const std::uint32_t* v = &full.primitives[0].indices[i];
         const float z =
             mesh.vertices.positions[v[0]].z + mesh.vertices.positions[v[1]].z + mesh.vertices.positions[v[2]].z;
         for (std::size_t k = 0; k < 3; ++k) mesh.primitives[z > 0].indices.push_back(z > 0 ? v[k] + count : v[k]);
@@ -208,16 +209,15 @@ TEST(Pyramid, FlatSquareIsTiledAtEveryLevel) {
 }
 
 TEST(Pyramid, FlatSquareGetsEvenTriangles) {
-    // A square of n triangles has edges of about √(2/n)·1.14 (right-angled) at least; slivers would have far longer
-    // ones.
+    // Edges of right-angled triangles, n in a square, have a mean length of about √(2/n)·1.14. Slivers would have far
+    // longer edges.
     const Pyramid pyramid = buildPyramid(flatGrid(64));
     for (const PyramidLevel& level : pyramid.levels)
         EXPECT_LT(level.meanEdge, 2.2 * std::sqrt(2.0 / level.triangleCount)) << level.triangleCount;
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A fitted face cuts the unit sphere: it is farthest outside at its corners, | |p| − 1 |, and inside near its
-    // middle.
+    // A fitted face cuts the unit sphere. Its corners lie | |p| − 1 | outside, its middle lies inside.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;
@@ -246,7 +246,7 @@ TEST(Pyramid, NormalsOfASphereStayRadial) {
 }
 
 TEST(Pyramid, CubeWithHardEdgesStaysACube) {
-    // Six grids of 12 × 12 cells that share positions but not normals along the edges.
+    // Six grids of 12 × 12 cells share positions but not normals along the cube's edges.
     Mesh mesh;
     mesh.primitives.resize(1);
     for (int face = 0; face < 6; ++face) {
@@ -292,14 +292,14 @@ TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
     const Mesh mesh = singlePrimitive(vertices, indices);
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
-    // Only whole triangles can go; half of the 100 would be too near the floor.
+    // Only complete triangles can be removed, and half of the 100 would be below the floor of 64.
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
 }
 
 TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
-    // A sphere to which are added: a fin on one of its edges, a repeated face, a face of no area, a reversed copy of
-    // everything (a sheet with two faces), and a corner that is nowhere.
+    // A sphere with a fin on one of its edges, a repeated face, a face without area, a reversed copy of everything (a
+    // two-faced sheet), and a NaN corner.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     const std::vector<std::uint32_t> clean = indices;
@@ -331,8 +331,7 @@ TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
 }
 
 TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
-    // Every third triangle is wound the other way; at every level a triangle is still an edge-to-edge part of the
-    // surface.
+    // Every third triangle has the opposite winding. At every level, triangles still meet edge to edge.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     for (std::size_t i = 0; i < indices.size(); i += 9) std::swap(indices[i], indices[i + 1]);
@@ -347,7 +346,7 @@ TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
 TEST(Pyramid, ScaleAndPlaceOfTheUnitDoNotMatter) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid pyramid = buildPyramid(mesh);
-    for (const int exponent : {-20, 20}) {  // about 1e-6 and 1e6; powers of two are exact
+    for (const int exponent : {-20, 20}) {  // scales of about 1e-6 and 1e6; powers of two are exact
         Mesh scaled = mesh;
         for (glm::vec3& p : scaled.vertices.positions) p *= std::ldexp(1.0f, exponent);
         const Pyramid other = buildPyramid(scaled);
@@ -366,7 +365,7 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)});
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    // The last one alone, with all cores for its levels.
+    // The last mesh is also built alone, with several threads for its levels.
     many.push_back(std::move(buildPyramids({mesh}).front()));
     many.push_back(buildPyramid(mesh, {}, 3));
     for (const std::size_t i : {1u, 3u, 5u, 6u}) {
@@ -418,7 +417,7 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
 }
 
-// Whether the copies are many or so few that the mesh is simplified as it is.
+// The mesh stays the same with many copies, and with so few that it is simplified without joining them.
 TEST(Pyramid, CopiesOfVerticesChangeNothing) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid without = buildPyramid(mesh);
@@ -448,7 +447,7 @@ TEST(Pyramid, VerticesThatDifferOnlyInAMorphTargetStayApart) {
     mesh.vertices.uv0.clear();
     mesh.vertices.positions.push_back(mesh.vertices.positions[0]);
     mesh.vertices.normals.push_back(mesh.vertices.normals[0]);
-    mesh.primitives[0].indices[0] = 4;  // the first triangle's corner at vertex 0
+    mesh.primitives[0].indices[0] = 4;  // corner of the first triangle at vertex 0
     mesh.morphTargets.push_back({std::vector<glm::vec3>(5, {0, 0, 0}), {}, {}});
     EXPECT_EQ(buildPyramid(mesh).vertices.count(), 4u);
     mesh.morphTargets[0].positions[4] = {0, 0, 1};
@@ -463,7 +462,7 @@ TEST(FullDetail, HasEveryTriangleAndNoFurtherLevel) {
     EXPECT_EQ(pyramid.levels[0].triangleCount, mesh.triangleCount());
 }
 
-// A bar that stands for half a minute says nothing.
+// A progress bar must not stand still for long within one mesh.
 TEST(PyramidProgress, movesInSmallStepsWithinOneMesh) {
     const std::vector<Mesh> meshes = {sphere(160, 120), sphere(8, 6)};
     std::vector<double> shares = {0};

@@ -32,7 +32,7 @@ void expectAll(const Distances& distances, double expected, double tolerance) {
 }
 
 TEST(SurfaceDistance, ParallelSquaresAreTheirOffsetApartEverywhere) {
-    // However either is cut into triangles.
+    // The result does not depend on the triangulation of either square.
     const SurfaceDistance d = surfaceDistance(surfaceOf(flatGrid(7)), surfaceOf(flatGrid(16), {0, 0, 0.125}), 1000);
     expectAll(d.forward, 0.125, 1e-12);
     expectAll(d.backward, 0.125, 1e-12);
@@ -40,8 +40,8 @@ TEST(SurfaceDistance, ParallelSquaresAreTheirOffsetApartEverywhere) {
 }
 
 TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
-    // [0, 1]² within [0, 2] × [0, 1]: nothing one way; the other way the distance is uniform in [0, 1] on half the
-    // area, so its mean is 1/4 and half of the area lies beyond x = 1: the 99th percentile is 0.98.
+    // [0, 1]² lies inside [0, 2] × [0, 1], so the distance is 0 in one direction. In the other it is uniform in [0, 1]
+    // on the half of the area beyond x = 1: its mean is 1/4 and its 99th percentile 0.98.
     Mesh wide = flatGrid(9);
     for (glm::vec3& p : wide.vertices.positions) p.x *= 2;
     const SurfaceDistance d = surfaceDistance(surfaceOf(flatGrid(12)), surfaceOf(wide), 4096);
@@ -55,9 +55,8 @@ TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
 }
 
 TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
-    // A side of an n-gon in the unit circle is cos(π/n) from the centre; at s along it the circle is
-    // 1 − √(cos²(π/n) + s²) away: at most the sagitta 1 − cos(π/n), on average over the side two thirds of it (to its
-    // second order).
+    // A side of an n-gon in the unit circle is cos(π/n) from the centre. At s along the side, the circle is 1 −
+    // √(cos²(π/n) + s²) away. The max is the sagitta 1 − cos(π/n), and the mean two thirds of it (to second order).
     const auto cylinder = [](std::uint32_t columns) {
         return surfaceOf(parametricSurface(columns, 4, [=](std::uint32_t i, std::uint32_t j) {
             return glm::dvec3(std::cos(turn(i, columns)), std::sin(turn(i, columns)), 0.25 * j);
@@ -69,13 +68,14 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // 99 of 100 points lie where s² exceeds 0.01² of its largest: sagitta·(1 − 0.0001).
+        // For 99 of 100 points, the distance is at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
 
 TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
-    // A face whose plane is h from the centre is at most 1 − h from the sphere, where its circumcentre lies within it.
+    // A face whose plane is h from the centre is at most 1 − h from the sphere, if its circumcentre lies inside the
+    // face.
     const Mesh coarse = sphere(16, 8);
     const auto& p = coarse.vertices.positions;
     const auto& indices = coarse.primitives[0].indices;
@@ -85,7 +85,7 @@ TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
         const glm::dvec3 normal = glm::cross(glm::dvec3(p[indices[i + 1]]) - a, glm::dvec3(p[indices[i + 2]]) - a);
         largest = std::max(largest, 1 - std::abs(glm::dot(a, glm::normalize(normal))));
     }
-    const double finest = 1 - std::cos(std::numbers::pi / 128);  // sagitta of the sphere's own meridians
+    const double finest = 1 - std::cos(std::numbers::pi / 128);  // sagitta of the fine sphere's meridians
     const SurfaceDistance d = surfaceDistance(surfaceOf(sphere(256, 128)), surfaceOf(coarse), 20'000);
     EXPECT_LE(d.both.maximum, largest + 1e-6);
     EXPECT_NEAR(d.both.maximum, largest, 0.02 * largest + 2 * finest);
@@ -96,7 +96,7 @@ TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
 TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
     const Surface bumpy = surfaceOf(sphere(48, 24, 0.1));
     expectAll(surfaceDistance(bumpy, bumpy, 5000).both, 0, 1e-9);
-    Mesh cube;  // without shared vertices, 2 triangles a side
+    Mesh cube;  // without shared vertices, 2 triangles per side
     cube.primitives.resize(1);
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {0.0f, 1.0f})
@@ -117,20 +117,22 @@ TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
 }
 
 TEST(SurfaceDistance, ShiftedTriangle) {
-    // Shifted along its normal by 2, and within its plane by (−1, 0): points right of x = 0 stay inside.
+    // A shift by 2 along the normal, and a shift by (−1, 0) in the plane. After the latter, points right of x = 0 stay
+    // inside.
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);
-    // Forward: −x where x < 0, for all y < 3 + … of the strip; its integral is ∫₀¹ t·(3 + t) dt over an area of 8.
+    // Forward, the distance is −x on the strip x < 0. The mean is ∫₀¹ t·(3 + t) dt over the area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
-    // Backward: the corner (4, 0) is 1 from the corner (3, 0), nearer than the line x + y = 3 is beyond its end.
+    // Backward, the corner (4, 0) is at distance 1 from the corner (3, 0), which is nearer than the line x + y = 3
+    // beyond its end.
     EXPECT_LE(d.backward.maximum, 1);
     EXPECT_NEAR(d.backward.maximum, 1, 0.06);
 }
 
 TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
-    // Against the plain search through all triangles, from points near, far and inside.
+    // The search tree agrees with a linear search through all triangles for points near, far and inside.
     const Mesh mesh = torus(24, 12);
     const Surface surface = surfaceOf(mesh);
     for (int i = 0; i < 200; ++i) {
@@ -143,7 +145,7 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
                                          mesh.vertices.positions[indices[t + 2]]),
                                 p));
         ASSERT_DOUBLE_EQ(distanceTo(surface, p), min) << i;
-        // The torus itself is |(√(x² + y²) − 1, z)| − 0.4 away; its faces are inside by at most both sagittas.
+        // A torus is |(√(x² + y²) − 1, z)| − 0.4 away. Its faces lie inside it by at most both sagittas.
         const double exact = std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - 0.4);
         ASSERT_NEAR(min, exact,
                     1.4 * (1 - std::cos(std::numbers::pi / 24)) + 0.4 * (1 - std::cos(std::numbers::pi / 12)))
@@ -152,7 +154,7 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
 }
 
 TEST(SurfaceDistance, PointsAreSpreadByArea) {
-    // One triangle of area 3 at distance 1, 300 that together have area 1 at distance 5.
+    // One triangle of area 3 at distance 1, and 300 triangles with a total area of 1 at distance 5.
     std::vector<glm::vec3> positions = {{0, 0, 1}, {3, 0, 1}, {0, 2, 1}};
     for (int i = 0; i < 300; ++i) {
         const float x = 0.005f * static_cast<float>(i);

@@ -1,4 +1,4 @@
-// Levels as Jeong, Kim and Lee 2011 have them: of vertices that survive, each with its own values.
+// Levels as in Jeong, Kim and Lee 2011: surviving vertices with their own attribute values.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// A different colour and second set of texture coordinates at each vertex.
+// Gives each vertex a different colour and a second set of texture coordinates.
 Mesh coloured(Mesh mesh) {
     const auto count = static_cast<float>(mesh.vertices.count());
     for (std::size_t v = 0; v < mesh.vertices.count(); ++v) {
@@ -20,7 +20,7 @@ Mesh coloured(Mesh mesh) {
     return mesh;
 }
 
-// Of how many vertices of coarser levels each value is the mesh's own, and of how many there are.
+// Number of vertices in coarser levels that keep the mesh's own value, for each attribute, and their total.
 struct OwnValues {
     std::size_t positions = 0, normals = 0, colors = 0, uv0 = 0, uv1 = 0;
     std::size_t all = 0;
@@ -58,7 +58,7 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// Else the test above could not tell one from the other.
+// The test above distinguishes surviving vertices from fitted ones.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));
     const OwnValues own = ownValues(mesh, buildPyramid(mesh));
@@ -67,7 +67,7 @@ TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     EXPECT_LT(own.colors, own.all / 2);
 }
 
-// What the collapses leave is the same, whatever becomes of the values.
+// Collapses keep the same vertices, whether the values are fitted or not.
 TEST(SurvivingVertices, areThoseThatFittedLevelsHave) {
     const Mesh mesh = coloured(torus(64, 40));
     const Pyramid published = buildPyramid(mesh, asPublished);
@@ -94,7 +94,7 @@ std::size_t placesOf(const Pyramid& pyramid, const PyramidLevel& level) {
     return places.size();
 }
 
-// Of closed and of open surfaces, with seams and without.
+// Tested on closed and open surfaces, with and without seams.
 TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     for (const Mesh& mesh : {coloured(sphere(64, 32, 0.1)), coloured(torus(64, 40)), coloured(flatGrid(48))}) {
         const Pyramid pyramid = buildPyramid(mesh, {.vertices = LevelVertices::quarters});
@@ -109,7 +109,7 @@ TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     }
 }
 
-// A collapse inside a surface takes two triangles, one at a border takes one.
+// A collapse inside a surface removes two triangles, at a border one.
 TEST(SurvivingVertices, makeLevelsOfHalfTheTriangles) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48), asPublished);
     ASSERT_GT(pyramid.levels.size(), 5u);

@@ -1,4 +1,4 @@
-// Textures of levels lie where level 0 has them, as far as the blur at which a level is drawn shows it.
+// The texture of a level stays where level 0 has it, to within the blur at which the level is drawn.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 namespace defocus::engine {
 namespace {
 
-// A finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
+// Returns a finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
 Finish showingCoordinates() {
     constexpr int side = FinishImage::maxSide;
     const auto ramp = std::make_shared<FinishImage>();
@@ -33,7 +33,7 @@ Finish showingCoordinates() {
     return finish;
 }
 
-// Object units a unit of texture coordinates, in the mean over level 0's area.
+// Returns object units per unit of texture coordinates, averaged over level 0's area.
 double unitsPerCoordinate(const Pyramid& pyramid) {
     const PyramidLevel& level = pyramid.levels.front();
     double surface = 0;
@@ -51,11 +51,12 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 
 struct Shift {
     double mean = 0;       // object units
-    double elsewhere = 0;  // share of the cells that show another chart, or another part of the surface
+    double elsewhere = 0;  // share of cells that show another chart, or another part of the surface
 };
 
-// How far a level's texture is from level 0's, over what both show to the eyes of the blurred errors. A triangle can't
-// shift it by more than its longest edge: what is farther away is something else, as where a thin strap has narrowed.
+// Returns the distance of a level's texture from level 0's, over all that both show in the views of the blurred errors.
+// A triangle shifts texture by at most its longest edge. Larger distances belong to another part of the surface, for
+// example beside a thinned strap.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -65,11 +66,11 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     double others = 0;
     for (const glm::dvec3& direction : blurredErrorViews()) {
         const Eye eye = eyeAlong(pyramid, direction, resolution);
-        const Picture truth = pictureOf(pyramid, 0, eye, finishes);
+        const Picture reference = pictureOf(pyramid, 0, eye, finishes);
         const Picture level = pictureOf(pyramid, number, eye, finishes);
-        for (std::size_t i = 0; i < truth.light.size(); ++i) {
-            if (truth.light[i].z == 0 || level.light[i].z == 0) continue;
-            glm::dvec2 change = glm::dvec2(level.light[i]) - glm::dvec2(truth.light[i]);
+        for (std::size_t i = 0; i < reference.light.size(); ++i) {
+            if (reference.light[i].z == 0 || level.light[i].z == 0) continue;
+            glm::dvec2 change = glm::dvec2(level.light[i]) - glm::dvec2(reference.light[i]);
             change -= glm::round(change);
             const double distance = scale * glm::length(change);
             if (distance > pyramid.levels[number].longestEdge) {
@@ -83,9 +84,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// The smallest patch (object units) over which a blur averages when half of `samples` samples or more draw the level;
-// none if no patch of the pyramid's table is large enough. A patch is a pixel at least, and the more pixels it is, the
-// longer are the edges and the finer the level.
+// Returns the smallest patch, in object units, of a blur for which at least half of `samples` samples draw the level;
+// nullopt if the pyramid's table has none. A patch is at least a pixel. With more pixels per patch, edges are longer on
+// screen and the level finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
@@ -107,7 +108,7 @@ TEST(TextureShift, isMeasured) {
     EXPECT_NEAR(unitsPerCoordinate(pyramid), 2, 1e-4);
     EXPECT_LT(shiftOf(pyramid, 1).mean, 1e-6);
     for (glm::vec2& uv : pyramid.levels[1].uv0) uv.x += 0.01f;
-    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);  // a ramp of 256 texels
+    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);  // the ramp has 256 texels
     EXPECT_EQ(shiftOf(pyramid, 1).elsewhere, 0);
 }
 

@@ -1,4 +1,4 @@
-// Levels carry the blur that vertices have themselves.
+// Levels carry the blur of vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int cells = 48;
 
-// mm; sharp along a bent line, and blurred on both sides of it.
+// Blur in mm: sharp along an oblique line, blurred on both sides of the line.
 float blurAt(const glm::vec3& p) {
     return 4 * std::abs(p.x - 0.3f * p.y);
 }
@@ -35,7 +35,7 @@ Mesh plane(bool blurred) {
     return mesh;
 }
 
-// How far the blur inside the level's triangles is from what the plane has there, on average over its area, mm.
+// Returns the mean difference, over the level's area and in mm, between the blur inside its triangles and the plane's.
 double meanDeviation(const Pyramid& pyramid, std::size_t level) {
     double sum = 0;
     double area = 0;
@@ -72,7 +72,7 @@ TEST(VertexBlurOfLevels, isThatOfTheMesh) {
     for (std::size_t level = 0; level <= last; ++level)
         EXPECT_LT(meanDeviation(blurred, level), 0.02) << "level " << level;
     EXPECT_LT(5 * meanDeviation(blurred, last), meanDeviation(plain, last))
-        << "a plane alone needs no vertex of the line";
+        << "without blur, no vertex stays on the line";
 }
 
 }  // namespace

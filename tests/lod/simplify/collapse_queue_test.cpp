@@ -12,7 +12,7 @@ VertexHandle vertex(int number) {
     return VertexHandle(number);
 }
 
-// The numbers of the vertices in the order in which they come up.
+// Empties the queue and returns the vertices' numbers in its order.
 std::vector<int> emptied(CollapseQueue& queue) {
     std::vector<int> order;
     while (!queue.empty()) order.push_back(queue.takeBest().idx());
@@ -60,10 +60,10 @@ TEST(CollapseQueue, aVertexWaitsOnceWithItsLastCost) {
     queue.put(vertex(0), 1, false);
     queue.put(vertex(1), 2, false);
     queue.put(vertex(2), 3, false);
-    queue.put(vertex(2), 0.5f, false);  // dearest to cheapest
+    queue.put(vertex(2), 0.5f, false);  // from the most expensive to the cheapest
     EXPECT_EQ(queue.best(), vertex(2));
-    queue.put(vertex(2), 1.5f, false);  // and back into the middle
-    queue.put(vertex(0), 1, true);      // cheapest, but bad now
+    queue.put(vertex(2), 1.5f, false);  // back into the middle
+    queue.put(vertex(0), 1, true);      // the cheapest, but bad
     EXPECT_EQ(emptied(queue), (std::vector<int>{2, 1, 0}));
 }
 
@@ -73,7 +73,7 @@ TEST(CollapseQueue, whatIsTakenWaitsNoMore) {
     for (int v = 0; v < 5; ++v) queue.put(vertex(v), static_cast<float>(v), false);
     queue.take(vertex(0));
     queue.take(vertex(3));
-    queue.take(vertex(3));  // it is gone already
+    queue.take(vertex(3));  // already taken
     EXPECT_EQ(emptied(queue), (std::vector<int>{1, 2, 4}));
     queue.take(vertex(1));
     EXPECT_TRUE(queue.empty());
@@ -82,7 +82,7 @@ TEST(CollapseQueue, whatIsTakenWaitsNoMore) {
     EXPECT_TRUE(queue.empty());
 }
 
-// Thousands of random steps, against a sorted set of all that waits.
+// Thousands of random steps agree with a sorted set of the waiting vertices.
 TEST(CollapseQueue, agreesWithASortedSet) {
     constexpr std::uint32_t count = 300;
     using Entry = std::tuple<bool, float, int>;

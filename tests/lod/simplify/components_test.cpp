@@ -1,4 +1,4 @@
-// Meshes of many parts that touch nothing else: what becomes of them once each is as small as it gets.
+// Meshes of many separate parts: simplification after each part has reached its min size.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-// Where part `i` of `count` lies: points evenly spread in the unit square (Roberts 2018).
+// Returns the position of part `i`: points spread evenly over the unit square (Roberts 2018).
 glm::vec3 scatteredPlace(std::uint32_t i) {
     return {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * i, 1.0)),
             static_cast<float>(std::fmod(0.5 + 0.5698402909980532 * i, 1.0)), 0};
@@ -23,7 +23,7 @@ glm::vec3 scatteredPlace(std::uint32_t i) {
 
 using SizeOf = std::function<float(std::uint32_t)>;
 
-// Tetrahedra with edges of √2 · size.
+// Returns tetrahedra with edges of √2 · size.
 Mesh tetrahedra(std::uint32_t count, const SizeOf& sizeOf) {
     Vertices vertices;
     std::vector<std::uint32_t> indices;
@@ -37,7 +37,7 @@ Mesh tetrahedra(std::uint32_t count, const SizeOf& sizeOf) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Squares that face +z.
+// Returns squares that face +z.
 Mesh leaves(std::uint32_t count, float size) {
     Vertices vertices;
     std::vector<std::uint32_t> indices;
@@ -50,14 +50,14 @@ Mesh leaves(std::uint32_t count, float size) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Which parts of `cornersEach` vertices a level has.
+// Returns the parts, of `cornersEach` vertices each, that a level contains.
 std::set<std::uint32_t> partsOf(const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     std::set<std::uint32_t> parts;
     for (const std::uint32_t v : levelIndices(pyramid, level)) parts.insert(pyramid.source[v] / cornersEach);
     return parts;
 }
 
-// The largest distance from a corner of what the level lacks to what it has.
+// Returns the largest distance from a corner of a removed part to the level.
 double lackedDistance(const Mesh& mesh, const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     const std::set<std::uint32_t> parts = partsOf(pyramid, level, cornersEach);
     const Surface surface = prepareSurface(pyramid.levels[level].positions, levelIndices(pyramid, level));
@@ -96,7 +96,7 @@ TEST(Components, StoredErrorBoundsTheDistanceAndTheSizeOfWhatIsGone) {
 }
 
 TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
-    // Each size is 1.3 times the one before, and all are mixed; part 777 is the largest.
+    // There are nine sizes, each 1.3 times the previous one, in mixed order. Part 777 is the largest.
     const auto sizeOf = [](std::uint32_t i) {
         return i == 777 ? 0.05f : 0.002f * std::pow(1.3f, static_cast<float>(i * 7 % 9));
     };
@@ -117,19 +117,19 @@ TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
     }
 }
 
-// Half the leaves would be half the tree: those that stay grow until they touch others.
+// Half the leaves alone would cover half the area. The remaining leaves grow until they touch others.
 TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
     const Mesh mesh = leaves(4000, 0.002f);
     const Pyramid pyramid = buildPyramid(mesh);
-    const double whole = surfaceArea(mesh.vertices.positions, mesh.primitives[0].indices);
+    const double full = surfaceArea(mesh.vertices.positions, mesh.primitives[0].indices);
     ASSERT_GT(pyramid.levels.size(), 5u);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
-        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), whole, 0.08 * whole)
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), full, 0.08 * full)
             << "level " << l;
 }
 
 TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
-    // Of equal parts, each quarter of the square keeps its share.
+    // Each quarter of the square keeps its share of equal parts.
     const Mesh mesh = tetrahedra(2048, [](std::uint32_t) { return 0.004f; });
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
@@ -139,7 +139,7 @@ TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
             const glm::vec3 place = scatteredPlace(i);
             counts[(place.x < 0.5f ? 0u : 1u) + (place.y < 0.5f ? 0u : 2u)] += 1;
         }
-        // A fair coin's counts would be within four standard deviations.
+        // Four standard deviations of a fair draw.
         const auto n = static_cast<double>(parts.size());
         for (const double count : counts) EXPECT_NEAR(count, n / 4, 4 * std::sqrt(n * 3 / 16)) << "level " << l;
     }
@@ -155,7 +155,7 @@ TEST(Components, ASingleOneIsNeverRemoved) {
     }
 }
 
-// A large part is thinned out by collapses as far as they come, while the small ones stay: they are the last to go.
+// Collapses thin out a large part as far as possible before any small part is removed.
 TEST(Components, CollapsesComeFirst) {
     Mesh mesh = tetrahedra(40, [](std::uint32_t) { return 0.01f; });
     const Mesh ball = sphere(64, 32);
@@ -185,7 +185,7 @@ Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
     return mesh;
 }
 
-// The slabs' handles need many triangles, which are not to be taken from the ball.
+// The slabs' handles need many triangles, which must not be taken from the ball.
 TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
     struct Scene {
         std::uint32_t count, holes;

@@ -1,4 +1,4 @@
-// The modules are OpenMesh's kind: its own decimater runs with them, and makes with them what they promise.
+// The collapse modules implement OpenMesh's interface: its own decimater runs with them, and their guarantees hold.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Decimated {
     }
 };
 
-// Every corner draws a mesh vertex at the place of its vertex.
+// Expects every corner's wedge to have the position of the corner's vertex.
 void expectWedgesInPlace(const DrawnSurface& surface, const SurfaceMesh& mesh) {
     forEachFace(mesh, [&](FaceHandle face) {
         for (const HalfedgeHandle corner : cornersOf(mesh, face))
@@ -58,7 +58,7 @@ TEST(Decimater, bringsASphereDownWithOurModules) {
     EXPECT_GE(livingFaces(mesh), 298u);
     expectWedgesInPlace(surface, mesh);
 
-    // Still a closed surface with one side of each edge on either face, which look outwards.
+    // The surface is still closed, each edge has one face on either side, and faces look outwards.
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
     forEachFace(mesh, [&](FaceHandle face) {
@@ -74,7 +74,7 @@ TEST(Decimater, bringsASphereDownWithOurModules) {
     }
 }
 
-// The decimater's first collapse is the cheapest of those that the modules allow.
+// The decimater's first collapse is the cheapest that the modules allow.
 TEST(Decimater, collapsesTheCheapestFirst) {
     const Mesh sphereMesh = sphere(24, 12, 0.1);
     DrawnSurface surface(sphereMesh.vertices, {sphereMesh.primitives[0].indices});
@@ -102,7 +102,7 @@ TEST(Decimater, collapsesTheCheapestFirst) {
     expectWedgesInPlace(surface, mesh);
 }
 
-// Each collapse around the middle of a fan would walk around all of it.
+// Each collapse at the hub of a fan would visit all of its spokes.
 TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     const auto fan = [](std::uint32_t spokes) {
         Vertices vertices;
@@ -119,7 +119,7 @@ TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     EXPECT_GT(buildPyramid(fan(800)).levels.size(), 1u);
 }
 
-// A square of one material inside another: no wedge of the one may draw the other's, so the border stays.
+// A square of one material inside another: no wedge may take the other material, so the border stays.
 TEST(Decimater, leavesMaterialBordersToTheModules) {
     const Mesh grid = flatGrid(8);
     std::vector<std::vector<std::uint32_t>> primitives(2);

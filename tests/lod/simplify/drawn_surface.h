@@ -1,5 +1,5 @@
 #pragma once
-// Small surfaces as the simplifier holds them, and their faces as they can be written down.
+// Small surfaces in the simplifier's data structure, and their faces as comparable lists.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 using Face = std::array<int, 3>;
 
-// A mesh with a Simplifier of it; neither can be moved.
+// A mesh with a Simplifier. Cannot be moved.
 struct DrawnSurface {
     Vertices vertices;
     TriangleSet<MeshVertexNumber> triangles;
@@ -36,7 +36,8 @@ struct DrawnSurface {
     [[nodiscard]] SurfaceMesh& mesh() { return *simplifier.mesh; }
     [[nodiscard]] CollapseModules& modules() { return *simplifier.modules; }
 
-    // The vertex of the surface at a mesh vertex, and the half-edge between two; since compact().
+    // The surface's vertex for a mesh vertex, and the half-edge between two mesh vertices. Valid until the next
+    // compact().
     [[nodiscard]] VertexHandle vertex(std::uint32_t v) const {
         return simplifier.current[simplifier.origin->firstVertex[{v}]];
     }
@@ -46,7 +47,7 @@ struct DrawnSurface {
     void collapse(std::uint32_t from, std::uint32_t to) { collapseEdge(simplifier, edge(from, to)); }
 };
 
-// The living faces as the mesh vertices that they draw, each from its smallest on, sorted.
+// Returns the living faces as mesh vertices, each starting with the smallest, sorted.
 inline std::vector<Face> drawnFaces(const SurfaceMesh& mesh) {
     std::vector<Face> faces;
     forEachFace(mesh, [&](FaceHandle handle) {

@@ -22,7 +22,8 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
-// One triangle (vertices 0, 1, 2 of the level) stands for 3 + `inner` vertices at the barycentric places below.
+// One triangle (vertices 0, 1, 2 of the level) that replaces these and all inner vertices, anchored at barycentric
+// coordinates.
 struct OneTriangle {
     Vertices vertices;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -50,12 +51,12 @@ OneTriangle oneTriangle() {
     return result;
 }
 
-// The level is the triangle, and as many more of the vertices behind it as `indices` name.
+// Fits a level that consists of the triangle and of the further vertices in `indices`.
 defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
-    source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
+    source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are not given, so all areas are equal
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
     level.triangles = numberedTriangles<LevelVertexNumber>({indices});
@@ -71,7 +72,7 @@ TEST(LevelFit, flatTriangleStaysWhereItIs) {
         EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
 
-// All but the corners lie 0.3 above the triangle: least squares takes it nearly all the way up.
+// All vertices but the corners lie 0.3 above the triangle. Least squares raises the triangle nearly as far.
 TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
@@ -84,7 +85,7 @@ TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
 TEST(LevelFit, farFromTheOriginNothingIsLost) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.positions.size(); ++v) {
-        t.vertices.positions[v] += glm::vec3(4096, -4096, 0);  // floats are 0.0005 apart there
+        t.vertices.positions[v] += glm::vec3(4096, -4096, 0);  // floats are 0.0005 apart at this magnitude
         if (v >= 3) t.vertices.positions[v].z = 0.3f;
     }
     const defocus::engine::LevelFit fitted = fitOf(t);
@@ -106,7 +107,8 @@ TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     EXPECT_NEAR(fitted.colors[{0}].a, 1, 1e-5f);
 }
 
-// Dark but for its corner: the line that fits best is below 0 at the other end, and cut off it would be too bright.
+// The surface is dark except at one corner. The best linear fit is below 0 at the other end, and clamping it would
+// brighten the triangle.
 TEST(LevelFit, coloursOvershootRatherThanBrighten) {
     OneTriangle t = oneTriangle();
     double mean = 0;
@@ -123,7 +125,7 @@ TEST(LevelFit, coloursOvershootRatherThanBrighten) {
     EXPECT_NEAR(shown, mean, 0.004);
 }
 
-// Vertices that share an anchor count there as if they were one.
+// Vertices that share an anchor count as one vertex at that anchor.
 TEST(LevelFit, whatSharesAnAnchorCountsThere) {
     OneTriangle t = oneTriangle();
     for (std::uint32_t v = 3; v + 1 < t.anchors.size(); v += 2) {
@@ -157,7 +159,7 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
     EXPECT_NEAR(fit.colors[{0}].r - fit.colors[{1}].r, 1, 1e-6) << "all are shifted alike";
 }
 
-// u = x², v = y over a triangle: the line that shows most of the texture where it was.
+// For u = x², v = y over a triangle, the linear fit keeps the texture in place on average.
 TEST(LevelFit, textureLiesWhereItDid) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -177,7 +179,7 @@ TEST(LevelFit, textureLiesWhereItDid) {
     EXPECT_LT(shift([&](std::uint32_t k) { return fitted.uv0[{k}]; }), 0.005);
 }
 
-// A second vertex at a corner, with another place in the texture.
+// A second vertex at a corner has other texture coordinates.
 TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -191,7 +193,7 @@ TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
 }
 
-// What lies on another chart says nothing about this one's.
+// Vertices on another chart do not affect this chart's texture.
 TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);
@@ -200,7 +202,7 @@ TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_LT(glm::distance(fitted.uv0[{v}], t.vertices.uv0[v]), 1e-5f);
 }
 
-// A survivor that happens to sit on a dark spot must not make the whole triangle dark.
+// One surviving vertex on a dark spot must not darken the entire triangle.
 TEST(LevelFit, colourOfOneSpotIsOutvoted) {
     OneTriangle t = oneTriangle();
     for (auto& color : t.vertices.colors) color.r = 0.8f;
@@ -215,7 +217,7 @@ TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
     const defocus::engine::LevelFit fitted = fitOf(t);
     glm::vec3 mean(0);
     for (std::uint32_t v = 0; v < 3; ++v) mean += fitted.normals[{v}] / 3.0f;
-    EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of the two slopes points up and is that long
+    EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of both slopes points up and has this length
     EXPECT_NEAR(mean.x, 0, 0.1);
 }
 
@@ -235,7 +237,7 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// Two vertices at one place with one normal: one of them a twin, which only its own anchors move.
+// Two vertices have one position and one normal. The second is a twin, whose normal depends only on its own anchors.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

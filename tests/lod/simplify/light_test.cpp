@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// A quarter: what faces the light throws back 1/2 in the mean, and half of the sphere faces away.
+// A surface element facing the light reflects 1/2 on average, and half of the sphere faces away: a quarter.
 TEST(LightMeans, ofASphereAreAQuarterOfItsColour) {
     const Mesh mesh = sphere(96, 48);
     const std::vector<glm::vec4> grey(mesh.vertices.count(), {0.2f, 0.4f, 0.6f, 1});
@@ -29,7 +29,7 @@ TEST(LightMeans, ofASquareFollowTheCosine) {
     for (std::size_t l = 0; l < lightCount; ++l) EXPECT_NEAR(means[l], std::max(directions[l].z, 0.0), 1e-6);
 }
 
-// Whatever normals a piece stands for, it throws back a quarter of what comes from all sides.
+// Under light from all sides, a surface element reflects a quarter of the light, independent of its spread of normals.
 TEST(MeanCosine, overAllLightsIsAQuarter) {
     constexpr int heights = 4000;
     for (const float agreement : {0.05f, 0.3f, 0.6f, 0.8f, 0.9f, 0.97f, 0.99f, 0.999f, 1.0f}) {
@@ -42,7 +42,7 @@ TEST(MeanCosine, overAllLightsIsAQuarter) {
     }
 }
 
-// Against the normals themselves: of von Mises' and Fisher's distribution on the sphere, whose mean is known.
+// The mean cosine agrees with an integral over von Mises-Fisher distributed normals, whose mean is known.
 TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     constexpr int count = 400;
     for (const double narrowness : {4.0, 10.0, 40.0, 200.0}) {
@@ -64,12 +64,12 @@ TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     }
 }
 
-// A ball's normals that all lean to one side are fitted to the light of the upright ones.
+// A ball's normals that all lean to one side are fitted to the light of the radial normals.
 TEST(FitLight, findsTheNormalsOfTheLight) {
     const Mesh ball = sphere(24, 12);
-    std::vector<glm::vec3> truth;
-    for (const glm::vec3& position : ball.vertices.positions) truth.push_back(glm::normalize(position));
-    std::vector<std::uint32_t> groups(truth.size());
+    std::vector<glm::vec3> expected;
+    for (const glm::vec3& position : ball.vertices.positions) expected.push_back(glm::normalize(position));
+    std::vector<std::uint32_t> groups(expected.size());
     std::iota(groups.begin(), groups.end(), 0);
     for (std::size_t v = 0; v < groups.size(); ++v)
         for (std::size_t first = 0; first < v; ++first)
@@ -79,12 +79,12 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
             }
     const std::vector<glm::vec4> shaded = [&] {
         std::vector<glm::vec4> colors;
-        for (const glm::vec3& n : truth) colors.emplace_back(glm::vec3(n.x > 0 ? 0.9f : 0.2f), 1);
+        for (const glm::vec3& n : expected) colors.emplace_back(glm::vec3(n.x > 0 ? 0.9f : 0.2f), 1);
         return colors;
     }();
     const std::vector<std::uint32_t>& indices = ball.primitives[0].indices;
     std::vector<glm::vec3> rough;
-    for (const glm::vec3& n : truth) rough.push_back(0.9f * n);
+    for (const glm::vec3& n : expected) rough.push_back(0.9f * n);
     const LightMeans target = lightMeans({ball.vertices.positions, rough, shaded, indices, true}, 20'000);
     const auto largestDifference = [&](const std::vector<glm::vec3>& normals) {
         const LightMeans means = lightMeans({ball.vertices.positions, normals, shaded, indices, true}, 20'000);
@@ -93,8 +93,8 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
         return largest;
     };
     std::vector<glm::vec3> normals;
-    for (std::size_t v = 0; v < truth.size(); ++v)
-        normals.push_back(0.9f * glm::normalize(truth[groups[v]] + glm::vec3(0.15f, 0.1f, -0.05f)));
+    for (std::size_t v = 0; v < expected.size(); ++v)
+        normals.push_back(0.9f * glm::normalize(expected[groups[v]] + glm::vec3(0.15f, 0.1f, -0.05f)));
     EXPECT_GT(largestDifference(normals), 0.01);
     fitLight(ball.vertices.positions, shaded, indices, groups, target, normals);
     EXPECT_LT(largestDifference(normals), 5e-4);
@@ -104,7 +104,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// What is fitted already stays as it is, bit by bit.
+// Normals that already fit are not changed by a bit.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());
@@ -115,7 +115,7 @@ TEST(FitLight, leavesWhatFits) {
     EXPECT_EQ(normals, grid.vertices.normals);
 }
 
-// A damaged file has any numbers for normals and colours.
+// A damaged file may contain any float, including NaN, as normal or colour.
 TEST(FitLight, leavesWhatHasNoNumbers) {
     const Mesh grid = flatGrid(2);
     std::vector<std::uint32_t> groups(grid.vertices.count());

@@ -11,7 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-constexpr std::size_t alongZ = 4;  // of directionsOfOutlines(): (−1, 0, 0) is 4, (0, −1, 0) is 10, (0, 0, −1) is 12
+// index in directionsOfOutlines(): (−1, 0, 0) is 4, (0, −1, 0) is 10, (0, 0, −1) is 12
+constexpr std::size_t alongZ = 4;
 
 TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -54,10 +55,10 @@ TEST(EdgeFill, coversWhatTheTrianglesOfItsEdgesDo) {
     const std::size_t cells = fill.fill(byEdges);
     EXPECT_NEAR(byEdges.area() / byTriangles.area(), 1, 1e-4);
     EXPECT_DOUBLE_EQ(byEdges.area(), byEdges.cell() * byEdges.cell() * static_cast<double>(cells));
-    EXPECT_EQ(fill.fill(byEdges), 0u) << "edges are not forgotten";
+    EXPECT_EQ(fill.fill(byEdges), 0u) << "fill() must remove the edges";
 }
 
-// Vertices of a coarse sphere that lie on the fine one: every outline is too small.
+// A coarse sphere with vertices on the fine one: every outline is too small before the fit.
 TEST(FitOutlines, inscribedSphereGrowsToTheAreaOfTheFineOne) {
     const Mesh fine = sphere(128, 64);
     const Mesh coarse = sphere(12, 8);

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Every half-edge, its opposite, its next and its face agree, and every vertex's half-edge leaves it, at a border
-// beyond the surface.
+// Expects each half-edge to agree with its opposite, its next and its face. Each vertex's half-edge leaves that vertex,
+// and is the boundary one if the vertex lies on a border.
 void expectLinked(const SurfaceMesh& mesh) {
     for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) {
         const HalfedgeHandle h(i);
@@ -58,8 +58,8 @@ TEST(SurfaceMesh, facesWoundAgainstTheOthersRunWithThem) {
     EXPECT_EQ(drawnFaces(surface.mesh())[1], (Face{0, 4, 3}));
 }
 
-// Around an axis a–b stand four points p at 0°, 170°, 180° and 350°. Where the surface bends sharply, two faces run
-// from one p to the other; where it is flat, they run from pole to pole: a and b are joined by two edges.
+// Four points p stand around an axis a–b at 0°, 170°, 180° and 350°. Where the surface bends sharply, faces join
+// neighbouring points p. Where it is flat, they run from pole to pole, so two edges join a and b.
 TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     Vertices vertices;
     vertices.positions = {{0, 0, 1}, {0, 0, -1}};
@@ -78,7 +78,7 @@ TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     forEachSpoke(mesh, a, [&](HalfedgeHandle spoke) {
         if (mesh.to_vertex_handle(spoke) != b) return;
         ++between;
-        EXPECT_FALSE(surface.modules().shape.keepsTopology(spoke)) << "one of them would become a loop";
+        EXPECT_FALSE(surface.modules().shape.keepsTopology(spoke)) << "a collapse would turn one edge into a loop";
     });
     EXPECT_EQ(between, 2);
 }
@@ -93,7 +93,7 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     }
     const SurfaceMesh& mesh = surface.mesh();
     std::vector<glm::vec3> positions;
-    std::vector<std::vector<MeshVertexNumber>> faces;  // as sources of their corners, in order
+    std::vector<std::vector<MeshVertexNumber>> faces;  // sources of the corners, in order
     const auto sourcesOf = [](const SurfaceMesh& of, FaceHandle face) {
         std::vector<MeshVertexNumber> sources;
         for (const HalfedgeHandle corner : cornersOf(of, face)) sources.push_back(of.wedges.source(of.wedge(corner)));
@@ -102,7 +102,7 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     forEachVertex(mesh, [&](VertexHandle v) { positions.push_back(mesh.position(v)); });
     forEachFace(mesh, [&](FaceHandle face) { faces.push_back(sourcesOf(mesh, face)); });
     ASSERT_EQ(positions.size(), 22u);
-    ASSERT_EQ(faces.size(), 27u);  // of 32, two each go inside and one at the border
+    ASSERT_EQ(faces.size(), 27u);  // of 32 faces, two inner collapses remove two each and one at the border removes one
 
     compact(surface.simplifier);
     const SurfaceMesh& copy = surface.mesh();

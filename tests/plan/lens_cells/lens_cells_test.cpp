@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-// Spheres before and behind the focus, much blurred.
+// Strongly blurred spheres in front of and behind the focus.
 std::unique_ptr<SmallWorld> muchBlurred() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 0.1;
@@ -43,15 +43,15 @@ Moments momentsOf(const Points& points) {
     return moments;
 }
 
-// What is blurred keeps its place and its size whatever the number of samples is: the middles have the mean of the
-// lens, and their covariance and that of the blur add up to the lens's. A blur of σ = b·c px is one of 2b on the lens.
+// Blurred objects keep position and size for every sample count. The cells' centres have the mean of the lens, and the
+// covariances of the centres and of the blur add up to the lens's. A blur of σ = b·c px is one of 2b on the lens.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
         std::vector<glm::vec2> lens;
         for (const LensSample& sample : lensSamples(small->view.lens, Sequence::halton, 0, 1u << 17, 0))
             lens.push_back(sample.lens);
-        const Moments whole = momentsOf(lens);
+        const Moments full = momentsOf(lens);
         for (const Sequence sequence : allSequences)
             for (const std::uint32_t count : {16u, 50u, 64u, 500u}) {
                 RenderSettings settings = settingsFor(count);
@@ -60,10 +60,10 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
                 ASSERT_EQ(cells.middles.size(), count);
                 const Moments own = momentsOf(cells.middles);
                 for (glm::length_t i = 0; i < 2; ++i) {
-                    EXPECT_NEAR(own.mean[i], whole.mean[i], tolerance) << what << ' ' << count;
+                    EXPECT_NEAR(own.mean[i], full.mean[i], tolerance) << what << ' ' << count;
                     for (glm::length_t j = 0; j < 2; ++j)
                         EXPECT_NEAR(own.covariance[i][j] + (i == j ? 4 * cells.blur * cells.blur : 0),
-                                    whole.covariance[i][j], tolerance)
+                                    full.covariance[i][j], tolerance)
                             << what << ' ' << count;
                 }
                 for (const glm::vec2& middle : cells.middles) ASSERT_LE(glm::length(middle), 1 + 1e-6f);
@@ -80,8 +80,8 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     check("ring", 2e-3);
 }
 
-// Each middle is the mean of a 64th of the lens: a regular pattern, of which no two points come as near as two of the
-// sequence do.
+// Each centre is the mean of a 64th of the lens. The centres form a regular pattern with larger distances than the
+// sequence's points.
 TEST(LensCells, middlesKeepApart) {
     const auto small = muchBlurred();
     const auto nearest = [](const auto& points, const auto& place) {
@@ -94,11 +94,11 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // 64 disks of the lens's area have a diameter of 1/4
+    EXPECT_GT(apart, 1.0 / 8);  // 64 disks with the lens's area have a diameter of 1/4
 }
 
-// How far the share of a blurred straight edge's light lies from that of a disk's, RMS over the edge's places: `points`
-// are blurred by `sigma`. All in radii of the lens; the edge's normal is at `angle`.
+// Returns the RMS difference, over positions of a straight edge, between the edge blurred by a disk and by `points` of
+// a Gaussian `sigma`. Lengths are in lens radii; the edge's normal has the direction `angle`.
 double edgeError(const std::vector<glm::vec2>& points, double sigma, double angle) {
     double squares = 0;
     int places = 0;
@@ -114,7 +114,8 @@ double edgeError(const std::vector<glm::vec2>& points, double sigma, double angl
     return std::sqrt(squares / places);
 }
 
-// Edges of every direction, upright and level ones too, which rows and columns of points would blur in steps.
+// Edges in every direction are smooth, including vertical and horizontal ones, which rows and columns of points would
+// blur in steps.
 TEST(LensCells, edgesAreBlurredAsByADisk) {
     const auto small = muchBlurred();
     for (const std::uint32_t count : {16u, 24u, 32u, 64u, 128u}) {
@@ -136,8 +137,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
     }
 }
 
-// A part of a frame has the cells of all samples. A block that is planned after others has its own, and the blur of
-// all.
+// A part of a frame has the cells of all its samples. A block that is planned later has its own cells, with the blur of
+// all samples.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -154,7 +155,7 @@ TEST(LensCells, belongToWhatIsPlannedTogether) {
     EXPECT_NEAR(moments.covariance[0][0], 0.25 - 4 * block.blur * block.blur, 1e-4);
 }
 
-// Without gaps nothing is blurred, but samples stay where they are when the last blur goes.
+// Without gaps there is no blur, and cells do not move when the blur ends.
 TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const auto small = muchBlurred();
     const LensCells few = lensCellsOf(*small, 16);
@@ -172,7 +173,7 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
 }
 
-// From 1 down to 1/16, without a step.
+// The rate falls from 1 to 1/16 without a step.
 TEST(LensCells, pixelRateIsContinuous) {
     const auto small = muchBlurred();
     const LensCells cells = lensCellsOf(*small, 64);

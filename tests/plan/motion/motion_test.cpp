@@ -1,4 +1,4 @@
-// What moves while the shutter is open: moments, bounds, and what is asked of a shutter.
+// Motion during the exposure: moments, bounds and requirements on a shutter.
 
 #include "plan/motion/motion.h"
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// The first sphere goes by `step` from moment to moment.
+// Moves the first sphere by `step` between moments.
 void moveFirst(SmallWorld& small, std::size_t moments, const glm::dvec3& step) {
     small.world.shutter.poses.assign(moments, small.world.pose);
     for (std::size_t i = 0; i < moments; ++i) {
@@ -42,7 +42,7 @@ TEST(Motion, onlyWhatMovesGetsPoses) {
     EXPECT_FALSE(leftOut(plan, "motion path"));
     EXPECT_EQ(plan.moments.size(), plan.samples.size());
     for (const ObjectPlan& object : plan.objects) EXPECT_EQ(object.motion.size(), object.object == 0 ? 2u : 0u);
-    EXPECT_TRUE(plan.middleFromView.empty());  // the camera stands still
+    EXPECT_TRUE(plan.middleFromView.empty());  // the camera does not move
     EXPECT_NE(planTable(plan).find("moves"), std::string::npos);
 }
 
@@ -81,7 +81,7 @@ TEST(Motion, samplesFindTheirMoments) {
 
 TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     const auto small = fiveSpheres();
-    // From far left of the frame to far right: no end of it is seen, its way is.
+    // The object moves from far left of the frame to far right. Neither end is visible, but the path is.
     for (Object& object : small->world.pose.objects) object.worldFromObject[3] += glm::dvec4(0, 0, -40, 0);
     Object& crossing = small->world.pose.objects[0];
     crossing.worldFromObject = glm::translate(glm::dmat4(1), glm::dvec3(30, 0, -3));
@@ -93,12 +93,12 @@ TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     ASSERT_NE(found, plan.objects.end());
     EXPECT_NEAR(found->nearestDepth, 2, 0.05);
     EXPECT_NEAR(found->farthestDepth, 9, 0.05);
-    EXPECT_EQ(found->coc.smallest, 0);  // it passes the focus at 3 m
+    EXPECT_EQ(found->coc.smallest, 0);  // it crosses the focus at 3 m
     small->world.shutter = {};
     EXPECT_TRUE(leftOut(planFrame(small->world, small->view, settingsFor(8)), "object Object 0"));
 }
 
-// Nothing is out of focus, but what moves needs all samples.
+// All is in focus, but motion needs all samples.
 TEST(Motion, samplesRemainForMotionWithoutALens) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

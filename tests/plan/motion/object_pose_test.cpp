@@ -1,4 +1,4 @@
-// Bounds of posed objects by brute force: every vertex of every level, at many times.
+// Bounds of posed objects contain every vertex of every level at many times.
 
 #include "plan/motion/object_pose.h"
 
@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// How far a point lies outside a box.
+// Returns the distance of a point outside a box along the worst axis; 0 inside.
 double outside(const Bounds& box, const glm::dvec3& point) {
     const glm::dvec3 below = box.minimum - point;
     const glm::dvec3 above = point - box.maximum;
@@ -22,7 +22,7 @@ void expectBoundsHold(const SmallWorld& small) {
         const auto mesh = static_cast<std::size_t>(object.mesh);
         const Pyramid& pyramid = small.world.pyramids[mesh];
         const Bounds box = posedBox(pyramid, objectPose(object, glm::dmat4(1)), object.skinned());
-        const double tolerance = 1e-5 * glm::length(box.size());  // baked vertices are single precision
+        const double tolerance = 1e-5 * glm::length(box.size());  // baked vertices have single precision
         for (std::uint32_t level = 0; level < pyramid.levels.size(); ++level) {
             const Mesh baked = bakedLevel(small.scene.meshes[mesh], pyramid, level, object, glm::dvec3(0));
             for (const Primitive& primitive : baked.primitives)

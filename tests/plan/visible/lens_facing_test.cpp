@@ -1,4 +1,5 @@
-// Munkberg, Toth and Akenine-Möller 2012, Appendix A: bounds of the determinant over lens and time, against samples.
+// Bounds of the determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012, Appendix A), against sampled
+// values.
 
 #include "plan/visible/lens_facing.h"
 
@@ -34,14 +35,14 @@ LensTriangle anyTriangle(TriangleSource& random) {
     return triangle;
 }
 
-// Straight from the definition of the shear.
+// Returns the determinant of the sheared triangle by its definition.
 double sheared(const LensTriangle& triangle, double u, double v) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = triangle.places[i] + triangle.coc[i] * glm::dvec3(u, aspect * v, 0);
     return glm::dot(q[0], glm::cross(q[1], q[2]));
 }
 
-// The largest at many points of the rim; the determinant is linear over the lens.
+// Returns the max over many points of the rim. The determinant is linear over the lens, so its max lies on the rim.
 double sampledLargest(const LensTriangle& triangle, double radius) {
     double largest = sheared(triangle, 0, 0);
     constexpr int points = 720;
@@ -52,7 +53,7 @@ double sampledLargest(const LensTriangle& triangle, double radius) {
     return largest;
 }
 
-// How far the determinant goes over the lens: what bounds are measured by.
+// Returns the determinant's variation over the lens, the unit for the bounds' errors.
 double spreadOf(const LensTriangle& triangle) {
     return sampledLargest(triangle, 1) - sheared(triangle, 0, 0);
 }
@@ -70,7 +71,7 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// Eq. 6: of a thin lens, the disk of radius |a| that the eye moves over.
+// Eq. 6: for a thin lens, the eye moves over a disk of radius |a|.
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;
@@ -99,13 +100,13 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     for (int trial = 0; trial < 400; ++trial) {
         const LensTriangle from = anyTriangle(random);
         LensTriangle to = anyTriangle(random);
-        // From hardly any motion to none in common.
+        // From hardly any motion to unrelated triangles.
         const double share = std::pow(10.0, random(-3, 0));
         to = between(from, to, share);
         const double sampled = sampledLargest(from, to);
         const double bound = largestDeterminant(from, to, aspect);
         ASSERT_GE(bound, sampled - 1e-9);
-        // In eight parts of the exposure the bound closes in with the square of their length.
+        // With the exposure in eight parts, the bound's error shrinks with the square of their length.
         double divided = -1e300;
         for (int part = 0; part < 8; ++part)
             divided = std::max(divided, largestDeterminant(between(from, to, part / 8.0),

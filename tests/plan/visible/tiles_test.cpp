@@ -1,4 +1,4 @@
-// Parts of an image: cells and rows cover it once; a tile's plan keeps what may be seen there.
+// Parts of an image: cells and rows cover it once, and a tile's plan keeps all objects that may be visible in the tile.
 
 #include "plan/visible/tiles.h"
 
@@ -54,20 +54,19 @@ std::vector<int> objectsOf(const FramePlan& plan) {
     return objects;
 }
 
-// A sphere of radius 0.15 at a depth of 1.2 m, left of the middle, with a blur of A·|1/3 − 1/1.2|·W/(2 tan) px about
-// it.
+// A plan of a tile keeps the objects that any sample may show there, and drops the others.
 TEST(TilePlan, holdsTheObjectsThatASampleMayShowThere) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small);
-    const PixelRectangle whole{0, 0, plan.view.width, plan.view.height};
-    EXPECT_EQ(objectsOf(tileOf(plan, {whole, whole})), objectsOf(plan));
+    const PixelRectangle full{0, 0, plan.view.width, plan.view.height};
+    EXPECT_EQ(objectsOf(tileOf(plan, {full, full})), objectsOf(plan));
 
-    // Object 1 lies at (0.3, 0.2, −3) in focus, with a radius of 0.53: by the pinhole it covers these columns.
+    // Object 1 lies in focus at (0.3, 0.2, −3) with a radius of 0.53. Through the pinhole it covers these columns.
     const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
     const int left = static_cast<int>(plan.view.width / 2 + focal * (0.3 - 0.53) / 3);
     const int right = static_cast<int>(plan.view.width / 2 + focal * (0.3 + 0.53) / 3) + 1;
     const auto shows = [&](const PixelRectangle& area) {
-        const std::vector<int> objects = objectsOf(tileOf(plan, {area, whole}));
+        const std::vector<int> objects = objectsOf(tileOf(plan, {area, full}));
         return std::ranges::find(objects, 1) != objects.end();
     };
     EXPECT_TRUE(shows({left, 0, right - left, plan.view.height}));

@@ -1,5 +1,5 @@
-// Clusters that are left out, against brute force over lens points and times: Munkberg, Toth and Akenine-Möller 2012,
-// Appendix A, for the thin lens (Eq. 6) and for any C (Eq. 5), with their signs turned (see plan/visibility.h).
+// Culled clusters against brute force over lens points and times, for the thin lens (Eq. 6) and for any C (Eq. 5) of
+// Munkberg, Toth and Akenine-Möller 2012, Appendix A. Signs are inverted (see plan/visibility.h).
 
 #include "plan/visible/visibility.h"
 
@@ -41,8 +41,8 @@ RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-// One triangle of up to `size` m an object, at random places before (and a few beside and behind) the camera; every
-// third transform mirrors, every fourth stretches.
+// Objects of one triangle of up to `size` m at random positions in front of the camera, a few beside and behind it.
+// Every third transform mirrors, every fourth stretches.
 std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double size) {
     auto small = std::make_unique<SmallWorld>();
     small->view.width = 400;
@@ -66,7 +66,8 @@ std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double siz
     return small;
 }
 
-// Clip positions (x, y, w) of an object's triangle `first` in a moment of the exposure, and their C.
+// Clip positions (x, y, w) of the object's triangle that starts at index `first`, at a time of the exposure, and their
+// C.
 struct ClipTriangle {
     glm::dvec3 p[3];
     double c[3] = {};
@@ -100,21 +101,21 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Eq. 5: the determinant's largest value over the lens.
+// Eq. 5: the determinant's max over the lens.
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
     return sign * determinant(t.p[0], t.p[1], t.p[2]) + std::hypot(n.x, aspect * n.y);
 }
 
-// The shear's determinant for one lens point, straight from its definition.
+// Returns the shear's determinant for one lens point by its definition.
 double shearedDeterminant(const ClipTriangle& t, double aspect, double u, double v, double sign) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = t.p[i] + t.c[i] * glm::dvec3(u, aspect * v, 0);
     return sign * determinant(q[0], q[1], q[2]);
 }
 
-// All three corners beyond one plane of the frustum, half a pixel away.
+// Returns whether all three corners lie beyond one plane of the frustum by at least half a pixel.
 bool outside(const ClipTriangle& t, const View& view, double aspect, double u, double v) {
     bool beyond[5] = {true, true, true, true, true};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -131,14 +132,14 @@ bool outside(const ClipTriangle& t, const View& view, double aspect, double u, d
 }
 
 struct Counts {
-    int away = 0;         // left out as facing away
-    int outside = 0;      // left out as outside
-    int couldBeAway = 0;  // inside the image and facing away for all of the lens and the exposure
+    int away = 0;         // culled as facing away
+    int outside = 0;      // culled as outside
+    int couldBeAway = 0;  // inside the image and facing away over the entire lens and exposure
 };
 
-constexpr int lensPoints = 16;  // on the rim; and the centre
+constexpr int lensPoints = 16;  // on the rim, plus the centre
 
-// Fails where a triangle that is left out shows its front, inside the image, at some lens point and time.
+// Fails if a culled triangle shows its front inside the image at some lens point and time.
 Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
     Counts counts;
     for (const ObjectPlan& object : plan.objects) {
@@ -178,7 +179,8 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
 
 TEST(Visibility, randomTrianglesThroughAThinLens) {
     Random random(1);
-    // The larger a triangle beside its distance, the more often it may be clipped, or its box reach the near plane.
+    // The larger a triangle is relative to its distance, the more often it is clipped or its box reaches the near
+    // plane.
     const std::pair<double, double> sizesAndShares[] = {{0.02, 0.9}, {0.1, 0.7}, {0.4, 0.5}};
     for (const auto& [size, share] : sizesAndShares) {
         const auto small = looseTriangles(random, 3000, size);
@@ -188,7 +190,7 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// Eq. 6, from the lens's radius in metres alone: the thin lens's C makes no other determinant than a moved eye does.
+// Eq. 6 depends only on the lens's radius in metres: the thin lens's C gives the same determinant as a moved eye.
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -202,7 +204,7 @@ TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     }
 }
 
-// Every control that makes C another function than a + b·w, alone and together.
+// Lens controls that make C differ from a + b·w, alone and together.
 TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
     Random random(3);
     int away = 0;
@@ -224,7 +226,7 @@ TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         const Counts counts = checkTriangles(*small, plan);
         if (variant == 5) {
-            EXPECT_GT(counts.away, 0) << "where triangles are drawn as they are";
+            EXPECT_GT(counts.away, 0) << "undivided triangles are culled too";
             continue;
         }
         away += counts.away;
@@ -252,7 +254,7 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
     }
 }
 
-// Eq. 5 for any C: each corner has a blur of its own, which may change while the shutter is open.
+// Eq. 5 for any C: each corner has its own blur, which may change during the exposure.
 TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
     Random random(5);
     for (const bool changes : {false, true})
@@ -271,14 +273,14 @@ TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
             finish(*small);
             if (changes) small->world.shutter.poses.assign(2, small->world.pose);
             RenderSettings settings = settingsFor(64);
-            settings.cocTolerance = 1e6;  // triangles are drawn as they are
+            settings.cocTolerance = 1e6;  // draws triangles undivided
             const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
             EXPECT_GT(counts.couldBeAway, 100);
             EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
         }
 }
 
-// The frustum is widened by the object's own blur, not by the lens's.
+// The object's own blur widens the frustum, not the lens's.
 TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -287,7 +289,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     small->view.height = 300;
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 2;
-    // 10 px beside the image, 0.4 px wide, where the lens blurs by 7 px.
+    // 10 px beside the image and 0.4 px wide, with a lens blur of 7 px.
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 4 / 400;
     place(*small, 0,
           glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(210 * pixel, 0, -4)), glm::dvec3(0.2 * pixel)));
@@ -326,11 +328,11 @@ double share(std::uint64_t part, const FramePlan& plan) {
     return static_cast<double>(part) / static_cast<double>(plan.trianglesAtFullDetail);
 }
 
-TEST(Visibility, mostOfASpheresFarSideIsLeftOut) {
+TEST(Visibility, farSideOfASphereIsLeftOut) {
     for (const double mirror : {1.0, -1.0}) {
         const auto small = oneSphere(glm::scale(at(0, -4), glm::dvec3(mirror, 1, 1)));
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-        // A sphere of radius 1 shows (1 − 1/4)/2 of itself from 4 m; the ripples widen the cones.
+        // From 4 m, a sphere of radius 1 shows (1 − 1/4)/2 of its surface; ripples widen the cones.
         EXPECT_GT(share(plan.trianglesFacingAway, plan), 0.35);
         EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.625);
         EXPECT_EQ(plan.trianglesDrawn + plan.trianglesFacingAway + plan.trianglesOutside, plan.trianglesAtFullDetail);
@@ -340,7 +342,7 @@ TEST(Visibility, mostOfASpheresFarSideIsLeftOut) {
     }
 }
 
-// What a skin moves is tested by its corners. A skin of one joint that stands still shows as much as the mesh alone.
+// Skinned clusters are tested by their corners. A skin of one static joint culls about as much as the rigid mesh.
 TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const auto rigid = oneSphere(at(0, -4));
     const auto skinned = oneSphere(at(0, -4));
@@ -353,7 +355,7 @@ TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const FramePlan found = planFrame(skinned->world, skinned->view, settingsFor(16));
     EXPECT_GT(share(found.trianglesFacingAway, found), 0.35);
     EXPECT_NEAR(share(found.trianglesFacingAway, found), share(expected.trianglesFacingAway, expected), 0.08);
-    // While the joint turns the sphere, each cluster must face away all the time.
+    // A cluster on a turning joint must face away during the entire exposure.
     skinned->world.shutter.poses.assign(2, skinned->world.pose);
     skinned->world.shutter.poses[1].objects[0].worldFromJoint = {glm::rotate(at(0, -4), 0.2, glm::dvec3(0, 1, 0))};
     const FramePlan turning = planFrame(skinned->world, skinned->view, settingsFor(16));
@@ -375,7 +377,7 @@ TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
     small->view.lens.focusDistance = 0.5;
     const FramePlan blurred = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(blurred.trianglesOutside, blurred), 0.5 * share(sharp.trianglesOutside, sharp));
-    // Bounded blur lets them go again.
+    // A bounded blur culls them again.
     small->view.lens.backgroundLimit = 2;
     const FramePlan bounded = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(bounded.trianglesOutside, bounded), 0.9 * share(sharp.trianglesOutside, sharp));
@@ -391,12 +393,12 @@ TEST(Visibility, allIsKeptOnRequest) {
 }
 
 TEST(Visibility, trianglesTooSmallForThePixelGridAreKept) {
-    const auto small = oneSphere(at(0, -4, 0.0005));  // 0.4 px wide, of 38,000 triangles
+    const auto small = oneSphere(at(0, -4, 0.0005));  // 0.4 px wide, with 38,000 triangles
     EXPECT_EQ(planFrame(small->world, small->view, settingsFor(16)).trianglesFacingAway, 0u);
 }
 
 TEST(Visibility, aBoxAroundTheCameraIsNotTakenToFaceAway) {
-    const auto small = oneSphere(at(0, -0.5));  // the camera is inside, and sees backs only
+    const auto small = oneSphere(at(0, -0.5));  // the camera is inside and sees only backs
     small->view.nearPlane = 0.01;
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.6);

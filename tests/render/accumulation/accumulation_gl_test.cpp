@@ -116,9 +116,9 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 }
 
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
-    const auto small = wall(2, 0.4);  // in focus: its edges stay where they are
+    const auto small = wall(2, 0.4);  // in focus: its edges must not move
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // nothing is blurred here: the lens would be left out
+    settings.keepAll = true;  // nothing is blurred, so the plan would drop the lens
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -128,7 +128,7 @@ TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
     const auto small = wall(1, 0.2);
     const double c = 0.05 * 0.5 * 96 / 0.72;  // px
     const Image image = rendered(*small, settingsFor(512));
-    // Along the middle row the left edge of the quad lies at 48 − 0.2/0.36·48 px; it mixes over ± c/2.
+    // In the middle row, the left edge of the quad lies at 48 − 0.2/0.36·48 px and is blurred over ± c/2.
     const double edge = 48 - 0.2 / 0.36 * 48;
     for (int x = 0; x < 48; ++x) {
         const double green = image.at(x, 32)[1];
@@ -162,7 +162,7 @@ TEST_F(Accumulation, halfFloatLayersErrNoMoreThanStated) {
     for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(image.at(48, 32)[c], expected[c], 0x1p-11 * expected[c]);
 }
 
-// The compensated sum of layers against a double-precision sum of the same layers.
+// The compensated sum of layers agrees with a sum in double precision of the same layers.
 TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -237,7 +237,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     const auto at = [](double z) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
     };
-    place(*small, 0, at(2));  // red in front of green in front of blue
+    place(*small, 0, at(2));  // the red quad lies in front of the green one, which lies in front of the blue one
     place(*small, 2, at(4));
     place(*small, 1, at(3));
     small->world.environment.type = EnvironmentType::uniform;
@@ -250,8 +250,8 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// A pinhole shows L(d) of each pixel's direction; an environment at infinity lies still when only the focus is at
-// infinity.
+// A pinhole shows the radiance L(d) of each pixel's direction. A lens sees an environment at infinity unblurred only if
+// it is focused at infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
     small.world.environment = {
@@ -284,7 +284,7 @@ TEST_F(Accumulation, environmentMapOfOneColourIsTheUniformEnvironment) {
     EXPECT_LT(largestDifference(mapped, rendered(*small, settingsFor(8))), 5e-3);
 }
 
-// A lamp and a spotlight beside the sun.
+// Adds a lamp and a spotlight to the sun.
 void addLocalLights(SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;
@@ -300,7 +300,8 @@ void addLocalLights(SmallWorld& small) {
     small.world.lights.insert(small.world.lights.end(), {lamp, spot});
 }
 
-// A few lights are constants of the shaders, many are uniforms: dark ones make many of a few.
+// Few lights are compiled into the shaders as constants, many are uniforms. Additional dark lights switch from
+// constants to uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -315,7 +316,7 @@ TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     EXPECT_LT(largestDifference(constant, rendered(*small, settingsFor(4), options)), 1e-4);
 }
 
-// Numbers that no shader could hold as constants: a light beyond all bounds leaves the image its largest values.
+// Infinity cannot be a constant of a shader: an infinite light is drawn with the image's largest finite values.
 TEST_F(Accumulation, infiniteLightIsDrawn) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};
@@ -326,8 +327,8 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// Surfaces are shaded along the world's axes: where camera, objects and lights turn about the vertical and move
-// together, nothing changes.
+// The image stays the same when camera, objects and lights turn about the vertical and move together, although shading
+// uses the world's axes.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();
     addLocalLights(*small);
@@ -338,12 +339,12 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has stayed behind
+    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has not moved yet
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
 
-// Interpolated normals can look away from the eye: the half vector's cosine must not leave [0, 1], whatever the light.
+// Interpolated normals can face away from the eye. The half vector's cosine must stay in [0, 1], or such pixels glare.
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};

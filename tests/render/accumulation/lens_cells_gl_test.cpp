@@ -31,7 +31,7 @@ LensCells lensCellsOf(const SmallWorld& small, const RenderSettings& settings) {
     return lensCells(planFrame(small.world, small.view, settings));
 }
 
-// Spheres before and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
+// Spheres in front of and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
 std::unique_ptr<SmallWorld> blurredSpheres() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 0.25;
@@ -57,24 +57,24 @@ TEST_F(LensCellImages, waveSizeChangesNoBit) {
     }
 }
 
-// Asking for an image within a block leaves the sum as it is.
+// Reading an image within a block does not change the accumulated sum.
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
     RendererOptions few;
     few.wave = 16;
-    const auto whole = rendererOf("multirate", small->world, few);
+    const auto full = rendererOf("multirate", small->world, few);
     const auto part = rendererOf("multirate", small->world, few);
-    whole->start(plan);
+    full->start(plan);
     part->start(samplesOf(plan, 0, 64));
     while (part->advance()) EXPECT_EQ(part->image().width, small->view.width);
     for (const std::uint32_t first : {64u, 128u}) {
         part->continueWith(samplesOf(plan, first, 64));
         while (part->advance()) part->image();
     }
-    while (whole->advance()) {
+    while (full->advance()) {
     }
-    EXPECT_TRUE(sameBits(whole->image(), part->image()));
+    EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
 TEST_F(LensCellImages, keepAllGivesTheBitsOfAccumulation) {
@@ -171,7 +171,7 @@ Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samp
     return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
 }
 
-// The standard deviation over the mean, well inside the disk.
+// Returns the standard deviation over the mean, well inside the disk.
 double ripple(const Image& image, const FarLight& light) {
     double sum = 0;
     double squares = 0;
@@ -186,7 +186,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Where few samples leave copies of a light, their cells fill the disk.
+// Few samples leave separate copies of a light. Lens cells fill the disk between the copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -198,8 +198,8 @@ TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
 
 struct LightDisk {
     double energy = 0;
-    double offMiddle = 0;  // px
-    double radius = 0;     // px, root mean square
+    double offMiddle = 0;  // px from the image's centre
+    double radius = 0;     // root mean square radius in px
 };
 
 LightDisk diskOf(const Image& image) {
@@ -221,12 +221,13 @@ LightDisk diskOf(const Image& image) {
 
 constexpr double farLightEnergy = 64 * 16;
 
-// A disk has c²/16 along an axis, the square 4²/12, and a pixel 1/12 twice: where it lies and what it gathers.
+// Root mean square radius of the blurred light. Along an axis, a disk has the variance c²/16, the square 4²/12, and a
+// pixel 1/12 for its sample positions and 1/12 for its area.
 double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
-// With blurs of σ = 0.4 to 6 px: the energy of the disk, its place and its size.
+// Blurs of σ = 0.4 to 6 px keep the energy of the disk, its position and its size.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
@@ -237,7 +238,8 @@ TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     }
 }
 
-// Few samples too, as well as the copies' places, rounded to pixels, allow: each errs by 1/√12 px along an axis.
+// Few samples keep the disk as well as their positions allow: each is rounded to a pixel and errs by 1/√12 px along an
+// axis.
 TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
     for (const std::uint32_t n : {4u, 5u, 7u})
         for (const double fStop : {0.4, 0.25, 0.1846}) {
@@ -249,7 +251,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// Whatever lies before or behind the focus, one colour stays one.
+// A scene of one colour in front of and behind the focus keeps that colour.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -282,7 +284,7 @@ struct FenceColors {
     glm::vec3 background;
 };
 
-// Pickets 2 m away and a wall of pickets behind them that ends within the frame.
+// Pickets at 2 m, and behind them a wall of pickets that ends within the frame.
 std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& colors) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(colors.fence));
@@ -304,22 +306,22 @@ std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& col
     return small;
 }
 
-// The largest difference of display values where `covered` is nothing or all: outlines that are in focus lie elsewhere.
-double largestBesideOutlines(const Image& truth, const Image& image, const Image& covered) {
+// Returns the largest difference of display values where `covered` is 0 or 1. Pixels on outlines in focus are excluded.
+double largestBesideOutlines(const Image& reference, const Image& image, const Image& covered) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double share = covered.at(x, y)[0];
             if (share > 1e-6 && share < 1 - 1e-6) continue;
             for (int c = 0; c < 3; ++c)
-                largest =
-                    std::max<double>(largest, std::abs(srgbEncode(image.at(x, y)[c]) - srgbEncode(truth.at(x, y)[c])));
+                largest = std::max<double>(largest,
+                                           std::abs(srgbEncode(image.at(x, y)[c]) - srgbEncode(reference.at(x, y)[c])));
         }
     return largest;
 }
 
-// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a sharp fence that is half transparent:
-// beside and within sharp outlines no pixel is farther from the truth than with the accumulation by more than 2/255.
+// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a half transparent sharp fence. Away
+// from sharp outlines, multirate exceeds the accumulation's error by no more than 2/255 in any pixel.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
     FenceColors glass = colors;
@@ -331,22 +333,23 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
                                            : fenceBeforeWall(focus, {glm::vec4(0), glm::vec4(1), glm::vec3(0)});
         if (!fenceIsSharp) outlines->view.lens.dofEnabled = false;
         const Image covered = drawnBy("accumulation", *outlines, ratedSettings(1024));
-        const Image truth = convergedImage(*small);
+        const Image reference = convergedImage(*small);
         for (const std::uint32_t n : {16u, 64u}) {
             const LensCells cells = lensCellsOf(*small, ratedSettings(n));
             ASSERT_GT(fenceIsSharp ? cells.behind : cells.inFront, 0);
             const Image alone = drawnBy("accumulation", *small, ratedSettings(n));
             const Image blurred = drawnBy("multirate", *small, ratedSettings(n));
-            EXPECT_LT(largestBesideOutlines(truth, blurred, covered),
-                      largestBesideOutlines(truth, alone, covered) + 2.0 / 255)
+            EXPECT_LT(largestBesideOutlines(reference, blurred, covered),
+                      largestBesideOutlines(reference, alone, covered) + 2.0 / 255)
                 << focus << ' ' << drawn.fence.a << ' ' << n;
-            EXPECT_LT(compareImages(truth, blurred).rmse, 1.05 * compareImages(truth, alone).rmse) << focus << ' ' << n;
+            EXPECT_LT(compareImages(reference, blurred).rmse, 1.05 * compareImages(reference, alone).rmse)
+                << focus << ' ' << n;
         }
     }
 }
 
-// As the lens opens bit by bit, from no blur that reaches a class to three of them, no step changes the image by much
-// more than its neighbours do.
+// The lens opens in small steps, from a blur below every class to a blur of three classes. No step changes the image by
+// more than twice its neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     const auto small = blurredSpheres();
     std::vector<double> changes;
@@ -367,18 +370,19 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The blur of the cells vanishes: no image is farther from the truth than the accumulation's, few samples are far
-// nearer, and many err less.
+// The blur of the cells vanishes with the sample count. The error is never above the accumulation's, far below it with
+// few samples, and shrinks with many.
 TEST_F(LensCellImages, convergesToTheReference) {
     const auto small = blurredSpheres();
-    const Image truth = convergedImage(*small);
+    const Image reference = convergedImage(*small);
     std::vector<double> errors;
     for (const std::uint32_t n : {16u, 64u, 256u, 1024u}) {
-        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
-        EXPECT_LT(errors.back(), 1.05 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse)
+        errors.push_back(compareImages(reference, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        EXPECT_LT(errors.back(),
+                  1.05 * compareImages(reference, drawnBy("accumulation", *small, ratedSettings(n))).rmse)
             << n;
     }
-    EXPECT_LT(errors[0], 0.6 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(16))).rmse);
+    EXPECT_LT(errors[0], 0.6 * compareImages(reference, drawnBy("accumulation", *small, ratedSettings(16))).rmse);
     for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], 0.7 * errors[i - 1]) << i;
 }
 

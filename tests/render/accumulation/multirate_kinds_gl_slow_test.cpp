@@ -1,4 +1,4 @@
-// A few dozen images of 256 samples.
+// The tests render a few dozen images of 256 samples.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// What isn't drawn as an opaque surface, or is seen through a limited lens, keeps its place beside what is shared.
+// Surfaces that are not opaque, and views through a limited lens, look right beside shared objects.
 TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const auto check = [](const SmallWorld& small, const char* what) {

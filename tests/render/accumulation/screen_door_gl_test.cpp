@@ -1,4 +1,4 @@
-// A sample split over its pixels (LodMode::continuous): which pixels, how many, and what they may cost.
+// Samples split over an image's pixels (LodMode::continuous): the choice of pixels, their number, and the error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,8 @@ int sharingObjects(const FramePlan& plan) {
                                           [](const ObjectPlan& object) { return boundarySample(object).has_value(); }));
 }
 
-// The only object at levels `level` + 1 and `level`.
+// Gives the only object `coarseCount` samples at level `level` + 1, the others at `level`, and splits the boundary
+// sample.
 void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
     ObjectPlan& object = plan.objects.at(0);
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
@@ -52,7 +53,7 @@ void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uin
     plan.levelsUsed[0].assign(plan.levelsUsed[0].size(), true);
 }
 
-// The nearest of the five spheres by itself, enlarged.
+// The nearest of the five spheres alone, enlarged.
 std::unique_ptr<SmallWorld> oneSphere() {
     auto small = fiveSpheres();
     small->world.pose.objects.resize(1);
@@ -79,7 +80,7 @@ TEST_F(ScreenDoor, waveSizeChangesNoBit) {
     }
 }
 
-// One object whose boundary sample is split: each pixel is that of the split with n coarse samples, or with n + 1.
+// With one split boundary sample, each pixel equals that of the split with n coarse samples or that with n + 1.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -105,7 +106,7 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
             if (same(n, more)) continue;
             ++differing;
             coarse += same(image, more) ? 1 : 0;
-            ASSERT_TRUE(same(image, more) || !coarseBefore[i]) << "a pixel that was coarse stays so";
+            ASSERT_TRUE(same(image, more) || !coarseBefore[i]) << "a coarse pixel stays coarse";
             coarseBefore[i] = same(image, more);
         }
         ASSERT_GT(differing, 1000);
@@ -113,8 +114,8 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     }
 }
 
-// An object of one colour, on a background of another: no pixel is further from the split with n coarse samples than
-// 1/N of the difference between the two colours.
+// For an object of one colour on a background of another, no pixel differs from the split with n coarse samples by more
+// than 1/N of the difference between the two colours.
 TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     const auto small = oneSphere();
     small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
@@ -123,17 +124,19 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);  // coarse outlines
+        // coarse outlines differ most
+        const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
-        const Image whole = renderedPlan(*small, plan);
+        const Image full = renderedPlan(*small, plan);
         setSplit(plan, small->world, last, samples / 2, 0.5);
-        const double largest = largestDifference(whole, renderedPlan(*small, plan));
+        const double largest = largestDifference(full, renderedPlan(*small, plan));
         EXPECT_LE(largest, 1.0 / samples + 1e-6);
-        EXPECT_GT(largest, 0.9 / samples) << "outlines that don't differ show nothing";
+        EXPECT_GT(largest, 0.9 / samples) << "the outlines must differ";
     }
 }
 
-// A little more of λ changes little: pixels of one sample, as many as the share of it that changes.
+// A small change of λ changes few pixels, each by one sample: their share of the image is the change of the sample's
+// share.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
@@ -144,14 +147,14 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
         return renderedPlan(*small, plan);
     };
     const double pixels = 160.0 * 120;
-    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // integers of samples among them
+    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // includes integer sample counts
         const Image below = at(lambda - 1e-4);
         const Image above = at(lambda + 1e-4);
         int changed = 0;
         for (std::size_t i = 0; i < below.pixels.size() / 4; ++i)
             changed += std::memcmp(below.pixels.data() + 4 * i, above.pixels.data() + 4 * i, 4 * sizeof(float)) != 0;
         EXPECT_LE(changed, 2 * 2e-4 * samples * pixels + 8) << lambda;
-        EXPECT_LE(largestDifference(below, above), 2.0 / samples);  // radiance of the scene: at most 2
+        EXPECT_LE(largestDifference(below, above), 2.0 / samples);  // the scene's radiance is at most 2
     }
 }
 
@@ -165,7 +168,7 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
     FramePlan plan = planFrame(small->world, small->view, continuousFor(1));
     setSplit(plan, small->world, 1, 0, 0.4);
     const Image image = renderedPlan(*small, plan);
-    EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half of the sphere's, half of the background's, at each pixel
+    EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half the sphere's colour and half the background's in each pixel
     for (int y = 50; y < 70; ++y)
         for (int x = 70; x < 90; ++x)
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.at(x, y)[c], image.at(80, 60)[c], 2e-3) << x << ' ' << y;

@@ -31,7 +31,7 @@ RenderSettings manySamples() {
     return settings;
 }
 
-// A 50 mm lens at f/1.4 focused at 2 m, 96 × 72 px: the image plane at depth z is 0.72 z wide. `quads` face the camera.
+// Quads that face a 50 mm lens at f/1.4, focused at 2 m, in 96 × 72 px. The image plane at depth z is 0.72 z wide.
 std::unique_ptr<SmallWorld> facingQuads(const std::vector<glm::dmat4>& quads, const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -58,7 +58,7 @@ void expectEverywhere(const Image& work, float expected) {
     for (const float value : work.pixels) ASSERT_EQ(value, expected);
 }
 
-// Two triangles over the whole image, out of focus: each pixel belongs to exactly one of them in each lens sample.
+// Two triangles fill the image out of focus. In each lens sample, each pixel belongs to exactly one of them.
 TEST_F(Work, fullScreenPairTouchesEachPixelOnceASample) {
     const auto small = facingQuads({quadAt(1, {0, 0}, {2, 2})}, unlitMaterial(glm::vec4(1)));
     expectEverywhere(workOf(*small), samples);
@@ -78,14 +78,13 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     const glm::dmat4 back = glm::rotate(quadAt(1, {0, 0}, {2, 2}), std::numbers::pi, glm::dvec3(0, 1, 0));
     Material material = unlitMaterial(glm::vec4(1));
     expectEverywhere(workOf(*facingQuads({back}, material)), 0);
-    // A mirror flips which side is the front.
+    // A mirror transform flips which side is the front.
     expectEverywhere(workOf(*facingQuads({glm::scale(back, glm::dvec3(1, 1, -1))}, material)), samples);
     material.doubleSided = true;
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// A rectangle at depth z is shifted by each lens point and jittered: in each sample it touches the pixels whose centres
-// lie inside.
+// Lens point and jitter shift a rectangle at depth z. In each sample, it touches the pixels whose centres lie inside.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);
@@ -105,12 +104,13 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     }
     const Image work = renderWork(small->world, plan);
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    // A centre within 1/256 px of an edge may fall on either side of it: of 48 samples, one row or column in a sample.
+    // A pixel centre within 1/256 px of an edge may fall on either side of it. The tolerance is two rows in one of the
+    // 48 samples.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// A window draws a few samples a frame: in the end they are all there, once each, whatever was drawn before.
+// A window draws a few samples per frame. For each view in turn, they add up to the sum of one complete pass.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));
@@ -128,7 +128,7 @@ TEST_F(Work, growsToTheSameSumForViewAfterView) {
     }
 }
 
-// The window's colours are those of the heat map's file.
+// The window shows the work in the colours of the heat map's file.
 TEST_F(Work, isShownInTheColoursOfItsFile) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

@@ -21,7 +21,7 @@ Kernel copyOf(int components) {
     return {kernel.begin(), kernel.end()};
 }
 
-// ∫ e^(−decay·r²) over the square.
+// Returns ∫ e^(−decay·r²) over the square.
 double gaussianOverSquare(double decay, double extent) {
     const double line = std::sqrt(pi / decay) * std::erf(extent * std::sqrt(decay));
     return line * line;
@@ -62,13 +62,14 @@ TEST(CircularKernel, onlyTheNumbersOfComponentsThereAre) {
 
 TEST(CircularKernel, nodesIntegrateOverTheSquare) {
     for (const double extent : {1.0, 1.3}) {
-        for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {  // inside, touching, through the corners, around
+        // disks inside the square, touching it, cutting its corners, around it
+        for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double) { return 1; }), 4 * extent * extent, 1e-12);
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double u) { return u; }), 8.0 / 3 * std::pow(extent, 4),
                         1e-12);
         }
     }
-    // The disk less four segments.
+    // The disk without its four segments outside the square.
     const double edge = 1.2;
     const double angle = std::acos(1 / edge);
     const double segment = edge * edge * angle - edge * std::sin(angle);
@@ -76,7 +77,8 @@ TEST(CircularKernel, nodesIntegrateOverTheSquare) {
                 pi * edge * edge - 4 * segment, 1e-12);
 }
 
-// A Gaussian of any weight: ∫K² and ∫K over the square by error functions, ∫K·D over a disk inside by e^(−a·ρ²).
+// For one Gaussian of any weight, ∫K² and ∫K over the square are error functions, and ∫K·D over a disk inside is
+// e^(−a·ρ²).
 TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     for (const double decay : {0.7, 2.0}) {
         for (const double extent : {1.0, 1.25}) {
@@ -91,7 +93,7 @@ TEST(CircularKernel, errorOfAGaussianInClosedForm) {
             EXPECT_NEAR(diskProfileError(kernel, extent, radius),
                         std::sqrt((gain * gain * square - 2 * gain * both + disk) / disk), 1e-12);
 
-            // The square lies within the disk: what of the disk sticks out counts in full.
+            // With the square inside the disk, the disk's part outside the square counts fully as error.
             const double wide = 2 * extent;
             disk = pi * wide * wide;
             gain = disk / over;
@@ -101,7 +103,8 @@ TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     }
 }
 
-// A Gaussian of positive weight passes the rounding on as it is; two that cancel in part raise it by their sum.
+// A Gaussian of positive weight passes rounding on unamplified. Components that partly cancel amplify it by the sum of
+// their magnitudes over their sum.
 TEST(CircularKernel, roundingIsAmplifiedWhereComponentsCancel) {
     const Kernel one = {{1.5, 0, 4, 0}};
     EXPECT_NEAR(roundingAmplification(one, 1, 1), 1, 1e-12);
@@ -115,12 +118,12 @@ TEST(CircularKernel, energyIsTheDisks) {
     }
 }
 
-// Half floats round by 2⁻¹¹ = 0.05 %: less than 0.25 % of the brightest pixel for every kernel.
+// Half floats round by 2⁻¹¹ = 0.05 %, so an amplification below 5 keeps the error under 0.25 % of the brightest pixel.
 TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
-    for (int n = 1; n <= 3; ++n)  // the published ones beyond take 32-bit floats
+    for (int n = 1; n <= 3; ++n)  // published kernels of more components use 32-bit floats
         EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
@@ -133,7 +136,7 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// Niemitalo's kernels at the extent and the disk radius, in their own units, that suit them best.
+// Niemitalo's kernels, each at the extent and the disk radius (in its own units) that suit it best.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
@@ -151,8 +154,8 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     }
 }
 
-// In units of the disk they are what the slides print, at the radius where they come closest to a disk: at the same
-// extent any other radius is further from it.
+// In units of the disk's radius, the published kernels have the constants printed on the slides. The radius is the one
+// where they come closest to a disk: at the same extent, any other radius fits worse.
 TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(publishedCircularKernel(publishedKernelLimit + 1), Error);
@@ -171,12 +174,13 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
             }
             EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
         }
-        // Of a mistyped constant: neither a disk, nor closer to it than with a component less.
+        // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
         EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(publishedCircularKernel(n - 1), circularKernelExtent, 1));
     }
 }
 
-// Their dips, which darken what lies around a highlight, are shallower than the fitted kernels'.
+// The negative lobes of the published kernels, which darken the surroundings of a highlight, are shallower than those
+// of the fitted kernels.
 TEST(CircularKernel, publishedKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;
@@ -187,7 +191,7 @@ TEST(CircularKernel, publishedKernelsDipLess) {
         EXPECT_GT(lowest(publishedCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
 }
 
-// What the kernels are the least of (see the header).
+// Returns the objective that the kernels minimize (see the header).
 double guardedSquares(const Kernel& kernel) {
     const double error = diskProfileError(kernel, circularKernelExtent, 1);
     const double gain = energyGain(kernel, circularKernelExtent, 1);
@@ -255,7 +259,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
         int x, y;
         double light;
     };
-    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};  // their squares overlap; the second is cut by the border
+    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};  // their squares overlap; the border cuts the second
     Field in(side * side);
     for (const Point& point : points) in[at(point.x, point.y)] = point.light;
     for (const int n : {1, 2, 5, 9}) {
@@ -275,7 +279,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
     }
 }
 
-// The root mean square radius of the blur of a point, as of a lens's bokeh: the disk's is radius/√2.
+// The root mean square radius of a blurred point equals that of a disk, radius/√2, as for a lens's bokeh.
 TEST(CircularKernel, blurIsAsWideAsTheDisk) {
     Field in(side * side);
     in[at(side / 2, side / 2)] = 1;

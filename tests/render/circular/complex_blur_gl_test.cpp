@@ -66,7 +66,7 @@ Image blocks() {
     return image;
 }
 
-// The left upper part of an image: enough where every pixel of a wide kernel costs.
+// Top left quarter of an image: keeps the test of every pixel under wide kernels fast.
 Image partOf(const Image& image) {
     Image part(width / 2, height / 2, image.channels);
     const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels);
@@ -74,7 +74,7 @@ Image partOf(const Image& image) {
     return part;
 }
 
-// Infinity where either holds a NaN.
+// Two separable passes give the same image as the direct sum over the kernel.
 TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
     for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
         for (int components = 1; components <= circularKernelLimit; ++components)
@@ -85,8 +85,8 @@ TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
                 info.taps = taps;
                 const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
                 info.direct = true;
-                const Image whole = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
-                EXPECT_LT(largestDifference(passes, whole), 1e-3)
+                const Image full = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
+                EXPECT_LT(largestDifference(passes, full), 1e-3)
                     << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
             }
 }
@@ -108,7 +108,7 @@ TEST_F(ComplexBlurs, twoPassesGiveTheWholeOval) {
             }
 }
 
-// The variance of an ellipse along an axis is a quarter of the square of its half.
+// Along an axis, the variance of a uniform ellipse is a quarter of its squared half-axis.
 TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
     Image point = filled(4, 0);
     point.at(48, 40)[0] = 1000;
@@ -132,11 +132,12 @@ TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     Image varying(width, height, 1);
-    for (int y = 0; y < height; ++y)  // a slope, and a step to it
+    for (int y = 0; y < height; ++y)  // a slope with a step at its end
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
-            // Half floats hold 11 bits of radiance and of weight, rounded or cut off, and the kernel amplifies that.
+            // Half floats store radiance and weight with 11 bits, rounded or truncated, and the kernel amplifies that
+            // error.
             const double amplification =
                 roundingAmplification(circularKernel(components), circularKernelExtent, 1) * 4 / std::numbers::pi;
             const double tolerance = storage == ComplexStorage::half ? amplification * 2 * 0x1p-10 : 1e-4;
@@ -195,7 +196,7 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// Weights are divided by the largest of them, as radiance is: small ones lose no more of it.
+// Weights are divided by their max, as radiance is, so that small weights keep their relative precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;
@@ -204,8 +205,7 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// As published, the eight taps' scale is their sum: what is stored of a white field is 1, of a black one 0, and of a
-// field with any samples lies between.
+// The published scale of eight taps is their sum: a white field is stored as 1, a black one as 0, any other in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {
@@ -222,8 +222,8 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
         }
 }
 
-// The brackets that Garcia's generator of filters prints for two components and a radius of eight taps. It divides the
-// taps so that the whole kernel sums to one: the one in the middle, whose factor is 1, is 0.064754.
+// Brackets that Garcia's filter generator prints for two components and a radius of eight taps. The generator scales
+// the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;
@@ -256,7 +256,7 @@ TEST(Brackets, boundTheTapsOfEveryRadius) {
         }
 }
 
-// The sum of the taps makes better use of ten bits than their range at any radius.
+// At ten bits, scaling by the sum of the taps loses less than scaling by their range over all radii.
 TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
     const auto lost = [&](ComplexTaps taps) {
         ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);

@@ -1,4 +1,4 @@
-// The widened view: a pixel shows the same place with the same blur.
+// In the widened view, a pixel shows the same point with the same blur.
 
 #include "render/layered/depth_layers.h"
 
@@ -37,7 +37,7 @@ TEST(Widened, keepsThePlacesAndTheBlursOfPixels) {
         const double z = 0.3 + 8 * unit(random) * unit(random);
         const glm::dvec2 ndc = 2.0 * pixel / size - 1.0;
         const glm::dvec2 wideNdc = 2.0 * (pixel + double(border)) / wideSize - 1.0;
-        // m off the axis at 1 m; both axes by the horizontal field of view.
+        // Metres off the axis at a depth of 1 m; the horizontal field of view scales both axes.
         const double tangent = ndc.y * plan.tanHalfHorizontal * size.y / size.x;
         EXPECT_NEAR(wideNdc.x * wide.tanHalfHorizontal, ndc.x * plan.tanHalfHorizontal, 1e-12);
         EXPECT_NEAR(wideNdc.y * wide.tanHalfHorizontal * wideSize.y / wideSize.x, tangent, 1e-12);

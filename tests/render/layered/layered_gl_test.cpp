@@ -1,4 +1,4 @@
-// Lens rays through depth layers, against formulas and against the accumulation.
+// Lens rays through depth layers against formulas and against the accumulation.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ RenderSettings samplesOf(std::uint32_t samples) {
     RenderSettings settings;
     settings.lod = LodMode::off;
     settings.sampleCount = samples;
-    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    settings.keepAll = true;  // samples the lens even where nothing is blurred
     return settings;
 }
 
@@ -53,13 +53,13 @@ double errorBetween(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// An unlit pane that faces the camera; px of the image, from its top left corner.
+// An unlit pane that faces the camera. The area is in px from the image's top left corner.
 struct Pane {
     Rectangle area;
     glm::vec4 color{1};
 };
 
-// Seen through bokehView's wide lens, focused at 2 m.
+// Panes seen through bokehView's wide lens, focused at 2 m.
 std::unique_ptr<SmallWorld> panes(const std::vector<Pane>& list, int width = 96, int height = 64) {
     auto small = std::make_unique<SmallWorld>();
     small->view = bokehView(width, height);
@@ -75,7 +75,7 @@ std::unique_ptr<SmallWorld> panes(const std::vector<Pane>& list, int width = 96,
     return small;
 }
 
-// So that the blur at `depth` is as wide as `pixels`.
+// Scales the lens so that the blur at `depth` is `pixels` wide.
 void blurBy(SmallWorld& small, double pixels, double depth) {
     small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
 }
@@ -90,7 +90,7 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
-    // Every lens sample sees that; a sky alone differs within a pixel.
+    // All lens samples see the same uniform sky. The default sky varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
@@ -119,8 +119,8 @@ TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     }
 }
 
-// A bar hides a red stripe of the wall from the middle of the lens. The bar's blur is a disk, of which the bar covers a
-// strip; through the rest of the lens the middle of the stripe shows itself.
+// A bar hides a red stripe of the wall from the middle of the lens. The bar covers a strip of the lens disk; the rest
+// of the lens sees the middle of the stripe.
 TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     constexpr double bar = 8;    // px
     constexpr double blur = 24;  // px
@@ -128,7 +128,7 @@ TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
                               {{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 2}, {1, 0, 0, 1}},
                               wallAt(2.0001, {0, 1, 0, 1})});
     blurBy(*small, blur, 1.2);
-    const double half = bar / blur;  // of the strip, in radii
+    const double half = bar / blur;  // half width of the strip in lens radii
     const double covered = 2 / std::numbers::pi * (std::asin(half) + half * std::sqrt(1 - half * half));
     const Image image = seenBy(*small, "layered");
     const Image oneLayer = seenBy(*small, "layered:layers=1");
@@ -136,7 +136,7 @@ TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     EXPECT_NEAR(middle[2], covered, 0.03);
     EXPECT_NEAR(middle[0], 1 - covered, 0.03);
     EXPECT_LT(middle[1], 0.01);
-    EXPECT_LT(oneLayer.at(48, 32)[0], 0.01);  // never seen
+    EXPECT_LT(oneLayer.at(48, 32)[0], 0.01);  // one layer never contains the stripe
 }
 
 TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
@@ -147,7 +147,7 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
 }
 
-// Boards of many depths, each hidden by those before it but for what the lens sees around them.
+// Boards at many depths. Each board is hidden by nearer ones, except where the lens sees around them.
 TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     std::vector<Pane> list;
     for (int i = 0; i < 14; ++i) {

@@ -1,4 +1,4 @@
-// What both lens-space methods must satisfy: the accumulation is their truth.
+// Properties of both lens-space methods; the accumulation is the reference.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ RenderSettings raySettings(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    settings.keepAll = true;  // samples the lens even where nothing is blurred
     return settings;
 }
 
@@ -38,7 +38,7 @@ Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t 
     return image;
 }
 
-// Rays with which the methods come as near to the truth as the tests ask: a line is worth several points.
+// Returns a number of rays that suffices for the tests' error bounds. A line is worth several points.
 std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
@@ -53,7 +53,7 @@ double figureOf(const RenderStats& stats, const std::string& name) {
     return std::nan("");
 }
 
-// Two rippled spheres, in front of and behind the focus, lit, over a gradient sky.
+// Two lit, rippled spheres, in front of and behind the focus, before a gradient sky.
 std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -77,7 +77,7 @@ std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     return small;
 }
 
-// A ground from behind the camera to far away, which the near plane cuts.
+// A ground from behind the camera to far away, cut by the near plane.
 std::unique_ptr<SmallWorld> groundUnderCamera() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -140,9 +140,9 @@ TEST_P(LensSpace, showsAConstantSceneAsConstant) {
 
 TEST_P(LensSpace, drawsTheSameWhateverTheWave) {
     const auto small = twoSpheres();
-    const Image whole = lensSpaceImage(GetParam(), *small, 12);
-    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12, nullptr, 5), whole));
-    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12), whole));
+    const Image full = lensSpaceImage(GetParam(), *small, 12);
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12, nullptr, 5), full));
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12), full));
 }
 
 TEST_P(LensSpace, drawsWhatPassesTheCamera) {
@@ -151,7 +151,8 @@ TEST_P(LensSpace, drawsWhatPassesTheCamera) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
-// What varies linearly over triangles is the same from their vertices, and what is lit nearly so if they are small.
+// Shading at vertices equals shading at surfaces where colours are linear over a triangle, and nearly equals it on
+// small lit triangles.
 TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const std::string method = GetParam();
     const auto ground = groundUnderCamera();
@@ -166,7 +167,7 @@ TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const double fine = psnr(96);
     EXPECT_GE(fine, 40);
     EXPECT_GT(fine, coarse + 6);
-    EXPECT_LT(coarse, 60);  // it isn't the same either
+    EXPECT_LT(coarse, 60);  // the two shadings do differ
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
@@ -181,7 +182,7 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 50);
 }
 
-// side² squares of two triangles each over 6 x 6 px within one tile: every ray through them must meet one.
+// A grid of side² squares of two triangles each, over 6 x 6 px within one tile.
 std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
@@ -202,15 +203,17 @@ std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     small->scene.meshes.push_back(mesh);
     small->view.width = small->view.height = 32;
     small->view.lens.dofEnabled = false;
-    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // at 2 m
-    // Pixels 17 to 23 from the left and from below: within the tiles of 8 and of 16 px that begin at 16.
+    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // m per pixel at a depth of 2 m
+    // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 and of 16 px that begin at
+    // 16.
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
     small->world.environment.type = EnvironmentType::none;  // alpha is coverage
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
     return small;
 }
 
-// Every ray through the grid must meet one of its triangles, wherever it lies in the list: a lost one would be a hole.
+// Expects every ray through the grid to meet a triangle, wherever that triangle lies in the tile's list. A lost
+// triangle leaves a hole.
 void expectWholeGrid(const Image& image) {
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -219,7 +222,7 @@ void expectWholeGrid(const Image& image) {
         }
 }
 
-// A grid of more triangles than the loops of Mesa's software driver have rounds, which are 65,536.
+// A grid side with more triangles than Mesa's software driver allows rounds of a loop, 65,536.
 constexpr std::uint32_t longerThanLoops = 184;
 
 TEST_P(LensSpace, losesNoneOfTensOfThousandsOfTrianglesInATile) {
@@ -232,7 +235,7 @@ TEST_P(LensSpace, losesNoneOfTensOfThousandsOfTrianglesInATile) {
     expectWholeGrid(image);
 }
 
-// Blurred, so that a line sees hundreds of them. They make up one white square, like two triangles.
+// Blurred triangles, hundreds of them on each line, form the same white square as two large triangles.
 TEST_P(LensSpace, seesTensOfThousandsOfBlurredTrianglesInATileAsTheirSquare) {
     const auto blurred = [](std::uint32_t side) {
         auto small = gridInATile(side);
@@ -281,7 +284,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Textures, normal maps and skins, as the accumulation shades them.
+// Textures, normal maps and skins look as in the accumulation.
 TEST_P(Models, lookAsInTheAccumulation) {
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
     small->view.lens.fStop = 1.4;
@@ -308,11 +311,11 @@ TEST_F(LensSpaceAlone, stochasticPointsBlurMotion) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage("stochastic", *small, 256)), 50);
     expectRefusal("line", *small, "no time");
     small->world.shutter.perSample = true;
-    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // one for each of four samples
+    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // one pose for each of four samples
     expectRefusal("stochastic", *small, "motion segments");
 }
 
-// Two far triangles that don't intersect fit into any buffer.
+// Two distant triangles that do not intersect fit into any buffer, so both kinds of lines give the same image.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -333,7 +336,7 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 
-// What a buffer of two segments can't hold is counted, and errs by about as much.
+// Segments that do not fit a buffer of two are counted, and more segments reduce the error.
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
@@ -344,8 +347,7 @@ TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     EXPECT_GT(psnrAgainst(exact, many), psnrAgainst(exact, few));
 }
 
-// Root mean square of the error of squares of `side` px: what noise leaves of itself there is little, and structure
-// stays.
+// Returns the root mean square error of squares of `side` px. Averaging suppresses noise and keeps structure.
 double errorOfSquares(const Image& reference, const Image& image, int side) {
     double sum = 0;
     int count = 0;
@@ -361,7 +363,8 @@ double errorOfSquares(const Image& reference, const Image& image, int side) {
     return std::sqrt(sum / count);
 }
 
-// A bright spot far out of focus: few lines of the same angles everywhere show their wheel, and turned ones noise.
+// A bright spot far out of focus: few lines at the same angles in every pixel show as spokes, and rotated lines turn
+// them into noise.
 TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({30, 30, 30, 1})};
@@ -375,12 +378,12 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // The noise isn't more than the structure was, and less than half of that is left where the eye averages 8 x 8 px.
+    // The noise is no larger than the structure it replaces. Less than half of it remains after averaging 8 x 8 px.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Two quads that pass through each other: the buffer shows one of them whole between its ends, exact lines both.
+// Two quads intersect. The buffer shows a single quad between its ends, and exact lines show both.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// In the paper's terms, p from −1/2 to 1/2.
+// Light between two points in the paper's units, p from −1/2 to 1/2.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
 }
@@ -33,12 +33,12 @@ TEST(LineWeights, addUp) {
     }
 }
 
-// The mean of κ over the chords that a region leaves on the spokes is the region's share of the disk.
+// The mean of κ over the chords that a region cuts from the spokes is the region's share of the disk.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
-    const double h = 0.3;  // u > h: a segment of the circle
+    const double h = 0.3;  // u > h is a segment of the circle
     double halfPlane = 0, offCentreDisk = 0;
-    const double distance = 0.45, radius = 0.35;  // of a disk that doesn't hold the centre
+    const double distance = 0.45, radius = 0.35;  // of a disk that does not contain the centre
     for (int i = 0; i < lines; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);
@@ -55,19 +55,17 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
 TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     const LineLight ring{1, 0.5, 0, 0.25};
     EXPECT_EQ(lightBetween(ring, -0.5, 0.5), 0);
-    EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);  // half the ring's area, one side
+    EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);  // half the ring's area, on one side
 }
 
-// A polygon's area by its spokes, which are spread in equal shares of it, is that of the polygon below any straight
-// cut.
+// Spokes share a polygon's area equally, so the light on them beyond a straight cut is the area beyond that cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;
     plan.view.width = plan.view.height = 100;
     plan.samples.resize(512);
     const LineSets lines = lineSets(plan, true);
-    // The square has its corners on the axes; u > 1/2 is a quarter of its right half's height, squared: 1/8 of the
-    // area.
+    // The square's corners lie on the axes. The part u > 1/2 is a half-size copy of its right half: 1/8 of the area.
     double share = 0;
     for (const GpuRay& ray : lines.sets.table) {
         const LineLight light{ray.values.x, ray.values.y, 0, 0};

@@ -15,7 +15,7 @@ struct PlaceInImage {
     double depth;      // along the view axis, m
 };
 
-// What optics say: the ray from the lens point through the place meets the focus plane where the sharp image shows it.
+// Geometric optics: the ray from the lens point through `inView` meets the focus plane where the sharp image shows it.
 PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample, const FramePlan& plan) {
     const View& view = plan.view;
     const double radius = view.lens.dofEnabled ? 0.5e-3 * view.lens.focalLength / view.lens.fStop : 0;
@@ -27,7 +27,7 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-// Places in boxes all over the objects, for every sample.
+// Expects random points in boxes all over the objects to be seen within the boxes' bounds, for every sample.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
@@ -65,14 +65,14 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
     expectBoxesHoldWhatIsSeen(*fiveSpheres());
 }
 
-// A pinhole's plan leaves the lens out.
+// The plan of a pinhole image omits the lens.
 TEST(LensSight, boxesHoldWhatAPinholeSees) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;
     expectBoxesHoldWhatIsSeen(*small);
 }
 
-// A small box is a few pixels, and its depth is its own.
+// The bounds of a small box are a few pixels wide, with the box's own depth.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -86,10 +86,10 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     EXPECT_LE(seen->top - seen->bottom, 3);
     const double distance = -object.viewFromObject[3].z;
     EXPECT_NEAR(seen->depth, plan.view.nearPlane / distance, 1e-3 * plan.view.nearPlane / distance);
-    EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies in it
+    EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies inside the box
 }
 
-// Controls, motion and blur of an object's own leave C = a + b·w.
+// Lens controls, motion and an object's own blur break the relation C = a + b·w, so boxes are not tested.
 TEST(LensSight, knowsWhereItDoesNotHold) {
     RenderSettings settings;
     settings.sampleCount = 8;

@@ -1,4 +1,4 @@
-// What software rasterisers leave out behind other surfaces shows nothing: no bit of the image changes.
+// Occlusion culling on software rasterizers does not change a bit of the image.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::unique_ptr<GlContext> OccludedSurfaces::context_;
 
 struct OpaqueDrawn {
     Image image;
-    double hidden = 0;  // of the triangles, the share that was left out
+    double hidden = 0;  // culled share of the triangles
 };
 
 RenderSettings sharpLevels(std::uint32_t samples) {
@@ -54,7 +54,7 @@ Image drawnWithAllHidden(const SmallWorld& small, RenderSettings settings) {
     return drawn.image;
 }
 
-// A wall with a gap, and spheres before and behind it: most of them hide behind the wall.
+// A wall with a gap, and spheres in front of and behind it, most of them hidden by the wall.
 std::unique_ptr<SmallWorld> behindAWall() {
     auto small = fiveSpheres();
     small->scene.materials.push_back(unlitMaterial({0.3f, 0.5f, 0.2f, 1}));
@@ -63,7 +63,7 @@ std::unique_ptr<SmallWorld> behindAWall() {
     const auto at = [](double x, double y, double z, double s) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)), glm::dvec3(s));
     };
-    place(*small, 1, at(-2.05, 0, -4, 2));  // it leaves out the middle
+    place(*small, 1, at(-2.05, 0, -4, 2));  // the two halves leave a gap in the middle
     place(*small, 1, at(2.05, 0, -4, 2));
     for (int i = 0; i < 9; ++i) place(*small, 0, at(i % 3 - 1, i / 3 - 1, -7 - 0.2 * i, 0.6));
     return small;
@@ -96,7 +96,7 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
     }
 }
 
-// All in focus: the plan leaves the lens out, and samples only smooth edges.
+// A plan with everything in focus omits the lens, and samples only smooth edges.
 TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     const auto small = behindAWall();
     small->view.lens.dofEnabled = false;
@@ -112,11 +112,11 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
         return renderer->image();
     };
     const Image seen = imageOf(0.2);
-    plan.settings.keepAll = true;  // of what is planned already
+    plan.settings.keepAll = true;  // turns culling off without a new plan
     EXPECT_TRUE(seen.pixels == imageOf(0).pixels);
 }
 
-// A surface with holes hides only where it is. One that light passes isn't opaque and hides nothing.
+// A surface with holes hides nothing behind its holes. A translucent surface hides nothing.
 TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
     const double behindWall = opaqueDrawn("accumulation", *behindAWall(), sharpLevels(24)).hidden;
     for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
@@ -124,7 +124,7 @@ TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
         Material& wall = small->scene.materials[1];
         wall.alphaMode = mode;
         wall.alphaCutoff = 0.5f;
-        wall.baseColorFactor.a = 0.4f;  // all of it is a hole
+        wall.baseColorFactor.a = 0.4f;  // below the cutoff: all of the wall is a hole
         const OpaqueDrawn drawn = opaqueDrawn("accumulation", *small, sharpLevels(24));
         EXPECT_LT(drawn.hidden, behindWall - 0.1);
         EXPECT_TRUE(drawn.image.pixels == drawnWithAllHidden(*small, sharpLevels(24)).pixels);
@@ -141,7 +141,7 @@ TEST_F(OccludedSurfaces, underLensesThatBendAndThingsThatMoveAllIsDrawn) {
     EXPECT_EQ(opaqueDrawn("accumulation", *small, sharpLevels(24)).hidden, 0);
 }
 
-// Layers of leather, rubber and glass on each other.
+// Layered leather, rubber and glass.
 TEST_F(OccludedSurfaces, ofFlightHelmet) {
     const std::filesystem::path path = modelPath("FlightHelmet/FlightHelmet.gltf");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;

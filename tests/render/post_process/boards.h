@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of flat boards for tests of post-process methods, and images of them.
+// Scenes of flat boards for tests of post-process methods, and their images.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace defocus::engine {
 inline RenderSettings settingsWithTheLens() {
     RenderSettings settings;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    settings.keepAll = true;  // samples the lens even where nothing is blurred
     return settings;
 }
 
@@ -41,7 +41,7 @@ inline double largestDifferenceInColumns(const Image& a, const Image& b, int lef
     return largest;
 }
 
-// Unlit boards, upright at a depth, in front of one another; a uniform sky behind.
+// An unlit, upright board at a depth, seen before a uniform sky.
 struct Board {
     double depth = 2;
     glm::dvec2 centre{0};    // m

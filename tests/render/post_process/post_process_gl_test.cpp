@@ -1,4 +1,4 @@
-// What every post-process method must satisfy, whatever its settings.
+// Properties of every post-process method under every setting.
 
 #include <gtest/gtest.h>
 
@@ -36,12 +36,12 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image image = postProcessed(*small, GetParam());
-    // The same pinholes through the other method's passes.
+    // The reference is another method's pinhole image.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes.c_str())), 2e-3);
 
-    // One pinhole is the accumulation's single sample.
+    // With one pinhole, the image is the accumulation's single sample.
     RenderSettings one = settingsWithTheLens();
     one.sampleCount = 1;
     const auto accumulation = methodNamed("accumulation").make(small->world, {});
@@ -61,13 +61,13 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
                                {9, {0, 1}, {9, 2}, color}},
                               glm::vec3(color));
     const Image image = postProcessed(*small, GetParam());
-    small->view.lens.dofEnabled = false;  // the same constant as half floats hold it
+    small->view.lens.dofEnabled = false;  // the reference is the constant rounded to half floats
     const bool tenBits = std::string(GetParam()).find("r10g10b10a2") != std::string::npos;
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())), tenBits ? 6e-3 : 1e-3);
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
-    // A bright square on a black wall, both behind the focus plane at one depth, blurred by 16 px.
+    // A bright square on a black wall, both at one depth behind the focus plane, blurred by 16 px.
     const auto small =
         boards({{6, {0, 0}, {0.2, 0.2}, {8, 4, 2, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 16 / (0.05 * (1.0 / 2 - 1.0 / 6) * 96 / 0.72);
@@ -82,17 +82,17 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     }
     ASSERT_GT(sharpEnergy, 100);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
-    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // it was blurred at all
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the light is in fact blurred
 }
 
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Small images widen the disk: by their pixels of 4 px (variance 16/12), their linear interpolation (16/6), and the
-    // pre-blurred copy by its Gaussian (8). A disk of radius R has a variance of R²/4.
+    // Images of reduced size widen the disk: by their pixels of 4 px (variance 16/12) and their linear interpolation
+    // (16/6). A pre-blurred copy widens it by its Gaussian (8). A disk of radius R has a variance of R²/4.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
-    // A square of 3 px on a black wall at the same depth, in front of the focus plane and behind it.
+    // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
     for (const double depth : {1.5, 6.0}) {
         const double pixel = 0.72 * depth / 96;  // m
         const auto small = boards(
@@ -117,14 +117,14 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
-    // A pane in focus before a striped, blurred background: through the pane the stripes stay sharp (Scheuermann's
-    // second pass writes the pane's depth).
+    // A pane in focus before a blurred, striped background: the stripes stay sharp through the pane, as Scheuermann's
+    // second pass writes the pane's depth.
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    small->view.lens.blurScale = 4;  // 10 px: a field of a quarter of the size holds that
+    small->view.lens.blurScale = 4;  // 10 px, which a blur field of a quarter of the size can hold
     std::string method = GetParam();
-    if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "blurs it apart";
+    if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
     method += (method.find(':') == std::string::npos ? ":" : ",") + std::string("transparency-buckets=0");
     const Image image = postProcessed(*small, method);
     small->view.lens.dofEnabled = false;
@@ -146,7 +146,8 @@ TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {
     }
 }
 
-// Laid over a sky, the image over nothing is the image with that sky: the methods are linear in the radiance.
+// The methods are linear in radiance: an image without background, composited over a sky, equals the image with that
+// sky.
 TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
     const glm::vec3 sky(0.4f, 0.25f, 0.1f);
     const auto small = boards({{1, {-0.3, 0.1}, {0.1, 0.2}, {0.2f, 0.1f, 0.6f, 1}},
@@ -165,19 +166,20 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Ten bits, and kernels whose dips are cut off at black over nothing and not over a sky; a bias by luminance isn't
-    // linear.
+    // Exceptions are ten-bit storage, and negative lobes that are clamped at black without a sky but not with it. A
+    // bias by luminance is not linear.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
     const bool linear = method.find("bias-by") == std::string::npos;
     EXPECT_LT(largestDifferenceInColumns(image, opaque), linear ? rough ? 8e-3 : 2e-3 : 0.04);
-    EXPECT_EQ(image.at(0, 63)[0], sky[0]);  // nothing reaches the corner
+    EXPECT_EQ(image.at(0, 63)[0], sky[0]);  // no blur reaches the corner
 }
 
 using CircularNearField = PostProcesses;
 
-// A light just before the focus beside a board that is far out of it: weighed by their blur, the light keeps its own.
+// A light just in front of the focus, beside a strongly blurred board. Premultiplied by their blur, the light's pixels
+// keep their own narrow blur.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));
@@ -201,8 +203,8 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// A bright board before the focus, over black: what it shows is what it covers. A constant bias covers twice as much,
-// edges too; one that follows luminance as much more as the disk is full of it.
+// A bright, blurred board over black shows its coverage. A constant bias doubles the coverage, at edges too. A bias by
+// luminance increases it in proportion to the board's share of the disk.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);
@@ -216,7 +218,7 @@ TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const std::vector<double> constant = rowOf("circular:pinholes=1,blend-bias=2");
     const std::vector<double> luminance = rowOf("circular:pinholes=1,blend-bias=2,bias-by=luminance");
     int edges = 0;
-    for (std::size_t x = 50; x < coverage.size(); ++x) {  // beyond the board, where its sharp image isn't
+    for (std::size_t x = 50; x < coverage.size(); ++x) {  // beyond the board's sharp image
         EXPECT_NEAR(constant[x], std::min(2 * coverage[x], 1.0), 2e-3) << x;
         EXPECT_NEAR(luminance[x], std::min(coverage[x] * (1 + coverage[x]), 1.0), 2e-3) << x;
         edges += coverage[x] > 0.05 && coverage[x] < 0.4 ? 1 : 0;

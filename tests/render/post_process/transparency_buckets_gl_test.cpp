@@ -1,4 +1,4 @@
-// Alpha-blended surfaces that post-process methods blur apart from what lies behind them.
+// Alpha-blended surfaces that post-process methods blur separately from the surfaces behind them.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     static std::unique_ptr<GlContext> context_;
 
-    // The method with at most `count` buckets.
+    // Image by the method under test with at most `count` buckets.
     static Image inBuckets(const SmallWorld& small, int count) {
         const std::string method = GetParam();
         const char* separator = method.find(':') == std::string::npos ? ":" : ",";
@@ -32,24 +32,24 @@ std::unique_ptr<GlContext> BlendedSurfaces::context_;
 constexpr glm::vec3 sky(0.5f, 0.4f, 0.3f);
 constexpr glm::vec4 paneColor(0.2f, 0.6f, 0.3f, 0.5f);
 
-// m, at `depth`, of a column of the image of 96 px.
+// Returns the position in m, at `depth`, of a column of the image of 96 px.
 double metresOf(double column, double depth) {
     return (column - 48) / 96 * 0.72 * depth;
 }
 
-// A board at `depth` that covers columns from `left` to `right`, and all rows.
+// A board at `depth` that covers all rows of the columns from `left` to `right`.
 Board boardOver(double left, double right, double depth, const glm::vec4& color) {
     const double begin = metresOf(left, depth);
     const double end = metresOf(right, depth);
     return {depth, {0.5 * (begin + end), 0}, {0.5 * (end - begin), 2 * depth}, color};
 }
 
-// So that what lies at `depth` has a blur of `diameter` px, with the focus at 2 m.
+// Scales the blur to a diameter of `diameter` px at `depth`, with the focus at 2 m.
 void blurAt(SmallWorld& small, double depth, double diameter) {
     small.view.lens.blurScale = diameter / (0.05 * std::abs(1.0 / 2 - 1 / depth) * 96 / 0.72);
 }
 
-// `a` with `b` laid over it, of an opacity by column.
+// Composites the colour `b` over `a`, with an opacity for each column.
 Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(int)>& opacity) {
     Image result = a;
     for (int y = 0; y < a.height; ++y)
@@ -61,7 +61,7 @@ Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(in
     return result;
 }
 
-// The share of a disk's area, of radius 1, that lies beyond a straight edge at −t from its middle.
+// Returns the share of a unit disk's area that lies beyond a straight edge at −t from its centre.
 double shareOfDisk(double t) {
     t = std::clamp(t, -1.0, 1.0);
     return 0.5 + (std::asin(t) + t * std::sqrt(1 - t * t)) / std::numbers::pi;
@@ -78,7 +78,8 @@ TEST_P(BlendedSurfaces, aSharpPaneLeavesTheWallItsBlur) {
         laidOver(inBuckets(*without, 1), glm::vec3(paneColor), [](int x) { return x < 48 ? 0.5 : 0; });
     for (const int buckets : {1, 8})
         EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, buckets), expected), 2e-3) << buckets;
-    EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 12, 36), 0.05);  // what this is for
+    // without buckets the wall would stay sharp
+    EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 12, 36), 0.05);
 }
 
 TEST_P(BlendedSurfaces, aBlurredPaneLeavesStripesSharp) {
@@ -98,7 +99,7 @@ TEST_P(BlendedSurfaces, aBlurredPaneLeavesStripesSharp) {
         laidOver(sharp, glm::vec3(paneColor), [&](int x) { return 0.5 * shareOfDisk((x + 0.5 - 48) / radius); });
     EXPECT_LT(largestDifferenceInColumns(image, expected, 0, 34), 2e-3);
     EXPECT_LT(largestDifferenceInColumns(image, expected, 62), 2e-3);
-    // A sum of two Gaussians is a disk to a few hundredths, and Scheuermann's taps have an outline of their own.
+    // Two Gaussians approximate a disk to a few hundredths, and Scheuermann's taps do not form a disk.
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected, 34, 62), circular ? 0.02 : 0.1);
     EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 62), 0.1);
@@ -137,18 +138,17 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
-// Blurs are drawn where they may show something of a bucket alone. A board that nobody sees makes it as large as the
-// image.
+// Blur passes cover only the area that a bucket can reach. An invisible board extends that area to the entire image.
 TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
     const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
     for (const double depth : {1.2, 2.0, 6.0}) {
         const Board small = {depth, {0, 0}, glm::dvec2(0.04 * depth), paneColor};
         const Board unseen = boardOver(-90, 200, depth, {1, 1, 1, 0});
         const auto part = boards({small, wall}, sky);
-        const auto whole = boards({small, unseen, wall}, sky);
+        const auto full = boards({small, unseen, wall}, sky);
         blurAt(*part, 9, 16);
-        blurAt(*whole, 9, 16);
-        EXPECT_LT(largestDifferenceInColumns(inBuckets(*part, 1), inBuckets(*whole, 1)), 1e-3) << depth;
+        blurAt(*full, 9, 16);
+        EXPECT_LT(largestDifferenceInColumns(inBuckets(*part, 1), inBuckets(*full, 1)), 1e-3) << depth;
     }
 }
 
@@ -156,7 +156,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     const Board wall = boardOver(-90, 24, 9, {0.9f, 0.2f, 0.1f, 1});
     const auto with = boards({boardOver(-90, 48, 1, paneColor), wall}, sky);
     const auto without = boards({wall}, sky);
-    with->world.pose.objects[0].cocScale = 0;  // sharp, though it is out of focus
+    with->world.pose.objects[0].cocScale = 0;  // sharp although out of focus
     blurAt(*with, 9, 12);
     blurAt(*without, 9, 12);
     const Image expected =
@@ -164,7 +164,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, 1), expected), 2e-3);
 }
 
-// Away from the image's border, beyond which a pinhole image knows nothing.
+// Root mean square difference without the border, since a pinhole image contains nothing beyond its border.
 double rootMeanSquareInside(const Image& a, const Image& b, int border) {
     double sum = 0;
     for (int y = border; y < a.height - border; ++y)

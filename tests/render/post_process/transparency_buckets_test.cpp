@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Objects front to back, of a blur in px each.
+// Objects from front to back, each with a blur in px.
 struct Flat {
     double blur = 0;
     bool blended = true;
@@ -41,7 +41,7 @@ void moveRight(ObjectPlan& object) {
 
 using Buckets = std::vector<TransparencyBucket>;
 
-TEST(TransparencyBuckets, partWhereTheBlurDiffersMost) {
+TEST(TransparencyBuckets, partAtTheLargestStepsOfBlur) {
     const FramePlan plan = planOf({{-40}, {-38}, {-20}, {-12}, {9}});
     EXPECT_EQ(transparencyBuckets(plan, 1), (Buckets{{0, 1, 2, 3, 4}}));
     EXPECT_EQ(transparencyBuckets(plan, 2), (Buckets{{4}, {0, 1, 2, 3}}));
@@ -63,13 +63,14 @@ TEST(TransparencyBuckets, passOverOpaqueObjects) {
 TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
     FramePlan plan = planOf({{-9}, {0, false, true}, {5}, {9}});
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
-    moveRight(plan.objects[2]);  // beside what transmits
+    moveRight(plan.objects[2]);  // beside the transmitting object
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{2}, {0}}));
     plan.objects[2].transmits = true;
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
 }
 
-// Beside what transmits, but behind a blended object that isn't: in a bucket it would be laid over that.
+// An object beside the transmitting one, but behind a blended object that is not, stays out of the buckets. In a bucket
+// it would be drawn over the blended object.
 TEST(TransparencyBuckets, keepTheOrderOfWhatTheyLeaveOut) {
     FramePlan plan = planOf({{0, false, true}, {3}, {6}});
     moveRight(plan.objects[2]);
@@ -95,23 +96,22 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
         object.coc.nearest = object.coc.farthest = 20;
         object.coc.largest = 20;
     }
-    // At 2 m, [−1, 1] m of the [−2, 2] m that the image's width shows: the middle half of it, and its whole height. The
-    // margin is 24 px.
+    // At 2 m, [−1, 1] m is the middle half of the image's width of [−2, 2] m, and its full height. The margin is 24 px.
     const TexelRectangle reach = reachOf({0}, plan);
     EXPECT_EQ(reach.x, 250 - 10 - 24);
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
     EXPECT_EQ(reach.y, 0);
     EXPECT_EQ(reach.height, 500);
-    plan.objects[1].coc.nearest = -60;  // another that is blurred more widely in front
+    plan.objects[1].coc.nearest = -60;  // a wider blur of another object in front
     EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);
     EXPECT_EQ(reachOf({0}, plan).width, 0);
-    plan.objects[0].nearestDepth = plan.view.nearPlane;  // seen anywhere
+    plan.objects[0].nearestDepth = plan.view.nearPlane;  // may be seen anywhere in the image
     EXPECT_EQ(reachOf({0}, plan).width, 1000);
 }
 
-// What reaches the camera has a blur without bound in front.
+// An object that reaches the camera has an infinite blur in front, and gets its own bucket.
 TEST(TransparencyBuckets, partWhatReachesTheCamera) {
     FramePlan plan = planOf({{-9}, {9}});
     plan.objects[0].coc.nearest = -std::numeric_limits<double>::infinity();

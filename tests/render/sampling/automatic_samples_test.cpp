@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// A plan of one object whose blur is at most so wide.
+// A plan of one object with a blur of up to `blur` px.
 FramePlan planOf(double blur) {
     FramePlan plan;
     plan.view.nearPlane = 0.1;
@@ -28,7 +28,7 @@ TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
         before = samples;
         const auto gap = [&](double count) { return blur * std::sqrt(std::numbers::pi / (4 * count)); };
         EXPECT_TRUE(gap(samples) <= 2 || samples == maxAutomaticSamples) << blur;
-        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "no block too many at " << blur;
+        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "one block fewer must be too few at " << blur;
     }
     EXPECT_EQ(before, maxAutomaticSamples);
 }

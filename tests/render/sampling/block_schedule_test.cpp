@@ -1,4 +1,4 @@
-// When a frame stops, and for how many samples its blocks are planned, from images whose error is made here.
+// The end of a frame and the sample count that its blocks are planned for, tested by images with a known error.
 
 #include "render/sampling/block_schedule.h"
 
@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Means of 64 · n samples whose error is `first` · n^(−0.6), and each step to the limit independent of the last.
+// Synthetic means of 64 · n samples. Their error is `first` · n^(−0.6), and the steps towards the limit are
+// independent.
 class MadeFrame {
 public:
     explicit MadeFrame(double first) : means_(max) {
@@ -27,7 +28,7 @@ public:
         }
     }
 
-    // Linear: what encodes to the value.
+    // Linear value that encodes to the stored value.
     [[nodiscard]] Image mean(std::uint32_t samples) const {
         const std::vector<double>& values = means_[samples / 64 - 1];
         Image image(size / 3, 1, 3);
@@ -51,7 +52,7 @@ FramePlan planOf(const RenderSettings& settings, std::uint32_t samples) {
     return plan;
 }
 
-// Block after block, each of `seconds`, until the schedule ends it.
+// Renders blocks of `seconds` each until the schedule ends the frame.
 BlockSchedule finished(const MadeFrame& frame, const StopSettings& stop, double seconds = 0) {
     BlockSchedule schedule(RenderSettings{}, stop);
     for (int block = 1;; ++block) {

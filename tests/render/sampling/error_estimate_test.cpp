@@ -1,4 +1,4 @@
-// The error estimate against errors that are known: closed forms, and half planes seen through a lens, whose share of
+// The error estimate against known errors: closed forms, and half planes seen through a lens. A half plane's share of
 // the lens is the area of a segment of the disk.
 
 #include "render/sampling/error_estimate.h"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// Pixel (x, y) sees an edge: white on one side of a line through the lens, at its own angle and distance.
+// Pixel (x, y) sees an edge: white on one side of a line across the lens, with its own angle and distance.
 struct LensEdge {
     double angle;
     double offset;  // −1 … 1
@@ -40,7 +40,7 @@ Image trueLensEdges() {
     return image;
 }
 
-// Adds samples [first, first + 64) to the sum.
+// Adds the samples [first, first + 64) to the sum.
 void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint32_t seed) {
     for (const LensSample& sample : lensSamples(Lens{}, sequence, first, 64, seed))
         for (int y = 0; y < lensEdgesSize; ++y)
@@ -53,13 +53,13 @@ void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint3
 }
 
 TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
-    // s(2m) over s(m) − s(2m).
+    // Ratio of s(2m) to s(m) − s(2m).
     EXPECT_NEAR(errorOverDifference(3, 6), 1 / std::sqrt(std::pow(2, 2 * lensSampleExponent) - 1), 1e-12);
     EXPECT_NEAR(errorOverDifference(64, 128), errorOverDifference(1, 2), 1e-12);
 }
 
 TEST(ErrorEstimate, independentSamplesGiveSigmaOverRootN) {
-    // |M(n) − M(m)|² = σ²(1/m − 1/n).
+    // Independent samples have |M(n) − M(m)|² = σ²(1/m − 1/n).
     for (const double m : {1.0, 2.0, 3.0, 4.5})
         EXPECT_NEAR(errorOverDifference(m, 5, 0.5), std::sqrt(m / (5 - m)), 1e-12) << m;
 }
@@ -84,10 +84,10 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
     EXPECT_THROW(estimate.add(Image(3, 4, 3), 128), Error);
 }
 
-// Nothing but edges: the sequences do better than in pictures, and two of them by far at some numbers of samples. The
-// estimate is then too large, but never too small.
+// On edges alone, the sequences do better than in pictures, and two of them far better at some sample counts. The
+// estimate may then be too high, but never too low.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
-    const Image truth = trueLensEdges();
+    const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
         for (const std::uint32_t seed : {0u, 1u, 2u}) {
             ErrorEstimate estimate;
@@ -98,7 +98,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
                 for (float& value : mean.pixels) value /= static_cast<float>(64 * blocks);
                 estimate.add(mean, 64 * blocks);
                 if (blocks == 1) continue;
-                const double ratio = *estimate.error() / compareImages(truth, mean, {}).rmse;
+                const double ratio = *estimate.error() / compareImages(reference, mean, {}).rmse;
                 const std::string where = std::string(sequenceName(sequence)) + ", seed " + std::to_string(seed) +
                                           ", " + std::to_string(64 * blocks) + " samples";
                 EXPECT_GT(ratio, 1 / 1.5) << where;
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
         }
 }
 
-// Large images are looked at in part: the same noise, the same estimate.
+// Only a part of a large image is read, and the same noise gives the same estimate.
 TEST(ErrorEstimate, aMillionPixelsStandForAll) {
     const auto noise = [](int width, int height, double share) {
         Image image(width, height, 3);

@@ -1,4 +1,4 @@
-// An image that grows block by block against one rendered at once, and its way to the window.
+// An image that grows block by block equals one rendered at once, also in the window.
 
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST_F(Growing, firstBlockIsTheFrameOf64SamplesWithLevels) {
 }
 
 TEST_F(Growing, levelsBecomeFinerWithTheSamples) {
-    small_->view.lens.fStop = 0.5;  // much blur, which allows the spheres levels with few samples
+    small_->view.lens.fStop = 0.5;  // much blur, so that few samples allow coarse levels
     ProgressiveImage image = progressive();
     image.begin(small_->view, {}, 512);
     const double first = static_cast<double>(image.plan().trianglesDrawn);
@@ -135,7 +135,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 
-// What a window shows is what an 8-bit file holds.
+// The window shows the values of an 8-bit file.
 TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     ProgressiveImage image = progressive();
     image.drawFrame(small_->view, settingsOf(8));

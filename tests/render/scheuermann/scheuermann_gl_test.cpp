@@ -1,4 +1,4 @@
-// Scheuermann's gather: its taps in the shape of the aperture, bytes as published, planes by hand.
+// Scheuermann's gather: taps in the shape of the aperture, bytes as published, and planes set by hand.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ Image rendered(const World& world, const View& view, const char* method) {
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 
-// A square of light in a black wall, at exactly one depth, so that all pixels have one blur.
+// A square of light in a black wall, all at one depth, so that all pixels have the same blur.
 Image bokehOf(const View& view, double depth) {
     const double left = (view.width - lightSide) / 2;
     const double top = (view.height - lightSide) / 2;
@@ -57,8 +57,8 @@ Image bokehOf(const View& view, double depth) {
     return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
 }
 
-// 64 taps are dots of a few pixels, so much of the light lies beside a smooth shape's. But less lies beside the right
-// one, by far, than beside the same shape turned by half, which is what the other side of the focus shows.
+// 64 taps are dots of a few pixels, so much light lies outside a smooth shape. Far less lies outside the right shape
+// than outside the same shape turned by 180°, which belongs to the other side of the focus.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);
@@ -90,8 +90,8 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
     EXPECT_LT(middle(), 0.1 * ofADisk);
 }
 
-// Bytes of encoded colour: what is in focus is the pinhole image, cut off at white and rounded. The middle of a byte's
-// range isn't one of its values, so that some of the pre-blurred image shows through.
+// 8-bit encoded colours: an object in focus is the pinhole image, clamped at white and rounded. No byte is exactly the
+// middle of the range, so some of the pre-blurred image shows through.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -105,7 +105,7 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     }
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_LT(error, 1.0 / 255);
-    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half of what rounding alone gives; alpha has none
+    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half the error of rounding alone; alpha has none
 }
 
 TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {

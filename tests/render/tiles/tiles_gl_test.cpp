@@ -1,4 +1,5 @@
-// Frames drawn tile by tile: the bits of one piece, whatever the tiles, the levels, the movement and the controls.
+// Frames drawn tile by tile have the bits of a frame drawn in one piece, for all tilings, levels, motions and blur
+// controls.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ PixelRectangle wholeOf(const FramePlan& plan) {
     return {0, 0, plan.view.width, plan.view.height};
 }
 
-// The image of the areas, each by a start of its own; NaN where none is.
+// Assembles the image from tiles, each with its own start; NaN where there is no tile.
 Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
     Image image(plan.view.width, plan.view.height, 4);
     std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());
@@ -44,7 +45,7 @@ Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>&
     return image;
 }
 
-// Of uneven sizes, in one cell.
+// Tiles of uneven sizes in one cell.
 std::vector<Tile> unevenTiles(const FramePlan& plan) {
     const int columns[] = {0, 37, 101, plan.view.width};
     const int rows[] = {0, 13, 64, plan.view.height};
@@ -57,10 +58,10 @@ std::vector<Tile> unevenTiles(const FramePlan& plan) {
 
 void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
     RendererOptions options;
-    const auto whole = methodNamed("accumulation").make(small.world, options);
+    const auto full = methodNamed("accumulation").make(small.world, options);
     options.wave = 3;
     const auto parts = methodNamed("accumulation").make(small.world, options);
-    const Image expected = imageOf(*whole, plan);
+    const Image expected = imageOf(*full, plan);
     const Image found = joined(*parts, plan, unevenTiles(plan));
     std::size_t others = 0, first = found.pixels.size();
     for (std::size_t i = found.pixels.size(); i-- > 0;)
@@ -84,7 +85,8 @@ FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = Lod
 TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
-        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));  // two blocks
+        // 70 samples: two blocks
+        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
 TEST_F(Tiles, haveTheBitsOfOnePieceWithControlsOfTheBlur) {
@@ -127,7 +129,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
 }
 
-// What lies outside the tile, or outside the image, casts its shadow into it.
+// Objects outside a tile, or outside the image, cast shadows into the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -138,7 +140,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// What transmits shows other pixels of the image, which may lie outside the tile.
+// A transmitting object shows other pixels of the image, which may lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     Material glass;
@@ -151,7 +153,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     expectTheBitsOfOnePiece(*small, plan, "glass");
 }
 
-// An image of cells: each rounds window coordinates in its own way, and nothing else differs.
+// In an image of several cells, the only difference is that each cell rounds window coordinates in its own way.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
     const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);
@@ -163,18 +165,18 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         halves.push_back({{cell.left, cell.top + 20, cell.width, cell.height - 20}, cell});
     }
     const auto renderer = methodNamed("accumulation").make(small->world, {});
-    const Image whole = imageOf(*renderer, plan);
+    const Image full = imageOf(*renderer, plan);
     const Image parts = joined(*renderer, plan, tiles);
     EXPECT_TRUE(joined(*renderer, plan, halves).pixels == parts.pixels) << "tiles of a cell";
     double largest = 0, squared = 0;
-    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
-        const double difference = whole.pixels[i] - parts.pixels[i];
+    for (std::size_t i = 0; i < full.pixels.size(); ++i) {
+        const double difference = full.pixels[i] - parts.pixels[i];
         largest = std::max(largest, std::abs(difference));
         squared += difference * difference;
     }
-    // One of 70 samples may round a silhouette's corner to another pixel.
+    // In one of 70 samples, a silhouette's corner may round to another pixel.
     EXPECT_LT(largest, 2.0 / 70);
-    EXPECT_LT(std::sqrt(squared / static_cast<double>(whole.pixels.size())), 1e-4);
+    EXPECT_LT(std::sqrt(squared / static_cast<double>(full.pixels.size())), 1e-4);
 }
 
 }  // namespace

@@ -395,7 +395,7 @@ TEST(GltfScene, cameraExtrasAreLensValues) {
     const Scene scene = builder.load();
     EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4);
     EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 2.5);
-    EXPECT_EQ(scene.cameras[0].lensValue("horizontalAperture"), -1) << "whether it makes sense is for the lens to say";
+    EXPECT_EQ(scene.cameras[0].lensValue("horizontalAperture"), -1) << "the loader does not check lens values";
     EXPECT_EQ(scene.cameras[0].yfov, 0.5);
     EXPECT_TRUE(scene.cameras.at(1).orthographic);
 }
@@ -472,7 +472,7 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     builder.json["nodes"] = {
         {{"camera", 0}, {"extras", {{"fStop", 8}, {"focusDistance", 3}, {"dofEnabled", true}, {"note", "x"}}}}};
     const Scene scene = builder.load();
-    EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4) << "the camera's own win";
+    EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4) << "the camera's own values take precedence";
     EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 3);
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
 }
@@ -495,7 +495,7 @@ TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     scene = builder.load();
     EXPECT_EQ(rotation(scene, 0), 15 + 30);
     EXPECT_EQ(rotation(scene, 1), 36);
-    EXPECT_EQ(rotation(scene, 2), 15) << "without a number of blades there is none to turn by";
+    EXPECT_EQ(rotation(scene, 2), 15) << "no rotation without a blade count";
 }
 
 // A triangle with _COC_SCALE on a node with cocScale.
@@ -635,16 +635,17 @@ TEST(GltfFiles, dataUrisSpacesAndCodedNames) {
     GltfBuilder::save(folder / "100%25.bin", bytes);
     EXPECT_EQ(trianglesWith("with space é.bin"), expected);
     EXPECT_EQ(trianglesWith("with%20space%20%C3%A9.bin"), expected);
-    EXPECT_EQ(trianglesWith("100%25.bin"), expected) << "a name that only looks coded";
+    EXPECT_EQ(trianglesWith("100%25.bin"), expected) << "a name that only looks percent-encoded";
     const std::string zeros(32, 'A');  // 24 zero bytes
     EXPECT_EQ(trianglesWith("data:application/octet-stream;base64,AACAPwAAgD8AAAAA" + zeros), expected);
-    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AAAA"), expected) << "longer is allowed";
+    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AAAA"), expected) << "longer data";
     EXPECT_EQ(trianglesWith("DATA:text/any;BASE64,AACAPwAA\r\n gD8AAAAA\n" + zeros + "\n"), expected) << "line breaks";
-    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8%0AAAAA" + zeros + "AA==\n"), expected) << "coded breaks";
+    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8%0AAAAA" + zeros + "AA==\n"), expected)
+        << "encoded breaks";
     EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AA"), expected) << "no padding";
     EXPECT_THROW(trianglesWith("data:text/any;base64,AACAPwAA*D8AAAAA" + zeros), Error);
     GltfBuilder::save(folder / "a+b c.bin", bytes);
-    EXPECT_EQ(trianglesWith("a+b%20c.bin"), expected) << "a plus is no space";
+    EXPECT_EQ(trianglesWith("a+b%20c.bin"), expected) << "a plus sign is not a space";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Broken and hostile files: the error is one line that names the file and the fault, whatever the content.
+// Broken and hostile files: for any content, the error is one line that names the file and the fault.
 
 #include <gtest/gtest.h>
 

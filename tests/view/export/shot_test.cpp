@@ -131,18 +131,18 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         options.environment.clear();  // the path becomes absolute, as the scene's does
         Lens cameraLens;
         changeFields(cameraLens, dice);
-        std::vector<ShotKey> keys(static_cast<std::size_t>(dice.whole(1, 3)));
+        std::vector<ShotKey> keys(static_cast<std::size_t>(dice.integer(1, 3)));
         Lens lens = cameraLens;
         for (ShotKey& key : keys) {
             if (dice.coin()) changeFields(lens, dice);
             key.view.lens = lens;
             key.view.worldFromCamera = randomCamera(dice);
-            key.view.width = dice.whole(1, 4000);
-            key.view.height = dice.whole(1, 4000);
+            key.view.width = dice.integer(1, 4000);
+            key.view.height = dice.integer(1, 4000);
             key.pivotDistance = dice.number(0.1, 20);
             key.time = options.time;
         }
-        const WriteOptions write{static_cast<ToneMap>(dice.whole(0, 2)), dice.coin() ? dice.number(-5, 5) : 0};
+        const WriteOptions write{static_cast<ToneMap>(dice.integer(0, 2)), dice.coin() ? dice.number(-5, 5) : 0};
         const std::string text = shotJson({options, cameraLens, keys, 1, write});
         SCOPED_TRACE(text);
 

@@ -46,8 +46,8 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     EXPECT_EQ(flown(), 0);
 }
 
-// Otherwise an exported still and the view would differ by some millimetres, depending on when a frame reads the
-// keyboard.
+// Keys of a command do not move the camera, in any order of release. Otherwise an exported still and the view would
+// differ by some millimetres, depending on when a frame reads the keyboard.
 TEST_F(ViewInputKeys, commandsDontFlyWhicheverKeyIsLetGoFirst) {
     key(key::leftControl, true);
     key('E', true, true);
