@@ -1,5 +1,4 @@
-// The method "multirate" where an object shares its images and where it ceases to: what is blurred, and by how much,
-// and how bright it is.
+// The method "multirate" near the blur at which an object starts to share its images: blur diameter and energy.
 
 #include "plan/lens_cells/rates.h"
 
@@ -15,12 +14,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double sharedBlur = wholeShareBlur - 0.5;                         // px; all groups share
-constexpr double partlySharedBlur = 0.5 * (wholeShareBlur + minShareBlur);  // px; half of them do
+constexpr double sharedBlur = wholeShareBlur - 0.5;                         // px; all sample groups share
+constexpr double partlySharedBlur = 0.5 * (wholeShareBlur + minShareBlur);  // px; half of the sample groups share
 constexpr double diameterLimit = 0.5;                                       // px
 constexpr double energyLimit = 5e-3;
 
-// A light behind the focus, blurred by so many px.
+// Returns a light behind the focus with a blur of `blur` px.
 BoardScene blurredLightScene(double blur, std::uint32_t samples) {
     View view = boardView();
     setBlur(view, 6, blur);
@@ -39,7 +38,8 @@ double energyOf(const Image& image) {
     return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0);
 }
 
-// Against the light's own 3 × 3 px of radiance 8 in three channels, and the background's alpha.
+// Returns the relative energy error against the light's 3 × 3 px of radiance 8 in three channels; the background's
+// alpha is subtracted.
 double energyError(double blur) {
     const BoardScene boards = blurredLightScene(blur, 1024);
     const Image image = rendered(boards, "multirate");

@@ -1,4 +1,4 @@
-// Values that are no numbers: what they spoil is at most their own bokeh.
+// NaN in materials and environment maps, which must not affect pixels beyond its own bokeh.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@ namespace {
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-// A material without a value on a small board: pixels beyond its blur that differ from the scene without it.
+// Returns the number of wrong pixels around a small board with a NaN material. Pixels must be finite and, beyond the
+// board's blur, equal to the scene without the board.
 double materialError() {
     View view = boardView();
     setBlur(view, 5, 12);
@@ -37,11 +38,11 @@ double materialError() {
     return wrong;
 }
 
-// ---- a texel of a map around the scene ------------------------------------------------------------------------------
+// ---- a texel of an environment map ----------------------------------------------------------------------------------
 
 constexpr int mapWidth = 256;  // texels
 
-// All of it 0.5; but for the texel, where there is one, in column `x` of the row at the horizon.
+// Returns a map of uniform 0.5, with a NaN texel in column `x` at the horizon if x ≥ 0.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
@@ -49,14 +50,14 @@ Environment surroundings(int x) {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// The sky itself, out of focus: pixels that aren't from 0 to 0.5, or differ beyond the texel's blur.
+// Returns the number of pixels of the blurred sky outside [0, 0.5] or changed beyond the texel's blur.
 double skyTexelError(LayerFormat format) {
     constexpr double blur = 12;  // px
     View view = boardView();
     setBlur(view, infinite, blur);
     const double texel =
         2 * std::acos(-1.0) / mapWidth * view.width * view.lens.focalLength / view.lens.horizontalAperture;
-    // The texel is right of the middle and below it; its neighbours fade into it.
+    // The texel lies right of and below the image's centre. Filtering spreads it over its neighbours.
     const double reach = 0.5 * blur + texel + 1;
     const auto picture = [&](int x) {
         BoardScene sky(view, {});
@@ -75,7 +76,7 @@ double skyTexelError(LayerFormat format) {
     return wrong;
 }
 
-// A rough surface that the whole map lights, by its spherical harmonics and its mip levels: relative error of a pixel.
+// Returns the largest relative pixel error of a rough surface lit by the map's spherical harmonics and mip levels.
 double lightTexelError(float metallic) {
     View view = boardView();
     BoardScene wall(view, {{3, {0, 0}, {10, 10}, glm::vec3(0.8f)}});
@@ -85,7 +86,7 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // behind the camera, where the wall looks
+    const Image image = picture(0);  // texel behind the camera, which the wall faces
     const Image truth = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -110,7 +111,7 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // The texel's share of all directions, weighted by the cosine, is 2e-4; of the smallest mip level it is 3e-5.
+    // The texel's cosine-weighted share of all directions is 2e-4; its share of the smallest mip level is 3e-5.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,
