@@ -55,10 +55,10 @@ double fastest(const std::vector<double>& times) {
     return *std::min_element(times.begin(), times.end());
 }
 
-double medianRatio(std::vector<double> whole, const std::vector<double>& lean) {
-    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] /= lean[i];
-    std::nth_element(whole.begin(), whole.begin() + turns / 2, whole.end());
-    return whole[turns / 2];
+double medianRatio(std::vector<double> complete, const std::vector<double>& lean) {
+    for (std::size_t i = 0; i < complete.size(); ++i) complete[i] /= lean[i];
+    std::nth_element(complete.begin(), complete.begin() + turns / 2, complete.end());
+    return complete[turns / 2];
 }
 
 // Returns the plan without occlusion culling.
@@ -92,14 +92,14 @@ double millions(std::uint64_t count) {
     return static_cast<double>(count) / 1e6;
 }
 
-std::string timesOf(const Variant& whole, const Variant& lean) {
-    return fmt::format("{:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}", fastest(whole.seconds),
-                       fastest(lean.seconds), medianRatio(whole.seconds, lean.seconds), fastest(whole.cpuSeconds),
-                       fastest(lean.cpuSeconds), medianRatio(whole.cpuSeconds, lean.cpuSeconds),
-                       differences(whole.image, lean.image));
+std::string timesOf(const Variant& complete, const Variant& lean) {
+    return fmt::format("{:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}", fastest(complete.seconds),
+                       fastest(lean.seconds), medianRatio(complete.seconds, lean.seconds), fastest(complete.cpuSeconds),
+                       fastest(lean.cpuSeconds), medianRatio(complete.cpuSeconds, lean.cpuSeconds),
+                       differences(complete.image, lean.image));
 }
 
-void printClusters(const Variant& whole, const Variant& seen) {
+void printClusters(const Variant& complete, const Variant& seen) {
     const std::uint64_t away = seen.plan.trianglesFacingAway;
     const std::uint64_t outside = seen.plan.trianglesOutside;
     std::size_t runCount = 0;
@@ -108,7 +108,7 @@ void printClusters(const Variant& whole, const Variant& seen) {
             for (const std::vector<IndexRange>& ranges : level.primitives) runCount += ranges.size();
     fmt::print("{:<20} {:>8.1f} {:>8.1f} {:>8.1f} {:>7} {}\n", lodModeName(seen.plan.settings.lod),
                millions(seen.plan.trianglesDrawn + away + outside), millions(away), millions(outside), runCount,
-               timesOf(whole, seen));
+               timesOf(complete, seen));
 }
 
 void printHidden(const Variant& seen, const Variant& shown) {

@@ -39,7 +39,7 @@ using namespace defocus;
 using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
-constexpr std::uint32_t truthSamples = 1600;
+constexpr std::uint32_t referenceSamples = 1600;
 constexpr double tableBlur = 0.1;     // as a fraction of the image's width
 constexpr double largestError = 0.1;  // RMSE
 
@@ -132,15 +132,15 @@ View blurredView(const PreparedFrame& frame, double share, bool before = false) 
     return view;
 }
 
-double errorOf(const Image& truth, const Image& image, const std::string& name) {
-    const double error = compareImages(truth, image, CompareOptions{}).rmse;
+double errorOf(const Image& reference, const Image& image, const std::string& name) {
+    const double error = compareImages(reference, image, CompareOptions{}).rmse;
     if (!(error < largestError)) fail("{}: RMSE {}", name, error);
     return error;
 }
 
 // Returns the RMSE of the display-encoded means of squares of `side` × `side` px.
-double errorOfSquares(const Image& truth, const Image& image, int side) {
-    const Image a = displayEncoded(truth);
+double errorOfSquares(const Image& reference, const Image& image, int side) {
+    const Image a = displayEncoded(reference);
     const Image b = displayEncoded(image);
     double sum = 0;
     std::size_t count = 0;
@@ -178,9 +178,9 @@ void printTable1(const std::vector<std::string>& models, int width, int height) 
     for (const std::string& model : models) {
         const PreparedFrame frame = prepareFrame(requestOf(model, width, height));
         const View view = blurredView(frame, tableBlur);
-        RenderSettings truthSettings = settingsOf(truthSamples);
-        truthSettings.seed = 9;
-        const Image truth = imageOf(view, {&frame, "accumulation", truthSettings});
+        RenderSettings referenceSettings = settingsOf(referenceSamples);
+        referenceSettings.seed = 9;
+        const Image reference = imageOf(view, {&frame, "accumulation", referenceSettings});
         const std::vector<Measured> all = measured(view, {{&frame, "stochastic", settingsOf(256)},
                                                           {&frame, "line", settingsOf(16)},
                                                           {&frame, published, settingsOf(16)}});
@@ -192,9 +192,10 @@ void printTable1(const std::vector<std::string>& models, int width, int height) 
             "{:.4f} | {:.4f} |\n",
             frame.sceneName, points.stats.trianglesDrawn, points.milliseconds, lines.milliseconds,
             points.milliseconds / lines.milliseconds, buffered.milliseconds,
-            points.milliseconds / buffered.milliseconds, errorOf(truth, points.image, model),
-            errorOf(truth, lines.image, model), errorOf(truth, buffered.image, model), errorOf(truth, fewPoints, model),
-            errorOf(truth, oneWheel, model), errorOfSquares(truth, lines.image, 8), errorOfSquares(truth, oneWheel, 8));
+            points.milliseconds / buffered.milliseconds, errorOf(reference, points.image, model),
+            errorOf(reference, lines.image, model), errorOf(reference, buffered.image, model),
+            errorOf(reference, fewPoints, model), errorOf(reference, oneWheel, model),
+            errorOfSquares(reference, lines.image, 8), errorOfSquares(reference, oneWheel, 8));
         std::fflush(stdout);
     }
 }

@@ -231,7 +231,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
     const Pyramid pyramid = buildPyramid(mesh);
     if (pyramid.levels.size() < 2) return;
     const JoinedSurface joined = joinedSurface(mesh);
-    const Surface truth = prepareSurface(joined.positions, joined.indices);
+    const Surface reference = prepareSurface(joined.positions, joined.indices);
     DistanceRatios own;
     int stopped = 0;
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
@@ -243,7 +243,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
             continue;
         }
         const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
-            return surfaceDistance(prepareSurface(positions, triangles), truth, distancePoints).both.mean;
+            return surfaceDistance(prepareSurface(positions, triangles), reference, distancePoints).both.mean;
         };
         // Distances below the precision of floats, as on flat meshes, count as equal.
         const double exact = 1e-7 * glm::length(mesh.bounds().size());
@@ -357,8 +357,8 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
     stage.world.pyramids = buildPyramids(stage.world.scene->meshes);
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const PyramidLevel& level = stage.world.pyramids[0].levels[l];
-        const Image truth = drawn(stage, 0);
-        const Difference own = compareImages(truth, drawn(stage, l));
+        const Image reference = drawn(stage, 0);
+        const Difference own = compareImages(reference, drawn(stage, l));
 
         Stage peer;
         const Mesh peerMesh = peerLevel(mesh, level);
@@ -371,7 +371,7 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
         peer.view = stage.view;
         peer.world.lights = stage.world.lights;
         peer.world.pyramids = {fullDetail(peerMesh)};
-        const Difference theirs = compareImages(truth, drawn(peer, 0));
+        const Difference theirs = compareImages(reference, drawn(peer, 0));
         fmt::print("{:<24} {:>5} {:>9} {:>9} {:>7.1f} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f}\n", name, l,
                    level.triangleCount, peerMesh.triangleCount(), coc, own.psnr, theirs.psnr, own.flip, theirs.flip);
         std::fflush(stdout);
@@ -397,15 +397,15 @@ void normalsRows(const std::string& name, const Scene& source, const Mesh& mesh)
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const Pyramid& pyramid = stage.world.pyramids[0];
         PyramidLevel& level = stage.world.pyramids[0].levels[l];
-        const Image truth = drawn(stage, 0);
+        const Image reference = drawn(stage, 0);
         const auto differenceWith = [&](std::vector<glm::vec3> normals) {
             std::swap(level.normals, normals);
-            const Difference difference = compareImages(truth, drawn(stage, l));
+            const Difference difference = compareImages(reference, drawn(stage, l));
             std::swap(level.normals, normals);
             return difference;
         };
         const std::vector<glm::vec3>& own = pyramid.vertices.normals;
-        const Difference fitted = compareImages(truth, drawn(stage, l));
+        const Difference fitted = compareImages(reference, drawn(stage, l));
         const Difference averaged = differenceWith(averagedNormals(pyramid, level));
         const Difference surviving = differenceWith({own.begin(), own.begin() + level.vertexCount});
         fmt::print("{:<24} {:>5} {:>9} {:>7.1f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f} {:>9.4f}\n", name, l,
@@ -478,15 +478,15 @@ void blurredRows(const std::string& name, const Scene& scene) {
             }
             return renderer->image();
         };
-        const Image truth = image(1024, LodMode::off);
+        const Image reference = image(1024, LodMode::off);
         for (const std::uint32_t samples : {64u}) {
             const Image full = image(samples, LodMode::off);
             const Image levels = image(samples, LodMode::continuous);
-            const double fullError = boxDifference(truth, full, box);
-            const double levelsError = boxDifference(truth, levels, box);
+            const double fullError = boxDifference(reference, full, box);
+            const double levelsError = boxDifference(reference, levels, box);
             fmt::print("{:<24} {:>7.1f} {:>7} {:>12.2e} {:>12.2e} {:>6.2f} {:>9.2f} {:>9.2f}\n", name, coc, samples,
-                       fullError, levelsError, levelsError / fullError, compareImages(truth, full).psnr,
-                       compareImages(truth, levels).psnr);
+                       fullError, levelsError, levelsError / fullError, compareImages(reference, full).psnr,
+                       compareImages(reference, levels).psnr);
             std::fflush(stdout);
         }
     }

@@ -49,21 +49,22 @@ struct Rendered {
     RenderStats stats;
 };
 
-Rendered rendered(const char* method, const TruthScene& truth, const Options& wanted, Shadows shadows = Shadows::off) {
+Rendered rendered(const char* method, const TruthScene& subject, const Options& wanted,
+                  Shadows shadows = Shadows::off) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    const std::unique_ptr<Renderer> renderer = methodNamed(method).make(truth.world, options);
+    const std::unique_ptr<Renderer> renderer = methodNamed(method).make(subject.world, options);
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
     settings.cocTolerance = 0.05;  // px; fine enough for the kink at the foreground limit
-    Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, settings));
+    Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 
 // Makes the scene's painted surfaces matt and lights them only by a sun from the upper right behind the camera.
-void lightByASun(TruthScene& truth, double degrees) {
-    for (Material& material : truth.scene.materials) {
+void lightByASun(TruthScene& subject, double degrees) {
+    for (Material& material : subject.scene.materials) {
         material.unlit = false;
         material.metallicFactor = 0;
         material.specularFactor = 0;
@@ -71,17 +72,17 @@ void lightByASun(TruthScene& truth, double degrees) {
     PlacedLight sun;
     sun.light.intensity = 3;
     sun.light.angularDiameter = static_cast<float>(glm::radians(degrees));
-    sun.direction = glm::normalize(glm::dmat3(truth.view.worldFromCamera) * glm::dvec3(-0.5, -1, -0.6));
-    truth.world.lights = {sun};
-    truth.world.environment.lighting = 0;
+    sun.direction = glm::normalize(glm::dmat3(subject.view.worldFromCamera) * glm::dvec3(-0.5, -1, -0.6));
+    subject.world.lights = {sun};
+    subject.world.environment.lighting = 0;
 }
 
 // Prints the comparison of one scene's shadows.
-void compareShadows(const std::string& name, const TruthScene& truth, const Options& options) {
-    const Rendered openRaster = rendered("accumulation", truth, options);
-    const Rendered openTraced = rendered("embree", truth, options);
-    const Rendered raster = rendered("accumulation", truth, options, Shadows::on);
-    const Rendered traced = rendered("embree", truth, options, Shadows::on);
+void compareShadows(const std::string& name, const TruthScene& subject, const Options& options) {
+    const Rendered openRaster = rendered("accumulation", subject, options);
+    const Rendered openTraced = rendered("embree", subject, options);
+    const Rendered raster = rendered("accumulation", subject, options, Shadows::on);
+    const Rendered traced = rendered("embree", subject, options, Shadows::on);
     const Difference difference = compareImages(traced.image, raster.image);
     const BlockDifference blocks = blockDifference(traced.image, raster.image);
     const nlohmann::ordered_json line = {
@@ -112,16 +113,16 @@ void compareShadows(const std::string& name, const TruthScene& truth, const Opti
 
 // Prints the comparison. Returns whether the PSNR is at least 45 dB.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
-    const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), options.width, options.height);
-    truth->view.lens.foregroundLimit = options.foregroundLimit;
+    const std::unique_ptr<TruthScene> subject = truthScene(std::move(scene), options.width, options.height);
+    subject->view.lens.foregroundLimit = options.foregroundLimit;
     if (options.shadows) {
-        lightByASun(*truth, *options.shadows);
-        compareShadows(name, *truth, options);
+        lightByASun(*subject, *options.shadows);
+        compareShadows(name, *subject, options);
         return true;
     }
-    const Rendered traced = rendered("embree", *truth, options);
-    const Rendered raster = rendered("accumulation", *truth, options);
-    const Rendered planned = rendered("embree-planned", *truth, options);
+    const Rendered traced = rendered("embree", *subject, options);
+    const Rendered raster = rendered("accumulation", *subject, options);
+    const Rendered planned = rendered("embree-planned", *subject, options);
     const Difference difference = compareImages(traced.image, raster.image);
     const BlockDifference blocks = blockDifference(traced.image, raster.image);
     const Misplacement moved = misplacement(planned.image, raster.image);

@@ -32,7 +32,7 @@ FORMS = {
 def type_of(setting):
     if setting.kind == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
-    if setting.kind in ("number", "whole") and setting.choices:
+    if setting.kind in ("number", "integer") and setting.choices:
         return f"Union[{TYPES[setting.kind]}, Literal[" + ", ".join(f'"{word}"' for word in setting.choices) + "]]"
     if setting.kind == "number" and setting.unit == "s" and setting.range[0] >= 0:
         return "Union[float, str]"  # also a fraction such as "1/48"

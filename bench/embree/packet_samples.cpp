@@ -41,8 +41,8 @@ DEFOCUS_VECTOR_CLONES void mapToPolygon(const ApertureMap& __restrict map, Float
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
         const float turn = y[i] * blades;
-        const int whole = static_cast<int>(turn);
-        const int blade = whole < last ? whole : last;
+        const int truncated = static_cast<int>(turn);
+        const int blade = truncated < last ? truncated : last;
         const float along = turn - static_cast<float>(blade);
         x[i] = map.scaleX * radius * (cornerX[blade] + along * (cornerX[blade + 1] - cornerX[blade]));
         y[i] = map.scaleY * radius * (cornerY[blade] + along * (cornerY[blade + 1] - cornerY[blade]));

@@ -124,7 +124,7 @@ def scenes_of(name):
     return [json.loads(line) for line in lines_of(name) if line.startswith("{")]
 
 
-def truth():
+def ray_tracer():
     rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrAtEqualLensPoints']:.1f} dB", f"{scene['flip']:.4f}"]
             for scene in scenes_of("llvmpipe-truth")]
     return table(["scene", "PSNR, other lens points", "PSNR, same lens points", "FLIP, other lens points"], rows) + source(
@@ -259,7 +259,7 @@ def parts(summary=False):
         ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
          f"{fastest('uniform'):.1f} ms; {fastest('gradient'):.1f} ms with a gradient sky", "wave"],
         ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
-         of_both([f"{100 * (away + outside) / whole:.0f} %" for whole, away, outside, *_ in clusters]), "cluster"],
+         of_both([f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]), "cluster"],
         ["the same: times as fast, same image", of_both([f"{row[6]:.2f}" for row in clusters]), "cluster"],
         ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
          of_both([f"{100 * row[1] / row[0]:.0f} %" for row in hidden]), "cluster"],
@@ -317,7 +317,7 @@ def lens_level_table():
         "many lines")
 
 
-TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": truth, "shadows": shadows, "stability": stability, "honesty": honesty,
+TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": ray_tracer, "shadows": shadows, "stability": stability, "honesty": honesty,
           "lens equation": lambda: honesty(every_setting=False), "memory": memory, "few images": few_images, "layers": layers,
           "exponents": lambda: scaling(with_parts=False), "pyramid summary": lambda: pyramids(summary=True),
           "parts summary": lambda: parts(summary=True),

@@ -147,17 +147,17 @@ Light lightOf(const Views& views) {
 // Returns the RMS error over the covered area, in units of the mean light and clamped at shownWhite times the mean
 // light. It multiplies the differences of both sample sets: their independent noise cancels, and the error of N → ∞
 // samples remains.
-double renderedError(const TwoSets& truth, const TwoSets& level) {
-    const Light light = lightOf(truth[0]);
+double renderedError(const TwoSets& reference, const TwoSets& level) {
+    const Light light = lightOf(reference[0]);
     if (!(light.mean > 0)) return 0;
     const double white = shownWhite * light.mean;
     const auto change = [&](std::size_t set, std::size_t view, std::size_t i) {
         return std::min(double{level[set][view].pixels[i]}, white) -
-               std::min(double{truth[set][view].pixels[i]}, white);
+               std::min(double{reference[set][view].pixels[i]}, white);
     };
     double products = 0;
-    for (std::size_t view = 0; view < truth[0].size(); ++view)
-        for (std::size_t i = 0; i < truth[0][view].pixels.size(); ++i)
+    for (std::size_t view = 0; view < reference[0].size(); ++view)
+        for (std::size_t i = 0; i < reference[0][view].pixels.size(); ++i)
             if (i % 4 != 3) products += change(0, view, i) * change(1, view, i) / 3;
     return std::sqrt(std::max(products, 0.0) / light.cover) / light.mean;
 }
@@ -188,7 +188,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         const double pixelsPerUnit = pixelsPerUnitAtCentre(plan.objects.front(), plan);
         const double finest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(512));
         const double coarsest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(16));
-        const TwoSets truth = twoSetsOf(stand, 0, options.renderer);
+        const TwoSets reference = twoSetsOf(stand, 0, options.renderer);
 
         PredictionRow row;
         row.mesh = stand.world.scene->meshes[0].name;
@@ -197,14 +197,14 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         row.predicted = rootMean(sides, [&](double side) { return squaredContrast(pyramid, side); }) *
                         expectedSampleError(fewSamples);
         const Views few = viewsOf(stand, fewSamples, 0, 0, options.renderer);
-        row.rendered = renderedError(truth, {few, few});
+        row.rendered = renderedError(reference, {few, few});
         row.used = true;
         visit(row);
         report(progress, "levels", ++done, total);
         for (row.level = 1; row.level < levels; ++row.level) {
             row.triangles = pyramid.levels[row.level].triangleCount;
             row.predicted = rootMean(sides, [&](double side) { return squaredError(pyramid, row.level, side); });
-            row.rendered = renderedError(truth, twoSetsOf(stand, row.level, options.renderer));
+            row.rendered = renderedError(reference, twoSetsOf(stand, row.level, options.renderer));
             row.used = row.level < coarsest + 1 && row.level > finest - 1;
             visit(row);
             report(progress, "levels", ++done, total);

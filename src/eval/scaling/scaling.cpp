@@ -45,14 +45,14 @@ double milliseconds(Renderer& renderer, const FramePlan& plan) {
 struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;
-    FramePlan whole, empty, small;
+    FramePlan complete, empty, small;
     ScalingTimes times;
 
     void run(bool counts) {
-        const double one[] = {milliseconds(*renderer, whole), milliseconds(*renderer, empty),
+        const double one[] = {milliseconds(*renderer, complete), milliseconds(*renderer, empty),
                               milliseconds(*smallRenderer, small)};
         if (!counts) return;
-        times.whole.push_back(one[0]);
+        times.complete.push_back(one[0]);
         times.layers.push_back(one[1]);
         times.vertices.push_back(one[2]);
     }
@@ -64,10 +64,10 @@ TimedMode timedMode(const ScalingWorld& world, const ScalingPoint& point, LodMod
     TimedMode timed;
     timed.renderer = method.make(world.world, options);
     timed.smallRenderer = method.make(world.world, options);
-    timed.whole = planOf(world, point, mode);
-    timed.empty = timed.whole;
+    timed.complete = planOf(world, point, mode);
+    timed.empty = timed.complete;
     timed.empty.objects.clear();
-    timed.small = timed.whole;
+    timed.small = timed.complete;
     timed.small.view.width = std::max(1, point.width / smallFactor);
     timed.small.view.height = std::max(1, point.height / smallFactor);
     return timed;
@@ -94,13 +94,13 @@ std::uint64_t pyramidBytes(const World& world) {
 ScalingRow rowOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode, const TimedMode& timed) {
     ScalingRow row;
     row.axis = point.axis;
-    row.value = point.axis == ScalingAxis::blur ? largestBlur(timed.whole) : point.value;
+    row.value = point.axis == ScalingAxis::blur ? largestBlur(timed.complete) : point.value;
     row.mode = mode;
-    row.samples = static_cast<std::uint32_t>(timed.whole.samples.size());
+    row.samples = static_cast<std::uint32_t>(timed.complete.samples.size());
     row.width = point.width;
     row.height = point.height;
     setTimes(row, timed.times);
-    row.triangles = timed.whole.trianglesDrawn;
+    row.triangles = timed.complete.trianglesDrawn;
     row.gpuBytes = timed.renderer->stats().peakBytes;
     row.pyramidBytes = pyramidBytes(world.world);
     return row;
@@ -239,10 +239,10 @@ std::vector<ScalingPart> ScalingRow::largestParts() const {
 
 void setTimes(ScalingRow& row, const ScalingTimes& times) {
     std::vector<double> fill;
-    for (std::size_t i = 0; i < times.whole.size(); ++i)
-        fill.push_back(std::max(0.0, times.whole[i] - times.layers[i] - times.vertices[i]));
-    row.runs = static_cast<int>(times.whole.size());
-    row.milliseconds = spreadOf(times.whole);
+    for (std::size_t i = 0; i < times.complete.size(); ++i)
+        fill.push_back(std::max(0.0, times.complete[i] - times.layers[i] - times.vertices[i]));
+    row.runs = static_cast<int>(times.complete.size());
+    row.milliseconds = spreadOf(times.complete);
     row.layers = spreadOf(times.layers);
     row.vertices = spreadOf(times.vertices);
     row.fill = spreadOf(fill);

@@ -87,7 +87,7 @@ struct ScalingRow {
 
 // The times of a frame's runs in its three versions, ms. The three vectors have the same size.
 struct ScalingTimes {
-    std::vector<double> whole;
+    std::vector<double> complete;
     std::vector<double> layers;    // nothing drawn
     std::vector<double> vertices;  // drawn into a small image
 };

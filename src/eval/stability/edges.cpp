@@ -53,9 +53,9 @@ double edgeError(const Edge& edge) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const glm::dvec2 place(x + 0.5 - 0.5 * image.width, 0.5 * image.height - y - 0.5);
-            const glm::dvec3 truth = glm::mix(far, near, diskShare(edgeOffset - glm::dot(normal, place), diameter));
+            const glm::dvec3 expected = glm::mix(far, near, diskShare(edgeOffset - glm::dot(normal, place), diameter));
             for (int c = 0; c < 3; ++c)
-                largest = std::max(largest, std::abs(static_cast<double>(image.at(x, y)[c]) - truth[c]));
+                largest = std::max(largest, std::abs(static_cast<double>(image.at(x, y)[c]) - expected[c]));
         }
     return largest;
 }

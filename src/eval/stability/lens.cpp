@@ -107,9 +107,9 @@ std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& 
 }  // namespace
 
 void addLensCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"lens", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"lens", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const auto addDiameter = [&](std::string name, const LensSetting& setting) {
         add(std::move(name), "disk diameter, px", "closed form", pixelLimit,

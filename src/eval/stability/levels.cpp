@@ -68,9 +68,10 @@ Mesh besetGrid() {
 }  // namespace
 
 void addLevelCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"levels", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"levels", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     add("flat grid", "area or height, relative", "the plane", 1e-5, [] { return flatError(gridMesh(64, 1, 1), 1, 1); });
     add("flat grid of 1e6 m", "area or height, relative", "the plane", 1e-5,

@@ -100,9 +100,10 @@ double throughCameraError() {
 }  // namespace
 
 void addMotionCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"motion", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"motion", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const auto addPath = [&](std::string name, int turns, int segments, double limit) {
         add(std::move(name), "largest difference", "closed form", limit,

@@ -62,9 +62,9 @@ double sharingPinholeError() {
 }  // namespace
 
 void addRateCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"rates", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"rates", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     for (const auto& [name, blur] :
          {std::pair{"a shared light", sharedBlur}, {"a light half shared", partlySharedBlur}}) {

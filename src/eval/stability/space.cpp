@@ -120,9 +120,9 @@ BlurredLight lightAt(double depth) {
 }  // namespace
 
 void addSpaceCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"space", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"space", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     for (const double scale : {1e-4, 1e-2, 1e3, 1e6})
         add(fmt::format("everything {:g} times as large", scale), "RMSE", "the scene at scale 1", 1e-3,

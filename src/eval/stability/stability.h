@@ -14,11 +14,11 @@ namespace defocus::engine {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
-    std::string area;      // "sums", "lens", "motion", "space", "values", "levels", "rates", "traced"
-    std::string name;      // what makes it stiff or extreme
-    std::string measured;  // what the error measures, with its unit
-    std::string truth;     // "closed form", "double sum", …
-    double limit = 0;      // the largest error that passes; infinity if the case is for comparison only
+    std::string area;       // "sums", "lens", "motion", "space", "values", "levels", "rates", "traced"
+    std::string name;       // what makes it stiff or extreme
+    std::string measured;   // what the error measures, with its unit
+    std::string reference;  // "closed form", "double sum", …
+    double limit = 0;       // the largest error that passes; infinity if the case is for comparison only
     std::function<double()> error;
     std::string method = {};  // method that renders the reference; empty if none does
 };

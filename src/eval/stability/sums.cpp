@@ -27,12 +27,12 @@ Image wall(const glm::vec3& radiance, std::uint32_t samples, const RendererOptio
     return rendered(boards, "accumulation", options);
 }
 
-double largestRelativeError(const Image& image, const glm::dvec3& truth) {
+double largestRelativeError(const Image& image, const glm::dvec3& reference) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c) {
-                const double error = std::abs(double(image.at(x, y)[c]) - truth[c]) / truth[c];
+                const double error = std::abs(double(image.at(x, y)[c]) - reference[c]) / reference[c];
                 largest = std::isnan(error) ? comparison : std::max(largest, error);
             }
     return largest;
@@ -81,9 +81,9 @@ double mixedError() {
 }  // namespace
 
 void addSumCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"sums", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"sums", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const char* relative = "relative error";
     for (const std::uint32_t samples : {1u, 2u, 3u, 61u, 127u, 4096u, 65'536u})

@@ -55,7 +55,7 @@ void addTracedCases(std::vector<StabilityCase>& cases) {
         cases.push_back({.area = "traced",
                          .name = subject.name,
                          .measured = "RMSE",
-                         .truth = "ray tracer, same lens points",
+                         .reference = "ray tracer, same lens points",
                          .limit = 1e-3,
                          .error = [subject] { return tracedError(subject); },
                          .method = rayTracer});

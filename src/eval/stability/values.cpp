@@ -25,15 +25,15 @@ double materialError() {
     const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(notANumber)),
                                      squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
     BoardScene spoiled(view, list);
-    BoardScene whole(view, {list[1]});
+    BoardScene intact(view, {list[1]});
     const Image image = rendered(spoiled);
-    const Image truth = rendered(whole);
+    const Image reference = rendered(intact);
     double wrong = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const bool inside = std::abs(x + 0.5 - 48) < reach && std::abs(y + 0.5 - 32) < reach;
             const bool finite = std::isfinite(image.at(x, y)[0]);
-            if (!finite || (!inside && image.at(x, y)[0] != truth.at(x, y)[0])) wrong += 1;
+            if (!finite || (!inside && image.at(x, y)[0] != reference.at(x, y)[0])) wrong += 1;
         }
     return wrong;
 }
@@ -65,13 +65,13 @@ double skyTexelError(LayerFormat format) {
         return rendered(sky, "accumulation", {.layerFormat = format, .shaderFolder = {}, .settings = {}});
     };
     const Image image = picture(mapWidth / 2);
-    const Image truth = picture(-1);
+    const Image reference = picture(-1);
     double wrong = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double distance = std::hypot(x + 0.5 - 48 - 0.5 * texel, y + 0.5 - 32 - 0.5 * texel);
             const float value = image.at(x, y)[0];
-            wrong += !(value >= 0 && value <= 0.5f) || (distance > reach + texel && value != truth.at(x, y)[0]);
+            wrong += !(value >= 0 && value <= 0.5f) || (distance > reach + texel && value != reference.at(x, y)[0]);
         }
     return wrong;
 }
@@ -87,11 +87,11 @@ double lightTexelError(float metallic) {
         return rendered(wall);
     };
     const Image image = picture(0);  // texel behind the camera, which the wall faces
-    const Image truth = picture(-1);
+    const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            const double error = std::abs(static_cast<double>(image.at(x, y)[0]) / truth.at(x, y)[0] - 1);
+            const double error = std::abs(static_cast<double>(image.at(x, y)[0]) / reference.at(x, y)[0] - 1);
             largest = std::isnan(error) ? infinite : std::max(largest, error);
         }
     return largest;
@@ -100,9 +100,10 @@ double lightTexelError(float metallic) {
 }  // namespace
 
 void addValueCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"values", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"values", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     add("a material that is no number", "pixels spoiled elsewhere", "the scene without it", 0, materialError);
     const auto addSky = [&](const char* layers, LayerFormat format) {
