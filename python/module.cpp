@@ -213,7 +213,8 @@ void defineImages(py::module_& package) {
 }
 
 void defineScenes(py::module_& package) {
-    py::class_<OpenScene>(package, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
+    py::class_<OpenScene>(package, "Scene",
+                          "A glTF scene that is loaded once for many renders; accepted in place of a path.")
         .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
                  const py::gil_scoped_release unlocked;
                  return OpenScene{defocus::Scene::load(path, listening(progress))};
@@ -226,19 +227,20 @@ void defineScenes(py::module_& package) {
                 return OpenScene{defocus::Scene::schoolOfFish(fishCount, trianglesPerFish, listening(progress))};
             },
             "fish_count"_a = 20, "triangles_per_fish"_a = 90'000, py::kw_only(), "progress"_a = py::none(),
-            "The built-in school of fish, of 1 to 10,000.")
+            "Returns the built-in school of 1 to 10,000 fish.")
         .def_property_readonly("name", [](const OpenScene& scene) { return scene.info.name; })
         .def_property_readonly(
-            "cameras", [](const OpenScene& scene) { return scene.info.cameras; }, "Names; empty for those without one.")
+            "cameras", [](const OpenScene& scene) { return scene.info.cameras; },
+            "Names of the cameras; empty strings for unnamed cameras.")
         .def_property_readonly("nodes", [](const OpenScene& scene) { return scene.info.nodes; })
         .def_property_readonly(
             "clips", [](const OpenScene& scene) { return scene.info.clips; }, "Names of the animations.")
         .def_property_readonly(
             "triangles", [](const OpenScene& scene) { return scene.info.triangles; },
-            "Of all meshes, each counted once.")
+            "Number of triangles of all meshes, each mesh counted once.")
         .def_property_readonly(
             "ignored", [](const OpenScene& scene) { return scene.info.ignored; },
-            "What of the file is not drawn, and why: a line each.")
+            "Parts of the file that are not drawn: a line each, with the reason.")
         .def("__repr__",
              [](const OpenScene& scene) {
                  return "<defocus.Scene '" + scene.info.name + "': " + std::to_string(scene.info.triangles) +

@@ -39,9 +39,9 @@ __all__ = [
     "progressive", "pyramid", "read_image", "render", "settings", "write_image",
 ]
 
-Error.__doc__ = """A file, a name, the driver: what was being done, what it concerned and what to do, on one line."""
-UsageError.__doc__ = """What was asked for makes no sense by itself: an unknown keyword (it is a TypeError too), a value
-out of its range (it is a ValueError too)."""
+Error.__doc__ = """An error of a file, a name or the driver. The message says in one line what failed and what to do."""
+UsageError.__doc__ = """An invalid request: an unknown keyword (also a TypeError), or a value out of range (also a
+ValueError)."""
 
 Path = Union[str, "os.PathLike[str]"]
 Progress = Callable[[str, int, int], object]
