@@ -1,8 +1,8 @@
-// What the disk cache of pyramids saves on the built-in school: to build, to build and store, to load.
+// Measures what the disk cache of pyramids saves on the built-in school: the times to build, to store and to load.
 //
-// Held equal: meshes, options, process and all cores; the folder is a new one under the system's temporary folder, and
-// its files are in the system's memory when they are read. Loading is timed with the hash of the meshes, as a run has
-// it. The fastest of several loads counts, and what they give is compared with what was built.
+// Held equal: meshes, options, process and all cores. The cache lies in a new temporary folder, and its files are in
+// the page cache when they are read. Loading includes hashing the meshes, as in a run of the program. The fastest of
+// several loads counts. The loaded pyramids are compared with the built ones.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ int run(const fs::path& folder) {
     std::size_t triangles = 0;
     for (const Mesh& mesh : meshes) triangles += mesh.triangleCount();
 
-    // Build, and store.
+    // Build, then store.
     std::vector<Pyramid> built;
     const double building = milliseconds([&] { built = buildPyramids(meshes); });
     const double storing = milliseconds(

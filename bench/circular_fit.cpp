@@ -1,12 +1,13 @@
-// Fits the separable complex kernels of src/render/circular/circular_kernel.h to the disk, by least squares over the
-// square of the taps, and prints them as the table of circular_kernel.cpp and beside the published kernels.
+// Fits the separable complex kernels of src/render/circular/circular_kernel.h to the disk by least squares over the
+// square of the taps. Prints them as the table of circular_kernel.cpp, and compares them with the published kernels.
 //
-// Variable projection (Golub and Pereyra 1973): for given decays and frequencies the weights A and B are a linear least
-// squares problem with one linear constraint, ∫K = ∫D, so that only 2n unknowns remain for Levenberg (1944) and
-// Marquardt's (1963) method. Starts: frequencies evenly spread, and the kernel of one component less with one added.
+// Variable projection (Golub and Pereyra 1973): for given decays and frequencies, the weights A and B solve a linear
+// least-squares problem with one linear constraint, ∫K = ∫D. Only 2n unknowns remain for the Levenberg–Marquardt method
+// (Levenberg 1944, Marquardt 1963). It starts from evenly spread frequencies and from the kernel with one component
+// less plus a new component.
 //
-// Held equal: extent and disk radius 1, gain (∫K = ∫D), measure. The published kernels get the extent and the disk
-// radius that suit them best.
+// Held equal: extent and disk radius 1, gain (∫K = ∫D), error measure. The published kernels get the extent and the
+// disk radius with the smallest error.
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ using Values = Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 
-// Niemitalo 2010, in his units.
+// Kernels of Niemitalo 2010, in his units.
 const std::array<Kernel, 5> publishedKernels = {{
     {{0.862325, 1.624835, 0.767583, 1.862321}},
     {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}},
@@ -55,10 +56,10 @@ const std::array<Kernel, 5> publishedKernels = {{
 // ---- one kernel's weights ---------------------------------------------------------------------------------------
 
 struct Problem {
-    Values squaredRadii;  // of the square's nodes
-    Values weights;       // their areas
-    Values roots;         // of the weights with the corners' guard
-    Values target;        // the disk, times the roots
+    Values squaredRadii;  // squared radii of the square's nodes
+    Values weights;       // areas of the nodes
+    Values roots;         // square roots of the weights, increased in the corners by the guard
+    Values target;        // disk values times the roots
 };
 
 Problem problemOf(double extent, double guard) {
@@ -67,7 +68,7 @@ Problem problemOf(double extent, double guard) {
     Problem problem{Values(count), Values(count), Values(count), Values(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const RadialNode& node = nodes[static_cast<std::size_t>(i)];
-        // A ring's area over the area of its arcs inside the square: 4·arccos(extent/r) of the 2π are hidden.
+        // Area of a ring over the area of its arcs inside the square. An angle of 4·arccos(extent/r) lies outside.
         const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
         const double ring = pi / (pi - 4 * std::acos(1 / outward));
         problem.squaredRadii[i] = node.squaredRadius;
@@ -79,13 +80,14 @@ Problem problemOf(double extent, double guard) {
 }
 
 struct Fit {
-    Values shape;  // decay, frequency of each component
+    Values shape;  // decay and frequency of each component
     Kernel kernel;
     Values residual;
     double squares = std::numeric_limits<double>::infinity();  // |residual|²
 };
 
-// Columns √weight·e^(−a·u)·cos b·u, √weight·e^(−a·u)·sin b·u for each component, and each column's ∫ over the square.
+// Two columns per component, √weight·e^(−a·u)·cos b·u and √weight·e^(−a·u)·sin b·u, and the integral of each column
+// over the square.
 struct Basis {
     Eigen::MatrixXd columns;
     Values energies;
@@ -104,8 +106,8 @@ Basis basisOf(const Problem& problem, const Values& shape) {
     return basis;
 }
 
-// x of least |basis·x − target|² with energies·x = energy, by QR: in y = R·x the constraint is (R⁻ᵀ·energies)·y =
-// energy, and the shortest way there from the free optimum is along R⁻ᵀ·energies.
+// Returns the x that minimises |basis·x − target|² subject to energies·x = energy, by QR. For y = R·x, the constraint
+// is (R⁻ᵀ·energies)·y = energy. The unconstrained optimum is projected onto it along R⁻ᵀ·energies.
 Values constrainedLeastSquares(const Basis& basis, const Values& target, double energy) {
     const Eigen::Index n = basis.energies.size();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis.columns);
@@ -138,8 +140,7 @@ struct Residual : Eigen::DenseFunctor<double> {
     const Problem& problem;
 };
 
-// Levenberg and Marquardt's method with differences as derivatives, until a step gains less than `tolerance`,
-// relatively.
+// Runs the Levenberg–Marquardt method with numerical derivatives until a step's relative gain is below `tolerance`.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());
     Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residual, Eigen::Central>> method(residual);
@@ -149,7 +150,7 @@ Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     return fitWeights(problem, shape);
 }
 
-// In the order of their frequencies, which are made positive, and rounded to the digits that are printed.
+// Returns the kernel with positive frequencies, sorted by frequency and rounded to the printed digits.
 Kernel tidied(Kernel kernel) {
     const auto rounded = [](double value) { return std::round(value * 1e6) / 1e6; };
     for (CircularComponent& c : kernel) {
@@ -160,7 +161,7 @@ Kernel tidied(Kernel kernel) {
     return kernel;
 }
 
-// The best kernels of 1, 2, … `count` components.
+// Returns the best kernels of 1, 2, … `count` components.
 std::vector<Kernel> fitKernels(double extent, double guard, int count) {
     constexpr double rough = 1e-4;
     constexpr double fine = 1e-10;
@@ -194,9 +195,9 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
 // ---- tables -----------------------------------------------------------------------------------------------------
 
 struct Ripple {
-    double insideMax = 0;  // largest |K − 1|, r < 0.9
-    double insideRms = 0;  // root mean square of K − 1, r < 0.9
-    double highest = 0;    // of K, r > 1.1 within the square
+    double insideMax = 0;  // max |K − 1| for r < 0.9
+    double insideRms = 0;  // RMS of K − 1 for r < 0.9
+    double highest = 0;    // max K for r > 1.1 within the square
     double lowest = 0;
 };
 
@@ -227,7 +228,7 @@ struct Suited {
     double diskRadius = 0;
 };
 
-// The extent in [from, to] and the disk radius in [0.8, 1.5] of the least error, to 0.001.
+// Returns the extent in [from, to] and the disk radius around 1.15 with the smallest error, to 0.001.
 Suited suitedTo(const Kernel& kernel, double from, double to) {
     constexpr int reach = 20;
     Suited best;
@@ -245,7 +246,8 @@ Suited suitedTo(const Kernel& kernel, double from, double to) {
     return best;
 }
 
-// The same kernel in radii of its disk and with ∫K = ∫D; its extent is then suited.extent / suited.diskRadius.
+// Returns the kernel in units of its disk radius, scaled to ∫K = ∫D. Its extent is then suited.extent /
+// suited.diskRadius.
 Kernel inRadii(Kernel kernel, const Suited& suited) {
     const double gain = energyGain(kernel, suited.extent, suited.diskRadius);
     const double square = suited.diskRadius * suited.diskRadius;
@@ -309,7 +311,7 @@ void printTables(const std::vector<Kernel>& kernels) {
     }
 }
 
-// The committed kernels are these, but for the last digits.
+// Returns whether the kernels of circular_kernel.cpp equal these, except for the last digits.
 bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
     return std::ranges::all_of(kernels, [](const Kernel& kernel) {
         const auto committed = circularKernel(static_cast<int>(kernel.size()));

@@ -1,12 +1,12 @@
-// What leaving out clusters saves that face away or lie outside for all of the lens and the exposure
-// (plan/visibility.h): the same plan drawn whole and without them, at full detail and with levels of detail. And what
-// it saves to leave out of that, sample by sample, what lies behind other surfaces (render/occlusion/occlusion.h).
+// Measures what cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that face away
+// or lie outside the image for every lens sample and moment (plan/visible/visibility.h). Step 2 also culls occluded
+// clusters for each sample (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
-// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. The three frames take turns;
-// times are the fastest, ratios the median of those of a turn. `CPU` is the time of all threads of the process, which
-// says more where others use the machine too. The two images are compared bit by bit.
+// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. The frames take turns. Times are
+// the fastest; ratios are medians over the turns. `CPU` is the time of all threads, which other processes on the
+// machine affect less. The images are compared bit by bit.
 
 #include <fmt/format.h>
 
@@ -55,19 +55,19 @@ double fastest(const std::vector<double>& times) {
     return *std::min_element(times.begin(), times.end());
 }
 
-double medianRatio(std::vector<double> whole, const std::vector<double>& lean) {
-    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] /= lean[i];
-    std::nth_element(whole.begin(), whole.begin() + turns / 2, whole.end());
-    return whole[turns / 2];
+double medianRatio(std::vector<double> complete, const std::vector<double>& lean) {
+    for (std::size_t i = 0; i < complete.size(); ++i) complete[i] /= lean[i];
+    std::nth_element(complete.begin(), complete.begin() + turns / 2, complete.end());
+    return complete[turns / 2];
 }
 
-// What the plan has is drawn, hidden or not.
+// Returns the plan without occlusion culling.
 FramePlan withHidden(FramePlan plan) {
     plan.settings.keepAll = true;
     return plan;
 }
 
-// Every level as it is.
+// Returns the plan with all clusters of its levels.
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {
         object.visible.clear();
@@ -92,14 +92,14 @@ double millions(std::uint64_t count) {
     return static_cast<double>(count) / 1e6;
 }
 
-std::string timesOf(const Variant& whole, const Variant& lean) {
-    return fmt::format("{:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}", fastest(whole.seconds),
-                       fastest(lean.seconds), medianRatio(whole.seconds, lean.seconds), fastest(whole.cpuSeconds),
-                       fastest(lean.cpuSeconds), medianRatio(whole.cpuSeconds, lean.cpuSeconds),
-                       differences(whole.image, lean.image));
+std::string timesOf(const Variant& complete, const Variant& lean) {
+    return fmt::format("{:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}", fastest(complete.seconds),
+                       fastest(lean.seconds), medianRatio(complete.seconds, lean.seconds), fastest(complete.cpuSeconds),
+                       fastest(lean.cpuSeconds), medianRatio(complete.cpuSeconds, lean.cpuSeconds),
+                       differences(complete.image, lean.image));
 }
 
-void printClusters(const Variant& whole, const Variant& seen) {
+void printClusters(const Variant& complete, const Variant& seen) {
     const std::uint64_t away = seen.plan.trianglesFacingAway;
     const std::uint64_t outside = seen.plan.trianglesOutside;
     std::size_t runCount = 0;
@@ -108,7 +108,7 @@ void printClusters(const Variant& whole, const Variant& seen) {
             for (const std::vector<IndexRange>& ranges : level.primitives) runCount += ranges.size();
     fmt::print("{:<20} {:>8.1f} {:>8.1f} {:>8.1f} {:>7} {}\n", lodModeName(seen.plan.settings.lod),
                millions(seen.plan.trianglesDrawn + away + outside), millions(away), millions(outside), runCount,
-               timesOf(whole, seen));
+               timesOf(complete, seen));
 }
 
 void printHidden(const Variant& seen, const Variant& shown) {
@@ -129,7 +129,7 @@ void measure(const std::filesystem::path& path) {
             variants.push_back({std::move(drawn), {}, {}, {}});
     }
     for (int turn = 0; turn < turns; ++turn)
-        for (std::size_t i = 0; i < variants.size(); ++i)  // each is the first of a turn
+        for (std::size_t i = 0; i < variants.size(); ++i)  // each variant is first in one of the turns
             renderOnce(frame.world, variants[(i + static_cast<std::size_t>(turn)) % variants.size()]);
     fmt::print("\n{}\n", frame.sceneName);
     for (std::size_t i = 0; i < variants.size(); i += 3) {

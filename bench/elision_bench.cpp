@@ -1,8 +1,8 @@
-// What leaving things out saves: for each elision of the plan a scene that profits and one that doesn't, with
-// everything kept and without what isn't needed.
+// Measures what a plan saves by omitting unneeded work. Each scene is drawn with everything kept and with the
+// omissions; one scene per kind of omission, and one that profits from none.
 //
-// Held equal: size, samples, levels, renderer and process; interleaved runs, the fastest of each counts. The two images
-// are compared: the PSNR is infinite where nothing but the work was left out.
+// Held equal: size, samples, levels, renderer and process. Runs are interleaved; the fastest of each counts. The PSNR
+// between the two images is infinite if the omission doesn't change the image.
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ void prepare(Fish& fish) {
     fish.view.worldFromCamera = placed.worldFromCamera;
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
-    fish.settings.sequence = Sequence::halton;  // as in the committed table
+    fish.settings.sequence = Sequence::halton;  // the sequence of the committed table
 }
 
 struct Measured {

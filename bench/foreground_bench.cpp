@@ -1,14 +1,13 @@
-// What a limit of the foreground's blur saves (Munkberg, Toth and Akenine-Möller 2012): a scene seen through leaves
-// that nearly touch the lens (as their Figure 7), and a game of chess with a moving queen in front (their Figure 4). A
-// rasteriser of one lens sample an instance touches a triangle's pixels once a sample, however far it is blurred. What
-// a limit saves here are the triangles beside the image that only their blur brings into it; levels of detail get finer
-// with it.
+// Measures what a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is seen
+// through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving queen in
+// front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per triangle
+// doesn't grow with the blur. A limit only saves triangles beside the image that their blur would bring into it. The
+// limit also makes levels of detail finer.
 //
-// Held equal: camera, lens, size, lens samples, renderer and process; interleaved runs, the fastest of each counts.
-// CPU is the time of all threads, which says more where others use the machine too.
-// `work` is the heat map of --aov work: triangles that touch a pixel, a lens sample. `swept` is that of --aov
-// swept-work: triangles whose bounds over all of the lens cover a pixel, which is what a stochastic rasteriser tests
-// there.
+// Held equal: camera, lens, size, lens samples, renderer and process. Runs are interleaved; the fastest of each counts.
+// CPU is the time of all threads, which other processes on the machine affect less. `work` is the heat map of --aov
+// work: triangles that touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose
+// bounds over the complete lens cover a pixel. A stochastic rasteriser tests all of them.
 
 #include <fmt/format.h>
 

@@ -1,17 +1,18 @@
-// The lens-space methods as Tzeng et al. 2012 measure theirs: line samples against stochastic points at equal scenes
-// (their Table 1), and their time over the number of lines, the aperture and levels of detail (their Figure 7).
+// Repeats the measurements of Tzeng et al. 2012 with our lens-space methods. Compares line samples with stochastic
+// points on equal scenes (their Table 1). Measures the time over the number of lines, the aperture and levels of detail
+// (their Figure 7).
 //
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
-// Held equal within a table: scene, camera, light, image size and process; the blur of the most blurred object is a
-// tenth of the image's width (of Figure 7, what the row says, and the lens is focused before all objects). Times are
-// the median of three frames in turns, after one that builds the shaders. Errors are RMSE of display-encoded images
-// against the accumulation with 1,600 samples of another seed at full detail; those of 8 x 8 px are of the means of
-// such squares, in which noise vanishes and structure stays. "As published" has a buffer of 16 segments, each of which
-// is shaded in its middle, and the same wheel in all pixels; it shades surfaces like the others, so that the errors
-// show visibility alone. Levels are chosen by the paper's score: ours are fractional, of a whole pyramid of fitted
-// vertices, theirs one of three of 100, 75 and 50 % of the vertices. Checks that every method's image is within 0.1 of
-// the accumulation.
+// Held equal within a table: scene, camera, light, image size and process. In Table 1, the blur of the most blurred
+// object is a tenth of the image's width. In Figure 7, each row states the blur, and the focus lies in front of all
+// objects. Times are medians of three interleaved frames, after one that compiles the shaders. Errors are RMSE of
+// display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x 8 px are
+// of the means of such squares, which suppress noise and keep structure. "As published" has a buffer of 16 segments,
+// shades each segment at its middle and uses the same wheel in all pixels. It shades surfaces like the other methods,
+// so that the errors show visibility alone. The paper's score chooses the levels. Ours are fractional levels of a
+// pyramid with fitted vertices; the paper has three levels with 100, 75 and 50 % of the vertices. The bench checks that
+// every method's RMSE against the accumulation is below 0.1.
 
 #include <fmt/format.h>
 
@@ -38,8 +39,8 @@ using namespace defocus;
 using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
-constexpr std::uint32_t truthSamples = 1600;
-constexpr double tableBlur = 0.1;     // of the image's width
+constexpr std::uint32_t referenceSamples = 1600;
+constexpr double tableBlur = 0.1;     // as a fraction of the image's width
 constexpr double largestError = 0.1;  // RMSE
 
 struct Measured {
@@ -48,15 +49,15 @@ struct Measured {
     RenderStats stats;
 };
 
-// A method on a scene, with the plan that it draws.
+// A method with its scene and settings.
 struct Contestant {
     const PreparedFrame* frame;
     std::string method;
     RenderSettings settings;
 };
 
-// Contestants take turns frame by frame, so that what else the machine does meets all of them. Without frames to time,
-// only their images.
+// Measures the contestants, which take turns frame by frame, so that other load on the machine affects all of them.
+// With frames = 0, only renders their images.
 std::vector<Measured> measured(const View& view, const std::vector<Contestant>& contestants, int frames = timedFrames) {
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<FramePlan> plans;
@@ -105,12 +106,12 @@ RenderSettings byScore(std::uint32_t samples) {
 RenderSettings ofThreeLevels(std::uint32_t samples) {
     RenderSettings settings = byScore(samples);
     settings.lod = LodMode::nearest;
-    settings.thresholds.blur = 0.25;  // of the preset tzeng2012
+    settings.thresholds.blur = 0.25;  // value of the preset tzeng2012
     return settings;
 }
 
-// The lens whose most blurred object has circles of `share` of the image's width. `before`: it's focused on half the
-// depth of what is nearest, so that everything is blurred.
+// Returns the view with a blur scale that gives the most blurred object a blur of `share` times the image's width. With
+// `before`, the focus is at half the depth of the nearest object, so that all objects are blurred.
 View blurredView(const PreparedFrame& frame, double share, bool before = false) {
     View view = frame.view;
     view.lens.blurScale = 1;
@@ -131,15 +132,15 @@ View blurredView(const PreparedFrame& frame, double share, bool before = false) 
     return view;
 }
 
-double errorOf(const Image& truth, const Image& image, const std::string& name) {
-    const double error = compareImages(truth, image, CompareOptions{}).rmse;
+double errorOf(const Image& reference, const Image& image, const std::string& name) {
+    const double error = compareImages(reference, image, CompareOptions{}).rmse;
     if (!(error < largestError)) fail("{}: RMSE {}", name, error);
     return error;
 }
 
-// Of the means of squares of `side` px, display-encoded.
-double errorOfSquares(const Image& truth, const Image& image, int side) {
-    const Image a = displayEncoded(truth);
+// Returns the RMSE of the display-encoded means of squares of `side` × `side` px.
+double errorOfSquares(const Image& reference, const Image& image, int side) {
+    const Image a = displayEncoded(reference);
     const Image b = displayEncoded(image);
     double sum = 0;
     std::size_t count = 0;
@@ -177,9 +178,9 @@ void printTable1(const std::vector<std::string>& models, int width, int height) 
     for (const std::string& model : models) {
         const PreparedFrame frame = prepareFrame(requestOf(model, width, height));
         const View view = blurredView(frame, tableBlur);
-        RenderSettings truthSettings = settingsOf(truthSamples);
-        truthSettings.seed = 9;
-        const Image truth = imageOf(view, {&frame, "accumulation", truthSettings});
+        RenderSettings referenceSettings = settingsOf(referenceSamples);
+        referenceSettings.seed = 9;
+        const Image reference = imageOf(view, {&frame, "accumulation", referenceSettings});
         const std::vector<Measured> all = measured(view, {{&frame, "stochastic", settingsOf(256)},
                                                           {&frame, "line", settingsOf(16)},
                                                           {&frame, published, settingsOf(16)}});
@@ -191,9 +192,10 @@ void printTable1(const std::vector<std::string>& models, int width, int height) 
             "{:.4f} | {:.4f} |\n",
             frame.sceneName, points.stats.trianglesDrawn, points.milliseconds, lines.milliseconds,
             points.milliseconds / lines.milliseconds, buffered.milliseconds,
-            points.milliseconds / buffered.milliseconds, errorOf(truth, points.image, model),
-            errorOf(truth, lines.image, model), errorOf(truth, buffered.image, model), errorOf(truth, fewPoints, model),
-            errorOf(truth, oneWheel, model), errorOfSquares(truth, lines.image, 8), errorOfSquares(truth, oneWheel, 8));
+            points.milliseconds / buffered.milliseconds, errorOf(reference, points.image, model),
+            errorOf(reference, lines.image, model), errorOf(reference, buffered.image, model),
+            errorOf(reference, fewPoints, model), errorOf(reference, oneWheel, model),
+            errorOfSquares(reference, lines.image, 8), errorOfSquares(reference, oneWheel, 8));
         std::fflush(stdout);
     }
 }
@@ -211,7 +213,7 @@ void printFigure7(const std::string& model, int width, int height) {
         frame.sceneName);
     for (const std::uint32_t lines : {4u, 8u, 16u, 32u})
         for (const double share : {0.02, 0.05, 0.1, 0.2}) {
-            if (lines != 16 && share != tableBlur) continue;  // one of the two at a time
+            if (lines != 16 && share != tableBlur) continue;  // vary one of the two at a time
             const View view = blurredView(frame, share, true);
             const std::vector<Measured> all = measured(view, {{&frame, "line", settingsOf(lines)},
                                                               {&frame, "line", byScore(lines)},

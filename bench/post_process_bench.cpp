@@ -1,8 +1,8 @@
-// The disks of method "circular" (Garcia 2018): what they cost over the radius, against a gather of the same kernel
-// over its whole square; what one pass for the near and the far field could save; how flat they are by components; what
-// their storage loses.
+// Measures the method "circular" (Garcia 2018). Cost of the separable blur over the radius, against a direct gather of
+// the same kernel over its complete square. Possible saving of one pass for both fields. Flatness of the disks by
+// number of components. Error of the storage formats.
 //
-// Held equal within a table: image, process, kernel, runs alternate and the median counts. Checks that separable and
+// Held equal within a table: image, process, kernel. Runs alternate; the median counts. Checks that separable and
 // direct blur agree.
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ double milliseconds(ComplexBlur& blur, const GlTexture& field, const GlTexture& 
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// The exponent p of y ~ x^p by least squares in logarithms.
+// Returns the exponent p of y ~ x^p by a least-squares fit of the logarithms.
 double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     const auto n = static_cast<double>(x.size());
@@ -97,7 +97,7 @@ void costOverRadius() {
         const double ofSeparable = spreadOf(a).median;
         const double ofDirect = spreadOf(b).median;
         fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
-        if (r == 0) continue;  // what the passes cost without taps
+        if (r == 0) continue;  // radius 0 gives the cost of the passes without taps
         radii.push_back(r);
         separableTimes.push_back(ofSeparable);
         directTimes.push_back(ofDirect);
@@ -106,8 +106,8 @@ void costOverRadius() {
                exponent(radii, directTimes));
 }
 
-// Passes that blurred both fields at once would read, weigh and write for each field what they do now. What they could
-// save is what a field's passes cost without taps.
+// Passes for both fields at once would still read, weight and write both fields. They could save at most the cost of
+// one field's passes without taps.
 void savedByOnePass() {
     fmt::print(
         "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "
@@ -175,7 +175,7 @@ void disks() {
                 max = std::max(max, std::abs(deviation));
                 inside += 1;
             }
-        // The width of the edge: from nine tenths of the level to one tenth, along the row of the centre.
+        // Width of the edge, from 90 % to 10 % of the level, along the row of the centre.
         double high = 0, low = size;
         for (int x = centre; x < size; ++x) {
             const double value = *image.at(x, centre) / level;
@@ -189,7 +189,7 @@ void disks() {
     fmt::print("\n");
 }
 
-// What the storage between the passes loses, on a picture: against 32-bit floats.
+// Prints the error that each storage format between the passes causes in an image, against 32-bit floats.
 void storages() {
     Request scene;
     scene.size.width = 512;

@@ -1,24 +1,25 @@
-// Pyramids against their peers: how long they take, and how well their levels stand for the mesh.
+// Compares pyramids with the levels of meshoptimizer and OpenMesh: build time, and similarity of the levels to the
+// mesh.
 //
-// Time, of the processor. Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is
-// all that buildPyramid does (repair, collapses, errors, clusters, fitted positions, normals and colours); "levels" are
-// repair and collapses alone, by quadrics of places and attributes, with each level's triangles. "meshoptimizer" is
-// meshopt_simplify from level to level, "DecimaterT" OpenMesh's decimater with its quadric module on a mesh of welded
-// positions; neither of these two makes attributes. "times as fast" are levels and pyramid against DecimaterT.
-// "bytes each" is the memory that buildPyramid takes at its peak, for each of the mesh's triangles, its result
-// included. --million adds a fish of a million triangles, and the same one with flat shading.
+// Time (CPU time). Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is the
+// complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is repair
+// and collapses alone, by quadrics of positions and attributes, with each level's triangles. "meshoptimizer" is
+// meshopt_simplify from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a mesh of
+// welded positions. Neither of these two produces attributes. "times as fast" compares levels and pyramid with
+// DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the result. --million
+// adds a fish of a million triangles, smooth and flat-shaded.
 //
-// Distance. Held equal: the mesh, joined by position, and the triangle count of each level, which meshoptimizer gets
-// from level 0 at once. The mean distance to level 0 and from it, the larger of the two; "mean" of the levels' ratios
-// is that of their logarithms.
+// Distance. Held equal: the mesh, joined by position, and the triangle count of each level. meshoptimizer simplifies
+// level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
+// geometric mean of the levels' ratios.
 //
-// Looks. Held equal: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets ours),
-// camera, lens, 32 lens samples, 512 x 384. Each level is drawn at the blur where the default thresholds would use it,
-// and compared with level 0 under the same blur. meshoptimizer's levels keep the surviving vertices' attributes, chosen
-// with meshopt_simplify, which sees no attributes (version 0.18 has nothing that does).
+// Looks. Held equal: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our counts),
+// camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds use it,
+// and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving vertices.
+// Its meshopt_simplify ignores attributes (version 0.18).
 //
-// Normals. The same levels of ours with their fitted normals, with those of the level's own faces averaged by area at
-// each position, and with the surviving vertices' own.
+// Normals. Our levels with three kinds of normals: fitted; averaged by area from the level's faces at each position;
+// and copied from the surviving vertices.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -65,9 +66,9 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
-constexpr std::size_t distancePoints = 40'000;  // on each surface
+constexpr std::size_t distancePoints = 40'000;  // points on each surface
 
-// Of this thread's own work, the least of some runs: what else the machine does shall not count.
+// Returns the min CPU time of this thread over the runs, in s, which excludes other load on the machine.
 double secondsOf(int runs, const std::function<void()>& work) {
     const auto now = [] {
         timespec time{};
@@ -83,7 +84,7 @@ double secondsOf(int runs, const std::function<void()>& work) {
     return min;
 }
 
-// A line of /proc/self/status in bytes; 0 where the system has none.
+// Returns the value of a line of /proc/self/status in bytes; 0 if the line is missing.
 double memory(const std::string& line) {
     std::ifstream status("/proc/self/status");
     for (std::string text; std::getline(status, text);)
@@ -91,16 +92,16 @@ double memory(const std::string& line) {
     return 0;
 }
 
-// What the process holds at most during `work` beyond what it held before.
+// Returns the peak memory of the process during `work`, in bytes beyond the memory before.
 double peakBytesOf(const std::function<void()>& work) {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
     const double before = memory("VmRSS");
     work();
     return memory("VmHWM") - before;
 }
 
-// The surface joined by position, which is all that either peer can use.
+// The surface joined by position, as both other simplifiers require.
 struct JoinedSurface {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -115,7 +116,7 @@ JoinedSurface joinedSurface(const Mesh& mesh) {
     return surface;
 }
 
-// At most `target` triangles of those in `indices`, if meshoptimizer gets there.
+// Returns a simplification of `indices` to `target` triangles, or more if meshoptimizer can't reach the target.
 std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, std::size_t target) {
     std::vector<std::uint32_t> result(indices.size());
@@ -124,7 +125,7 @@ std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
     return result;
 }
 
-// Triangles that are left.
+// Simplifies level by level. Returns the number of remaining triangles.
 std::size_t meshoptimizerChain(const JoinedSurface& surface) {
     std::vector<std::uint32_t> indices = surface.indices;
     while (indices.size() / 3 > minTriangles) {
@@ -154,7 +155,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Levels without what buildPyramid fits and measures. Returns how many triangles are left.
+// Builds the levels without fits and measurements. Returns the number of remaining triangles.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -195,11 +196,11 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     std::fflush(stdout);
 }
 
-// Ours over theirs, weighted alike by levels, of logarithms.
+// Ratios of our distances to the other simplifier's. All levels have equal weight; the mean is geometric.
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
-    int within = 0;  // of them, at most 1.1
+    int within = 0;  // levels with a ratio of at most 1.1
     double worst = 0;
 
     void add(double ratio) {
@@ -230,7 +231,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
     const Pyramid pyramid = buildPyramid(mesh);
     if (pyramid.levels.size() < 2) return;
     const JoinedSurface joined = joinedSurface(mesh);
-    const Surface truth = prepareSurface(joined.positions, joined.indices);
+    const Surface reference = prepareSurface(joined.positions, joined.indices);
     DistanceRatios own;
     int stopped = 0;
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
@@ -242,9 +243,9 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
             continue;
         }
         const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
-            return surfaceDistance(prepareSurface(positions, triangles), truth, distancePoints).both.mean;
+            return surfaceDistance(prepareSurface(positions, triangles), reference, distancePoints).both.mean;
         };
-        // What is exact to single precision on both sides, a flat part for example, is no ratio.
+        // Distances below the precision of floats, as on flat meshes, count as equal.
         const double exact = 1e-7 * glm::length(mesh.bounds().size());
         const double ratio = std::max(exact, meanDistance(level.positions, indices)) /
                              std::max(exact, meanDistance(joined.positions, peer));
@@ -254,11 +255,11 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
     printRatios(name, mesh.triangleCount(), own, stopped);
 }
 
-// One mesh alone, without skin or animation, seen by a camera that frames it.
+// A single static mesh, seen by a camera that frames it.
 struct Stage {
     World world;
     View view;
-    double depth = 0;  // of the mesh's centre, m
+    double depth = 0;  // m, depth of the mesh's centre
 };
 
 void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
@@ -288,12 +289,12 @@ double pixelsPerUnit(const Stage& stage) {
     return stage.view.width / (2 * tanHalfHorizontalFov(stage.view.lens) * stage.depth);
 }
 
-// CoC at which the default thresholds use a level, px.
+// Returns the CoC in px at which the default thresholds use a level.
 double cocOf(const Stage& stage, const PyramidLevel& level) {
     return level.meanEdge * pixelsPerUnit(stage) / defaultThresholds(LodMetric::size, 64).blur;
 }
 
-// Twice as far away, until the first level is used at a CoC of at most a sixteenth of the image.
+// Doubles the camera's distance until level 1 is used at a CoC of at most 1/16 of the image's width.
 void stepBack(Stage& stage) {
     while (cocOf(stage, stage.world.pyramids[0].levels[1]) > stage.view.width / 16.0) {
         stage.view.worldFromCamera[3] += stage.depth * stage.view.worldFromCamera[2];
@@ -301,7 +302,7 @@ void stepBack(Stage& stage) {
     }
 }
 
-// Focus at infinity, and the f-number that blurs the mesh's centre by `coc` px.
+// Sets the f-number that blurs the mesh's centre by `coc` px, for a focus at infinity.
 void blurBy(Stage& stage, double coc) {
     Lens& lens = stage.view.lens;
     const double aperture = coc * stage.depth * 2 * tanHalfHorizontalFov(lens) / stage.view.width;
@@ -311,7 +312,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // as in the committed tables
+    settings.sequence = Sequence::halton;  // the sequence of the committed tables
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -326,7 +327,7 @@ Image drawn(const Stage& stage, std::uint32_t level) {
     return renderer->image();
 }
 
-// The mesh with meshoptimizer's triangles, primitive by primitive.
+// Returns the mesh simplified by meshoptimizer to the level's triangle count, primitive by primitive.
 Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
     Mesh peer = mesh;
     for (std::size_t p = 0; p < peer.primitives.size(); ++p)
@@ -336,8 +337,8 @@ Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
     return peer;
 }
 
-// Calls visit(level, CoC) for the levels that are used at a CoC of 1 to 60 px (a ninth of the image), with the stage
-// under that blur.
+// Calls visit(level, CoC) for the levels used at a CoC of 1 to 60 px (a ninth of the image), with the stage set to that
+// blur.
 void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, double)>& visit) {
     const std::size_t count = stage.world.pyramids[0].levels.size();
     if (count < 2) return;
@@ -356,8 +357,8 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
     stage.world.pyramids = buildPyramids(stage.world.scene->meshes);
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const PyramidLevel& level = stage.world.pyramids[0].levels[l];
-        const Image truth = drawn(stage, 0);
-        const Difference own = compareImages(truth, drawn(stage, l));
+        const Image reference = drawn(stage, 0);
+        const Difference own = compareImages(reference, drawn(stage, l));
 
         Stage peer;
         const Mesh peerMesh = peerLevel(mesh, level);
@@ -370,14 +371,14 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
         peer.view = stage.view;
         peer.world.lights = stage.world.lights;
         peer.world.pyramids = {fullDetail(peerMesh)};
-        const Difference theirs = compareImages(truth, drawn(peer, 0));
+        const Difference theirs = compareImages(reference, drawn(peer, 0));
         fmt::print("{:<24} {:>5} {:>9} {:>9} {:>7.1f} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f}\n", name, l,
                    level.triangleCount, peerMesh.triangleCount(), coc, own.psnr, theirs.psnr, own.flip, theirs.flip);
         std::fflush(stdout);
     });
 }
 
-// Of the level's own faces, weighed by their areas, one at each position.
+// Returns one normal per position: the area-weighted mean over the level's faces.
 std::vector<glm::vec3> averagedNormals(const Pyramid& pyramid, const PyramidLevel& level) {
     const WeldedPositions places = weldPositions(level.positions);
     std::vector<std::uint32_t> indices = levelIndices(pyramid, level);
@@ -396,15 +397,15 @@ void normalsRows(const std::string& name, const Scene& source, const Mesh& mesh)
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const Pyramid& pyramid = stage.world.pyramids[0];
         PyramidLevel& level = stage.world.pyramids[0].levels[l];
-        const Image truth = drawn(stage, 0);
+        const Image reference = drawn(stage, 0);
         const auto differenceWith = [&](std::vector<glm::vec3> normals) {
             std::swap(level.normals, normals);
-            const Difference difference = compareImages(truth, drawn(stage, l));
+            const Difference difference = compareImages(reference, drawn(stage, l));
             std::swap(level.normals, normals);
             return difference;
         };
         const std::vector<glm::vec3>& own = pyramid.vertices.normals;
-        const Difference fitted = compareImages(truth, drawn(stage, l));
+        const Difference fitted = compareImages(reference, drawn(stage, l));
         const Difference averaged = differenceWith(averagedNormals(pyramid, level));
         const Difference surviving = differenceWith({own.begin(), own.begin() + level.vertexCount});
         fmt::print("{:<24} {:>5} {:>9} {:>7.1f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f} {:>9.4f}\n", name, l,
@@ -419,8 +420,8 @@ const Mesh& largestMesh(const Scene& scene) {
                              [](const Mesh& a, const Mesh& b) { return a.triangleCount() < b.triangleCount(); });
 }
 
-// What each level of each scene's largest mesh keeps of level 0, by its vertex colours: mean colour, matt light from
-// 26 directions, and the covered area seen along them.
+// Prints how far each level of a mesh differs from level 0 in mean vertex colour, matt light from 26 directions, and
+// covered area along these directions.
 void conservedRows(const std::string& name, const Mesh& mesh) {
     constexpr std::size_t points = 60'000;
     constexpr int resolution = 1024;
@@ -439,8 +440,8 @@ void conservedRows(const std::string& name, const Mesh& mesh) {
     }
 }
 
-// Whole scenes, through their cameras: what is left of errors against the converged image after boxes of 32 x 32
-// pixels. "CoC px" is the blur of the scene's centre, "full detail" the error of as many samples without levels.
+// Prints the errors of a complete scene against the converged image, averaged over boxes of 32 x 32 px. "CoC px" is the
+// blur of the scene's centre. "full detail" is the error of the same number of samples without levels.
 void blurredRows(const std::string& name, const Scene& scene) {
     constexpr int box = 32;
     World world;
@@ -477,21 +478,21 @@ void blurredRows(const std::string& name, const Scene& scene) {
             }
             return renderer->image();
         };
-        const Image truth = image(1024, LodMode::off);
+        const Image reference = image(1024, LodMode::off);
         for (const std::uint32_t samples : {64u}) {
             const Image full = image(samples, LodMode::off);
             const Image levels = image(samples, LodMode::continuous);
-            const double fullError = boxDifference(truth, full, box);
-            const double levelsError = boxDifference(truth, levels, box);
+            const double fullError = boxDifference(reference, full, box);
+            const double levelsError = boxDifference(reference, levels, box);
             fmt::print("{:<24} {:>7.1f} {:>7} {:>12.2e} {:>12.2e} {:>6.2f} {:>9.2f} {:>9.2f}\n", name, coc, samples,
-                       fullError, levelsError, levelsError / fullError, compareImages(truth, full).psnr,
-                       compareImages(truth, levels).psnr);
+                       fullError, levelsError, levelsError / fullError, compareImages(reference, full).psnr,
+                       compareImages(reference, levels).psnr);
             std::fflush(stdout);
         }
     }
 }
 
-// Places and a normal of its own at each corner, as modellers of hard surfaces write them.
+// Returns the mesh with separate vertices and the face normal at each corner, as in flat-shaded models.
 Mesh flatShaded(const Mesh& mesh) {
     Mesh flat;
     Primitive& all = flat.primitives.emplace_back();
@@ -557,7 +558,7 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
-    std::vector<std::vector<glm::vec3>> seen;  // a mesh that a scene has more than once counts once
+    std::vector<std::vector<glm::vec3>> seen;  // repeated meshes count once
     for (const auto& [name, scene] : scenes)
         for (const Mesh& mesh : scene.meshes) {
             if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;

@@ -1,9 +1,9 @@
-// What a sample of every pixel costs the Embree ray tracer, with lens samples of each pixel's own and with one that all
-// pixels share, and how far its images are from the converged one.
+// Measures the Embree ray tracer: the time per sample and the error against a converged image. Compares separate lens
+// samples for each pixel with lens samples that all pixels share.
 //
-// Held equal: the unlit school of fish, view, lens, size, samples and process. Interleaved runs, the fastest of each
-// counts. CPU is the time of all threads, which says more where others use the machine too. RMSE is of display-encoded
-// values, at a quarter of the size, against many samples with another seed.
+// Held equal: the unlit school of fish, view, lens, size, samples and process. Runs are interleaved; the fastest of
+// each counts. CPU is the time of all threads, which other processes on the machine affect less. The RMSE is of
+// display-encoded values at a quarter of the size, against many samples with another seed.
 //
 //   defocus_ray_tracer_bench [--samples 32] [--size 1024x768] [--runs 5] [--reference-samples 2048] [--shading lit]
 
@@ -41,7 +41,7 @@ struct Row {
     const char* name;
     EmbreeSampling sampling;
     std::unique_ptr<Renderer> renderer;
-    double milliseconds = std::numeric_limits<double>::infinity();  // a sample
+    double milliseconds = std::numeric_limits<double>::infinity();  // per sample
     double cpuMilliseconds = std::numeric_limits<double>::infinity();
 };
 
@@ -88,17 +88,17 @@ void printErrors(const World& world, View view, std::span<const Row> rows, std::
 }
 
 int run(const Options& options) {
-    const auto truth = truthScene(fishSchool(), options.width, options.height);
+    const auto subject = truthScene(fishSchool(), options.width, options.height);
     if (options.lit) {
-        truth->scene = fishSchool();
-        const auto placed = chooseCamera(truth->scene, truth->world.pose, {}, 1.0 * options.width / options.height);
-        truth->world.lights = lightsOrDefault(truth->scene, truth->world.pose, placed);
+        subject->scene = fishSchool();
+        const auto placed = chooseCamera(subject->scene, subject->world.pose, {}, 1.0 * options.width / options.height);
+        subject->world.lights = lightsOrDefault(subject->scene, subject->world.pose, placed);
     }
     std::array<Row, 2> rows = {Row{"embree-shared", EmbreeSampling::shared, nullptr},
                                Row{"embree", EmbreeSampling::perPixel, nullptr}};
-    for (Row& row : rows) row.renderer = makeEmbreeRenderer(truth->world, row.sampling);
+    for (Row& row : rows) row.renderer = makeEmbreeRenderer(subject->world, row.sampling);
     for (int i = 0; i < options.runs; ++i)
-        for (Row& row : rows) renderOnce(row, planOf(truth->view, options.samples));
+        for (Row& row : rows) renderOnce(row, planOf(subject->view, options.samples));
 
     const RenderStats stats = rows[0].renderer->stats();
     fmt::print("{}, {}\n{} fish school, {} x {}, {} samples, fastest of {} interleaved runs\n\n{:<15} {:>13} {:>13}\n",
@@ -106,7 +106,7 @@ int run(const Options& options) {
                options.samples, options.runs, "", "ms a sample", "CPU, ms");
     for (const Row& row : rows)
         fmt::print("{:<15} {:>13.1f} {:>13.1f}\n", row.name, row.milliseconds, row.cpuMilliseconds);
-    if (options.referenceSamples > 0) printErrors(truth->world, truth->view, rows, options.referenceSamples);
+    if (options.referenceSamples > 0) printErrors(subject->world, subject->view, rows, options.referenceSamples);
     return 0;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the main of each bench does: it keeps freed memory, as `defocus` does, and an error is one line on stderr, after
-// the program's name, and exit code 1.
+// Shared main function of the benches. Keeps freed memory, as `defocus` does. Prints an error as one line on stderr,
+// after the program's name, and returns exit code 1.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// `run` takes nothing and returns the exit code.
+// Calls run(), which returns the exit code.
 template <typename Run>
 int runBench(const char* program, const Run& run) {
     keepFreedMemory();

@@ -1,10 +1,11 @@
-// Which points on the lens? The sequences that can be chosen, and patterns that must know their number beforehand:
-// Vogel's spiral, rings of points, a set relaxed to blue noise.
+// Compares sets of points on the lens: the selectable sequences, and patterns that need the number of points in
+// advance. The patterns are Vogel's spiral, rings of points and a set relaxed to blue noise.
 //
-// First by the points alone: how much of the lens's or the pixel's area they get wrong. Then by images: the error
-// against the number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference a
-// scene of 4,096 samples of its own stretch of the Halton sequence. Errors are root mean squares over the seeds 0
-// and 1 of the RMSE of display-encoded values, and means of FLIP. Patterns take the pixel's points from `sobol`.
+// The first table shows the area errors of the points, on the lens and in the pixel. The second shows image errors
+// against the number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference
+// per scene. The reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the
+// RMSE of display-encoded values is averaged as a root mean square, and FLIP as a mean. Patterns take the points in the
+// pixel from `sobol`.
 //
 //   defocus_sequence_bench [MODEL…]
 //
@@ -40,7 +41,7 @@ const std::vector<std::uint32_t> counts = {8, 16, 32, 64, 128, 256, 512, 1024};
 
 struct Pattern {
     std::string name;
-    bool needsCount = false;  // other points for another number: a prefix of them is no smaller set
+    bool needsCount = false;  // a different count gives different points, so prefixes are not valid sets
     std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
 };
 
@@ -58,7 +59,8 @@ std::vector<glm::dvec2> vogelSpiral(std::uint32_t count, std::uint32_t seed) {
     return points;
 }
 
-// Rings of 1, 6, 12, 18 … points, as the cells of a hexagonal grid; the last takes what is left. Radii by area.
+// Returns rings of 1, 6, 12, 18 … points, like the cells of a hexagonal grid; the last ring takes the remaining points.
+// Radii give all points equal areas.
 std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) {
     std::vector<glm::dvec2> points;
     std::uint32_t size = 1;
@@ -70,7 +72,7 @@ std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) 
     return points;
 }
 
-// Points of the square that pushed each other apart on the torus, so that they stay even at its edges.
+// Returns points that repel each other on the torus of the square, so that they are even across its edges.
 std::vector<glm::dvec2> relaxed(std::uint32_t count, std::uint32_t seed) {
     std::vector<glm::dvec2> square;
     for (std::uint32_t i = 0; i < count; ++i) square.push_back(sequencePoint(Sequence::sobol, i, seed + 1).lens);
@@ -115,11 +117,11 @@ std::vector<Pattern> patterns() {
 // ---- points alone ---------------------------------------------------------------------------------------------------
 
 struct Region {
-    double area = 0;  // of 1
+    double area = 0;  // as a fraction of the lens or pixel
     std::function<bool(const LensSample&)> holds;
 };
 
-// Halves of the lens: what a straight edge out of focus lets through.
+// Returns half planes of the lens: the parts that a blurred straight edge leaves visible.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 32; ++direction)
@@ -132,7 +134,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Boxes from the pixel's lower left corner.
+// Returns boxes that start at the pixel's lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)
@@ -144,8 +146,8 @@ std::vector<Region> boxes() {
 }
 
 struct Discrepancy {
-    double all = 0;     // root mean square over regions of the error of their area, all points
-    double prefix = 0;  // the largest error, over regions and prefixes of 16 points and more
+    double all = 0;     // RMS over the regions of the area error of all points
+    double prefix = 0;  // max area error over regions and prefixes of at least 16 points
     double suffix = 0;
 };
 
@@ -220,7 +222,7 @@ void measurePoints() {
 RendererOptions precise() {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    options.wave = 8;  // so that an image can be had after every 8 samples
+    options.wave = 8;  // an image can be read after every 8 samples
     return options;
 }
 
@@ -232,7 +234,7 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
     return settings;
 }
 
-// The images after `reads` samples, ascending, of one render of the last of them.
+// Renders once and returns the images after each number of samples in `reads` (ascending).
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;
@@ -249,7 +251,7 @@ std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vecto
 }
 
 struct Errors {
-    std::vector<double> square;  // by counts: mean over the seeds of RMSE²
+    std::vector<double> square;  // mean over the seeds of RMSE², by sample count
     std::vector<double> flip;
 };
 

@@ -1,17 +1,17 @@
-// The rasteriser's accumulation against the Embree ray tracer at full size. Held equal: geometry at full detail, baked
-// unlit colours, view, lens, size, samples a pixel; RGBA32F layers. Not equal, on purpose: sampling, projection and
-// visibility code. A second comparison is made at the plan's lens points, which leaves geometry and visibility alone to
-// differ: PSNR, and by how many px the image is moved or grown. One line of JSON a scene; the exit code is 1 where the
-// first PSNR is below 45 dB.
+// Compares the rasteriser's accumulation with the Embree ray tracer at full image size. Held equal: geometry at full
+// detail, baked unlit colours, view, lens, size, samples per pixel; RGBA32F layers. Deliberately different: the code
+// for sampling, projection and visibility. A second comparison uses the plan's lens points for both, so that only
+// geometry and visibility can differ. It gives the PSNR and by how many px the image is shifted or scaled. Prints one
+// line of JSON per scene. The exit code is 1 if the first PSNR of a scene is below 45 dB.
 //
-// With --shadows ANGLE the surfaces are matt under one sun of so many degrees instead, which casts shadows: a second
-// pair of images without them tells what they cost each renderer, and what of the error is theirs. There is no limit to
-// the error then: shadow maps have texels.
+// With --shadows ANGLE, matt surfaces are lit by one sun of that angular diameter in degrees, which casts shadows. A
+// second pair of images without shadows shows their cost in each renderer and their part of the error. The error then
+// has no limit, because shadow maps have a finite resolution.
 //
 //   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
 //   [--output FOLDER] [SCENE.glb …]
 //
-// With no scene it compares the fish school.
+// Without a scene, the school of fish is compared.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -35,9 +35,9 @@ namespace {
 struct Options {
     std::uint32_t samples = 1024;
     std::string size = "1024x768";
-    Sequence sequence = RenderSettings{}.sequence;                     // of the rasteriser
+    Sequence sequence = RenderSettings{}.sequence;                     // lens samples of the rasteriser
     double foregroundLimit = std::numeric_limits<double>::infinity();  // px
-    std::optional<double> shadows;                                     // degrees that the sun measures
+    std::optional<double> shadows;                                     // angular diameter of the sun, degrees
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;
@@ -49,21 +49,22 @@ struct Rendered {
     RenderStats stats;
 };
 
-Rendered rendered(const char* method, const TruthScene& truth, const Options& wanted, Shadows shadows = Shadows::off) {
+Rendered rendered(const char* method, const TruthScene& subject, const Options& wanted,
+                  Shadows shadows = Shadows::off) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    const std::unique_ptr<Renderer> renderer = methodNamed(method).make(truth.world, options);
+    const std::unique_ptr<Renderer> renderer = methodNamed(method).make(subject.world, options);
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
-    settings.cocTolerance = 0.05;  // px; of a limited foreground, whose kink large triangles would miss
-    Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, settings));
+    settings.cocTolerance = 0.05;  // px; fine enough for the kink at the foreground limit
+    Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 
-// The scene's painted colours under a sun from the upper right, behind the camera's shoulder, and nothing else.
-void lightByASun(TruthScene& truth, double degrees) {
-    for (Material& material : truth.scene.materials) {
+// Makes the scene's painted surfaces matt and lights them only by a sun from the upper right behind the camera.
+void lightByASun(TruthScene& subject, double degrees) {
+    for (Material& material : subject.scene.materials) {
         material.unlit = false;
         material.metallicFactor = 0;
         material.specularFactor = 0;
@@ -71,17 +72,17 @@ void lightByASun(TruthScene& truth, double degrees) {
     PlacedLight sun;
     sun.light.intensity = 3;
     sun.light.angularDiameter = static_cast<float>(glm::radians(degrees));
-    sun.direction = glm::normalize(glm::dmat3(truth.view.worldFromCamera) * glm::dvec3(-0.5, -1, -0.6));
-    truth.world.lights = {sun};
-    truth.world.environment.lighting = 0;
+    sun.direction = glm::normalize(glm::dmat3(subject.view.worldFromCamera) * glm::dvec3(-0.5, -1, -0.6));
+    subject.world.lights = {sun};
+    subject.world.environment.lighting = 0;
 }
 
 // Prints the comparison of one scene's shadows.
-void compareShadows(const std::string& name, const TruthScene& truth, const Options& options) {
-    const Rendered openRaster = rendered("accumulation", truth, options);
-    const Rendered openTraced = rendered("embree", truth, options);
-    const Rendered raster = rendered("accumulation", truth, options, Shadows::on);
-    const Rendered traced = rendered("embree", truth, options, Shadows::on);
+void compareShadows(const std::string& name, const TruthScene& subject, const Options& options) {
+    const Rendered openRaster = rendered("accumulation", subject, options);
+    const Rendered openTraced = rendered("embree", subject, options);
+    const Rendered raster = rendered("accumulation", subject, options, Shadows::on);
+    const Rendered traced = rendered("embree", subject, options, Shadows::on);
     const Difference difference = compareImages(traced.image, raster.image);
     const BlockDifference blocks = blockDifference(traced.image, raster.image);
     const nlohmann::ordered_json line = {
@@ -110,18 +111,18 @@ void compareShadows(const std::string& name, const TruthScene& truth, const Opti
     writeImage(folder / (name + "-difference.png"), differenceImage(traced.image, raster.image, 16));
 }
 
-// Prints the comparison; true where it is as good as it must be.
+// Prints the comparison. Returns whether the PSNR is at least 45 dB.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
-    const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), options.width, options.height);
-    truth->view.lens.foregroundLimit = options.foregroundLimit;
+    const std::unique_ptr<TruthScene> subject = truthScene(std::move(scene), options.width, options.height);
+    subject->view.lens.foregroundLimit = options.foregroundLimit;
     if (options.shadows) {
-        lightByASun(*truth, *options.shadows);
-        compareShadows(name, *truth, options);
+        lightByASun(*subject, *options.shadows);
+        compareShadows(name, *subject, options);
         return true;
     }
-    const Rendered traced = rendered("embree", *truth, options);
-    const Rendered raster = rendered("accumulation", *truth, options);
-    const Rendered planned = rendered("embree-planned", *truth, options);
+    const Rendered traced = rendered("embree", *subject, options);
+    const Rendered raster = rendered("accumulation", *subject, options);
+    const Rendered planned = rendered("embree-planned", *subject, options);
     const Difference difference = compareImages(traced.image, raster.image);
     const BlockDifference blocks = blockDifference(traced.image, raster.image);
     const Misplacement moved = misplacement(planned.image, raster.image);

@@ -1,8 +1,8 @@
-// The module `_defocus` under the Python package `defocus`: the public API, one to one. What makes it comfortable in
-// Python stands in defocus/__init__.py.
+// The native module `_defocus` of the Python package `defocus`: a one-to-one binding of the public API.
+// defocus/__init__.py adds the convenient interface.
 //
-// Images pass without copies: an array that comes out owns the pixels that C++ made, one that goes in is read where it
-// lies. Python's lock is released during all work.
+// Images are passed without copies: returned arrays own the pixels that C++ allocated, and arguments are read in place.
+// The GIL is released during all work.
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -33,10 +33,11 @@ namespace {
 
 // ---- progress and signals -------------------------------------------------------------------------------------------
 
-// The caller's function; empty for None.
+// The caller's progress function; empty for None.
 using Listener = std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)>;
 
-// Tells the listener, and lets Ctrl-C end the work: Python only notes a signal until somebody asks for it.
+// Returns a progress function that calls the listener and lets Ctrl-C end the work: Python handles a signal only when
+// PyErr_CheckSignals is called.
 defocus::Progress listening(const Listener& listener) {
     return [listener](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         const py::gil_scoped_acquire lock;
@@ -49,18 +50,19 @@ defocus::Progress listening(const Listener& listener) {
 
 using Array = py::array_t<float, py::array::c_style>;
 
-// The image's own pixels as an array that keeps them: H×W, or H×W×channels where there are several.
+// Returns an array that owns the image's pixels: H×W, or H×W×channels for more than one channel.
 Array arrayOf(defocus::Image&& image) {
     auto owner = std::make_unique<defocus::Image>(std::move(image));
     std::vector<py::ssize_t> shape = {owner->height, owner->width};
     if (owner->channels > 1) shape.push_back(owner->channels);
     float* const pixels = owner->pixels.data();
     const py::capsule keeper(owner.get(), [](void* kept) { delete static_cast<defocus::Image*>(kept); });
-    static_cast<void>(owner.release());  // the capsule's now
+    static_cast<void>(owner.release());  // the capsule owns the image
     return Array(shape, pixels, keeper);
 }
 
-// The array's pixels, read where they lie; valid as long as it is. Of an array that is no image the view is empty.
+// Returns a view of the array's pixels, valid while the array exists. Returns an empty view if the array's shape is not
+// that of an image.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
     return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
@@ -70,20 +72,20 @@ defocus::ImageView viewOf(const Array& array) {
 
 // ---- scenes and renderers -------------------------------------------------------------------------------------------
 
-// An open scene; what it holds is asked for once.
+// An open scene with its info, which is read once.
 struct OpenScene {
     defocus::Scene scene;
     defocus::SceneInfo info = scene.info();
 };
 
-// A SceneRenderer for Python's threads: they take turns.
+// A SceneRenderer that Python threads share; they take turns.
 class SharedRenderer {
 public:
     SharedRenderer(const OpenScene* scene, const defocus::Request& request, const Listener& listener)
         : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->scene, request, listening(listener))
                                      : defocus::SceneRenderer(request, listening(listener))) {}
 
-    // Calls `use` with the renderer, without Python's lock.
+    // Calls `use` with the renderer, without the GIL.
     template <typename Use>
     auto with(const Use& use) {
         const Turn turn(*this);
@@ -97,7 +99,7 @@ public:
     }
 
 private:
-    // Whose turn waits for its own end would wait forever.
+    // Throws UsageError if this thread already uses the renderer, because waiting for itself would deadlock.
     void refuseReentry() const {
         if (user_ == std::this_thread::get_id())
             throw defocus::UsageError("a renderer cannot be used from its own progress function");
@@ -124,7 +126,7 @@ private:
 // ---- the module -----------------------------------------------------------------------------------------------------
 
 void defineErrors(py::module_& package) {
-    // A wrong keyword is a TypeError and a wrong value a ValueError to whoever looks for those.
+    // UsageError also derives from TypeError and ValueError, which Python callers expect for a wrong keyword or value.
     const auto& error = py::register_exception<defocus::Error>(package, "Error", PyExc_RuntimeError);
     const auto& usageError = py::register_exception<defocus::UsageError>(
         package, "UsageError",
@@ -211,7 +213,8 @@ void defineImages(py::module_& package) {
 }
 
 void defineScenes(py::module_& package) {
-    py::class_<OpenScene>(package, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
+    py::class_<OpenScene>(package, "Scene",
+                          "A glTF scene that is loaded once for many renders; accepted in place of a path.")
         .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
                  const py::gil_scoped_release unlocked;
                  return OpenScene{defocus::Scene::load(path, listening(progress))};
@@ -224,19 +227,20 @@ void defineScenes(py::module_& package) {
                 return OpenScene{defocus::Scene::schoolOfFish(fishCount, trianglesPerFish, listening(progress))};
             },
             "fish_count"_a = 20, "triangles_per_fish"_a = 90'000, py::kw_only(), "progress"_a = py::none(),
-            "The built-in school of fish, of 1 to 10,000.")
+            "Returns the built-in school of 1 to 10,000 fish.")
         .def_property_readonly("name", [](const OpenScene& scene) { return scene.info.name; })
         .def_property_readonly(
-            "cameras", [](const OpenScene& scene) { return scene.info.cameras; }, "Names; empty for those without one.")
+            "cameras", [](const OpenScene& scene) { return scene.info.cameras; },
+            "Names of the cameras; empty strings for unnamed cameras.")
         .def_property_readonly("nodes", [](const OpenScene& scene) { return scene.info.nodes; })
         .def_property_readonly(
             "clips", [](const OpenScene& scene) { return scene.info.clips; }, "Names of the animations.")
         .def_property_readonly(
             "triangles", [](const OpenScene& scene) { return scene.info.triangles; },
-            "Of all meshes, each counted once.")
+            "Number of triangles of all meshes, each mesh counted once.")
         .def_property_readonly(
             "ignored", [](const OpenScene& scene) { return scene.info.ignored; },
-            "What of the file is not drawn, and why: a line each.")
+            "Parts of the file that are not drawn: a line each, with the reason.")
         .def("__repr__",
              [](const OpenScene& scene) {
                  return "<defocus.Scene '" + scene.info.name + "': " + std::to_string(scene.info.triangles) +

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the keywords of defocus/__init__.pyi from the settings table of the built module.
 
-    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py            # write them
-    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check    # exit code 1 if they differ
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py          # writes the file
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1 if it differs
 """
 
 import sys
@@ -14,7 +14,7 @@ STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.py
 BEGIN = "# ---- keywords, from the settings table ----\n"
 END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "integer": "int", "boolean": "bool", "text": "str", "path": "Path"}
-# Types of settings with values of another form, beside a string in the command line's form.
+# Python types of settings of kind "other", by their form on the command line.
 FORMS = {
     "N|exact": "Union[int, str]",
     "environment|none|R,G,B": "Union[str, Point]",
@@ -32,10 +32,10 @@ FORMS = {
 def type_of(setting):
     if setting.kind == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
-    if setting.kind in ("number", "whole") and setting.choices:
+    if setting.kind in ("number", "integer") and setting.choices:
         return f"Union[{TYPES[setting.kind]}, Literal[" + ", ".join(f'"{word}"' for word in setting.choices) + "]]"
     if setting.kind == "number" and setting.unit == "s" and setting.range[0] >= 0:
-        return "Union[float, str]"  # 1/48 too
+        return "Union[float, str]"  # also a fraction such as "1/48"
     return FORMS[setting.form] if setting.kind == "other" else TYPES[setting.kind]
 
 

@@ -1,6 +1,6 @@
 #pragma once
-// An aperture as a mask over the unit disk, and points of the lens by rejection: candidates all over the disk are taken
-// as often as light passes there. Slow beside the inverse maps of lens/aperture.h, and none of their code.
+// An aperture as a mask over the unit disk, sampled by rejection: candidates are accepted with the probability that
+// light passes. Slower than the inverse maps of lens/aperture.h, but independent of their code.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -11,17 +11,18 @@ namespace defocus::engine {
 
 class ApertureMask {
 public:
-    // Throws Error where less than 1/500 of the disk's light would pass: too few candidates would be taken.
+    // Throws Error if less than 1/500 of the disk's light passes, because too few candidates would be accepted.
     explicit ApertureMask(const Lens& lens);
 
-    // Straight blades and disks have a plain map of their own (lens_rays.h) and need no mask.
+    // Returns whether the lens needs a mask. Disks and straight blades don't: aperturePoint (lens_rays.h) maps to them
+    // directly.
     [[nodiscard]] static bool isNeeded(const Lens& lens);
 
-    // The light that passes at a point of the unit disk, of the most that passes anywhere, [0, 1]. Before the lens's
-    // rotation and anamorphic ratio.
+    // Returns the light that passes at a point of the unit disk relative to the brightest point, in [0, 1]. The point
+    // is not yet rotated or scaled by the anamorphic ratio.
     [[nodiscard]] double at(const glm::dvec2& point) const;
 
-    // Point `index` of stream `stream`, as scrambledPoint has them, rotated and narrowed as the lens is.
+    // Returns the lens point `index` of stream `stream` (see scrambledPoint), rotated and scaled like the aperture.
     [[nodiscard]] glm::dvec2 lensPoint(std::uint32_t index, std::uint32_t stream, std::uint32_t seed) const;
 
 private:

@@ -23,7 +23,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Samples of an advance(). A tile takes them one after the other, while its part of the scene is in the cache.
+// Samples per advance(). A tile traces them in succession, while its part of the scene is in the CPU cache.
 constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;
@@ -34,20 +34,20 @@ double millisecondsSince(Clock::time_point start) {
 
 constexpr float infinitelyFar = std::numeric_limits<float>::infinity();
 
-// Of a tile's pixels.
+// Scrambling seeds of a tile's pixels.
 struct TileSeeds {
     std::array<ReversedLanes, packetsPerTile> pixel;
     std::array<ReversedLanes, packetsPerTile> lens;
 };
 
-// What all tiles have in common of a sample.
+// Data of a sample that all tiles share.
 struct WaveSample {
-    std::uint32_t index = 0;  // in the sequence
-    // One point for all pixels: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
+    std::uint32_t index = 0;  // index in the sequence
+    // Shared by all pixels: points in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
-    glm::vec2 light{0.5f};  // on every light
-    // Of pixels that have points of their own.
+    glm::vec2 light{0.5f};  // point on every light
+    // Unscrambled points, for pixels with points of their own.
     ReversedLanes ownPixel;
     ReversedLanes ownLens;
 };
@@ -79,7 +79,7 @@ PacketPoints samePoints(const glm::dvec2& pixel, const glm::dvec2& lens) {
     return points;
 }
 
-// Of what bends the blur to an artist's will, only the limit of the foreground has a lens that does the same.
+// Throws Error if the lens has artistic blur controls other than the foreground limit, which no traced lens reproduces.
 void checkTraceable(const Lens& lens) {
     Lens plain = lens;
     plain.foregroundLimit = std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // Its first pixel, and its packets' first sum.
+    // A tile's first pixel, and the sum of its first packet.
     struct Tile {
         int left = 0;
         int top = 0;
@@ -133,8 +133,8 @@ private:
     bool castsShadows_ = false;
     std::vector<LensSample> planned_;  // EmbreeSampling::planned only
     LensCamera camera_;
-    std::optional<ApertureMask> mask_;  // of apertures that need one
-    ApertureMap aperture_{Lens{}};      // of all others
+    std::optional<ApertureMask> mask_;  // only for apertures that need a mask
+    ApertureMap aperture_{Lens{}};      // for all other apertures
     std::unique_ptr<TracedScene> scene_;
     std::unique_ptr<PacketShading> shading_;
     glm::dmat4 tracedFrom_{0.0};   // the camera that scene_ was built for
@@ -199,7 +199,7 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Pixels are numbered packet by packet.
+// Returns the stream of a packet's first pixel; pixels are numbered packet by packet.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;
@@ -237,7 +237,8 @@ PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSe
     return points;
 }
 
-// One for all pixels, or in each pixel the same set shifted by an amount of its own (Cranley and Patterson 1976).
+// Returns the pixels' points on the lights: one point for all pixels, or the points shifted by a different offset in
+// each pixel (Cranley and Patterson 1976).
 std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile, int place,
                                                                 const WaveSample& sample) const {
     std::array<glm::vec2, packetSize> points;
@@ -262,7 +263,8 @@ LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     return mask;
 }
 
-// With a lens of its own before every pixel: from the eye to that lens, and those rays that met nothing behind it.
+// Traces with a foreground limit, which places a lens of its own before each pixel. Rays first go from the eye to that
+// lens; rays without a hit are refracted and traced on.
 void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                                   RTCRayHit16& packet) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double fullTurn = 2 * std::numbers::pi;
 
-// A well mixed value of (value, salt): two rounds of multiply and shift.
+// Returns a hash of (value, salt): two rounds of multiply and shift.
 std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
     std::uint64_t x = (static_cast<std::uint64_t>(salt) << 32 | value) + 0x9e3779b97f4a7c15ull;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -19,7 +19,8 @@ std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
     return static_cast<std::uint32_t>((x ^ (x >> 31)) >> 16);
 }
 
-// Second dimension of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002); the first is the reversed index.
+// Returns the second dimension of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002). The first dimension
+// is the bit-reversed index.
 std::uint32_t sobolSecond(std::uint32_t index) {
     std::uint32_t result = 0;
     for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
@@ -69,8 +70,8 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
 }
 
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed) {
-    // Each pair visits the points in its own order, so that lens and pixel positions are not tied to each other.
-    // Scrambled as a fraction, an index keeps to its aligned block of 2^n, so that such blocks stay nets.
+    // Each pair visits the points in its own order, which decorrelates lens and pixel positions. Scrambling the index
+    // as a fraction permutes each aligned block of 2^n points, so that such blocks remain nets.
     const std::uint32_t salt = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
     const std::uint32_t shuffled = owenScrambled(reversedBits(index), mixed(order, salt));
     return {shuffled, reversedBits(sobolSecond(shuffled))};
@@ -93,7 +94,7 @@ glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square) {
     if (lens.bladeCount < 3) {
         point = radius * glm::dvec2(std::cos(fullTurn * square.y), std::sin(fullTurn * square.y));
     } else {
-        // A fan of equal triangles: which one, then a uniform point in it.
+        // A fan of equal triangles: select one, then a uniform point in it.
         const double turn = square.y * lens.bladeCount;
         const double blade = std::floor(turn);
         const double first = lens.bladeRotation + fullTurn * blade / lens.bladeCount;

@@ -1,6 +1,5 @@
 #pragma once
-// Rays of a thin lens in camera space, derived from the picture of a lens and not from the rasteriser's clip-space
-// form.
+// Rays of a thin lens in camera space, derived from lens geometry instead of the rasteriser's clip-space form.
 //
 // Every point of the lens sees the plane of focus (depth s) exactly as the lens centre does: the image point (X, Y) ∈
 // [-1, 1]² (right, up) belongs to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u, v, 0)
@@ -8,18 +7,18 @@
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
-// A limit c₀ (px, of an image W px wide) of the blur in front of the focus: for a pixel, the lens of radius A/2 at the
-// eye is replaced by one at a depth α, in the middle of the pixel's own axis, that images the eye to the plane of
-// focus. Rays leave the eye as through a pinhole, inside the cone around the axis that covers c₀ px: whatever lies
-// before the lens is blurred to that cone's c₀ px at any depth. Behind it nothing may change, so that α is where the
-// old bundle of rays is as wide as the cone: 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀. An object distance α in front of
-// the lens and an image distance s − α behind it make the thin lens's relation
+// A limit c₀ (px, in an image W px wide) of the blur in front of the focus replaces the lens of radius A/2 at the eye.
+// Each pixel gets a lens on its own axis, at depth α, that images the eye to the plane of focus. Rays leave the eye as
+// through a pinhole, inside the cone around the axis that covers c₀ px. Objects in front of that lens are therefore
+// blurred by c₀ px at any depth. Behind it, the blur must not change. This determines α: there, the original bundle of
+// rays is as wide as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀. With the object distance α and the image
+// distance s − α, the thin lens has
 //   1/f = 1/α + 1/(s − α) = s/(α(s − α))
-// (Munkberg, Toth and Akenine-Möller 2012, whose print has f for the right-hand side), by which a ray that arrives at a
-// distance h from the middle of the lens is bent by −h/f: eyeRay and refractedRay.
+// (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray at distance h from the lens's
+// centre is bent by −h/f; see eyeRay and refractedRay.
 //
-// Sampling: Owen-scrambled (0, 2)-sequences, one pair of dimensions for the lens and one for the pixel, as in
-// sample_scramble.h. packet_samples.h has the same for packets of rays.
+// Sampling: Owen-scrambled (0, 2)-sequences (sample_scramble.h), one pair of dimensions for the lens and one for the
+// pixel. packet_samples.h implements the same for packets of rays.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -35,7 +34,7 @@ struct LensCamera {
     double lensRadius = 0;       // m; 0 is a pinhole
     double reciprocalFocus = 0;  // 1/m; 0 is infinity
 
-    // Of the limited foreground.
+    // For a limited foreground.
     double lensDepth = 0;  // α, m; 0: the lens is at the eye
     double cone = 0;       // tangent of the cone's half angle
 };
@@ -47,22 +46,23 @@ struct LensRay {
     glm::vec3 direction{0.0f};  // z = −1: the ray parameter is the depth in m
 };
 
-// The ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
+// Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// With a limited foreground: the ray from the eye to the lens at lensDepth, and from there on.
+// For a limited foreground: return the ray from the eye to the lens at lensDepth, and its refracted continuation.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
-// Which of the padded two-dimensional sequences.
+// Selects one of the padded two-dimensional sequences.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Point `index` in [0, 1)² of the scrambled sequence of stream `stream` (a pixel, or one number shared by all).
+// Returns point `index` in [0, 1)² of the scrambled sequence of stream `stream` (a pixel's number, or one number shared
+// by all).
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
-// (r, s) ∈ [0, 1)² → the aperture, uniformly: the unit disk, or the polygon inscribed in it whose first corner lies at
-// bladeRotation, then squeezed by the anamorphic ratio (horizontally above 1, vertically below). Curved blades, rings,
-// aberration and images are for ApertureMask.
+// Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon whose first corner lies at
+// bladeRotation. An anamorphic ratio above 1 narrows it horizontally, below 1 vertically. Curved blades, rings,
+// aberration and images need ApertureMask.
 glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square);
 
 }  // namespace defocus::engine

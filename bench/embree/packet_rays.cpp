@@ -4,11 +4,11 @@ namespace defocus::engine {
 
 namespace {
 
-// What a step in the pixel (px) and on the lens (radii) adds to a ray.
+// Changes of a ray per px in the pixel and per radius on the lens.
 struct RaySteps {
     float pixelX, pixelY;  // slopes
     float radius;          // m
-    float focus;           // slope towards the plane of focus
+    float focus;           // slope that aims at the plane of focus
 };
 
 DEFOCUS_VECTOR_CLONES void addSamples(const RaySteps& steps, const PacketPoints& points, RTCRayHit16& packet) {

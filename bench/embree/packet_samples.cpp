@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// sin(2πt) for |t| ≤ 1/4 by its Taylor series; the first term left out is below 6e-8.
+// Returns sin(2πt) for |t| ≤ 1/4 by a Taylor series; the first omitted term is below 6e-8.
 DEFOCUS_ALWAYS_INLINE float sineOfTurn(float t) {
     const float x = 2 * std::numbers::pi_v<float> * t;
     const float square = x * x;
@@ -23,7 +23,7 @@ DEFOCUS_ALWAYS_INLINE float sineOfTurn(float t) {
 DEFOCUS_VECTOR_CLONES void mapToDisk(const ApertureMap& map, FloatLanes& x, FloatLanes& y) {
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
-        const float turn = y[i] - 0.5f;  // half a turn behind: both coordinates change sign
+        const float turn = y[i] - 0.5f;  // offset by half a turn, so both coordinates change sign
         const float folded = 0.25f - std::abs(turn);
         const float sine = sineOfTurn(std::copysign(0.25f - std::abs(folded), turn));
         const float cosine = sineOfTurn(folded);
@@ -41,8 +41,8 @@ DEFOCUS_VECTOR_CLONES void mapToPolygon(const ApertureMap& __restrict map, Float
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
         const float turn = y[i] * blades;
-        const int whole = static_cast<int>(turn);
-        const int blade = whole < last ? whole : last;
+        const int truncated = static_cast<int>(turn);
+        const int blade = truncated < last ? truncated : last;
         const float along = turn - static_cast<float>(blade);
         x[i] = map.scaleX * radius * (cornerX[blade] + along * (cornerX[blade + 1] - cornerX[blade]));
         y[i] = map.scaleY * radius * (cornerY[blade] + along * (cornerY[blade + 1] - cornerY[blade]));
@@ -73,7 +73,7 @@ ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint3
 
 DEFOCUS_VECTOR_CLONES void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x,
                                           FloatLanes& y) {
-    for (int i = 0; i < packetSize; ++i)  // 24 bits are what a float has
+    for (int i = 0; i < packetSize; ++i)  // a float has 24 bits of precision
         x[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.x[i], seeds.x[i]) >> 8));
     for (int i = 0; i < packetSize; ++i)
         y[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.y[i], seeds.y[i]) >> 8));

@@ -1,6 +1,6 @@
 #pragma once
-// What the rays of a packet see: base colours and skies of all lanes at once, from data laid out for it; what only few
-// scenes have (textures, light) one ray at a time by traced_shading.h.
+// Shades the rays of a packet. Base colours and sky are computed for all lanes at once. Textures and lights, which few
+// scenes have, are computed ray by ray (traced_shading.h).
 
 #include <cstdint>
 #include <vector>
@@ -15,8 +15,8 @@ public:
     // `scene` and `world` must outlive it.
     PacketShading(const World& world, const TracedScene& scene, const glm::dmat3& worldFromCamera);
 
-    // Radiance of all lanes, whether they were in use or not. Rays that met nothing see the surroundings.
-    // `lightPoints`: as ShadowRays has it, one a lane; null: nothing casts a shadow.
+    // Returns the radiance of all lanes, including unused ones. Rays without a hit see the environment. `lightPoints`:
+    // ShadowRays::lightPoint of each lane; null: no shadows.
     [[nodiscard]] PacketColors radiance(const RTCRayHit16& packet,
                                         const std::array<glm::vec2, packetSize>* lightPoints = nullptr) const;
     [[nodiscard]] std::uint64_t bytes() const;
@@ -27,16 +27,16 @@ private:
     const World& world_;
     const TracedScene& scene_;
 
-    // Arrays by Embree geometry id, with one more geometry for a miss: black, of one triangle.
+    // Arrays indexed by Embree geometry id. One additional geometry stands for a miss: a single black triangle.
     struct Surfaces {
-        std::uint32_t miss = 0;                       // its id
-        std::vector<std::int32_t> firstColor;         // in cornerColors
-        std::vector<std::int32_t> colorsPerTriangle;  // 3, or 0: all triangles have the same
+        std::uint32_t miss = 0;                       // id of the miss geometry
+        std::vector<std::int32_t> firstColor;         // index into cornerColors
+        std::vector<std::int32_t> colorsPerTriangle;  // 3; 0: all triangles have the same colours
         std::vector<float> red, green, blue;          // baseColorFactor
-        std::vector<glm::vec3> cornerColors;          // three a triangle
+        std::vector<glm::vec3> cornerColors;          // three per triangle
     };
-    // Radiance along a ray whose direction has the elevation `height` = sin: horizon + |height|·(zenith − horizon), or
-    // nadir below the horizon.
+    // Sky radiance for the sine `height` of a ray's elevation: horizon + |height|·(zenith − horizon), with nadir
+    // instead of zenith below the horizon.
     struct Sky {
         glm::vec3 horizon{0.0f}, zenith{0.0f}, nadir{0.0f};
         glm::vec3 up{0.0f};  // in camera space

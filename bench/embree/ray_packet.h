@@ -1,15 +1,14 @@
 #pragma once
-// Rays are made, traced and shaded in packets of 16 neighbouring pixels, 4 × 4, each quantity an array of 16 lanes, so
-// that loops over the lanes become vector instructions. Embree takes packets of 16 on every machine; where its vectors
-// are narrower it walks through them in parts.
+// Packets of rays for 16 neighbouring pixels, 4 × 4. Each quantity is an array of 16 lanes, so that compilers vectorise
+// loops over the lanes. Embree accepts packets of 16 on every machine and splits them if its vectors are narrower.
 
 #include <embree3/rtcore.h>
 
 #include <array>
 #include <cstdint>
 
-// Compiles a function for AVX2 too and takes that where the machine has it. Whatever it calls must be inlined, or it
-// stays as it is. The sanitizers can't be loaded before the choice is made.
+// Compiles a function additionally for AVX2 and selects that version at load time if the machine has AVX2. Called
+// functions must be inlined to profit. Disabled with sanitizers, which load after the selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define DEFOCUS_VECTOR_CLONES __attribute__((target_clones("arch=haswell", "default")))
 #else
@@ -34,7 +33,7 @@ struct alignas(64) Lanes {
 using FloatLanes = Lanes<float>;
 using LaneMask = Lanes<int>;  // −1: in use, 0: not
 
-// Where a sample lies in each pixel ([0, 1)², px right and down) and on the lens (unit disk).
+// Sample points of each lane: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
 struct PacketPoints {
     FloatLanes pixelX, pixelY;
     FloatLanes lensX, lensY;

@@ -26,7 +26,7 @@ void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-// Which lanes of `mask` hit the back of a single-sided surface; whether any did.
+// Finds the lanes of `mask` that hit the back of a single-sided surface. Returns whether there are any.
 DEFOCUS_VECTOR_CLONES bool findBackFaces(const float* culledFacing, std::uint32_t miss, const LaneMask& mask,
                                          const RTCRayHit16& packet, LaneMask& back) {
     int any = 0;

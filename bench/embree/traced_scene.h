@@ -1,10 +1,10 @@
 #pragma once
-// A posed scene as one Embree bounding-volume hierarchy in camera space: level 0 of every mesh as it was read, not the
-// pyramid's copy of it. Transforms are composed in double and reach Embree relative to the camera.
+// A posed scene as one Embree bounding-volume hierarchy in camera space, made from the loaded meshes instead of the
+// pyramids. Transforms are composed in double and passed to Embree relative to the camera.
 //
-// Single-sided materials are culled from behind, with the winding turned by mirroring transforms, as glTF asks. Packets
-// are traced without asking at every hit; only rays that ended on the back of such a surface are traced once more, with
-// a filter. Every surface is opaque: alpha masks and blending are not traced.
+// Back faces of single-sided materials are culled; mirroring transforms reverse the winding, as glTF requires. Packets
+// are traced without a filter function; only rays that hit a culled back face are traced again with a filter. All
+// surfaces are opaque: alpha masks and blending are ignored.
 
 #include <embree3/rtcore.h>
 
@@ -23,18 +23,18 @@ namespace defocus::engine {
 // A primitive of an object.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;  // the mesh's, or as posed
+    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed ones
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
     glm::mat3 worldNormalFromObject{1.0f};  // not normalised
-    glm::mat3 worldFromCamera{1.0f};        // of directions
-    glm::dvec3 camera{0.0};                 // its place in the world, m
-    float facing = 1;                       // −1 where the transform mirrors, so that front faces are clockwise
+    glm::mat3 worldFromCamera{1.0f};        // for directions
+    glm::dvec3 camera{0.0};                 // camera position in the world, m
+    float facing = 1;                       // −1 if the transform mirrors, which makes front faces clockwise
 };
 
 struct TraceOptions {
-    bool watertight = true;  // no ray slips through between two triangles; a little slower
-    bool coherent = true;    // the rays of a packet go much the same way
+    bool watertight = true;  // no ray passes between two triangles; slightly slower
+    bool coherent = true;    // the rays of a packet have similar directions
 };
 
 class TracedScene {
@@ -44,11 +44,10 @@ public:
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
 
-    // Nearest hits of camera-space rays, from tnear to `farthest`, of the lanes in `mask`; the others stay as they are.
-    // Called from any number of threads.
+    // Finds the nearest hits of camera-space rays between tnear and `farthest`, for the lanes in `mask`; other lanes
+    // are unchanged. Thread-safe.
     void trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const;
-    // Does anything lie along a camera-space ray, as far as `farthest` times its direction? Called from any number of
-    // threads.
+    // Returns whether anything lies on a camera-space ray within `farthest` times its direction. Thread-safe.
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float farthest) const;
     [[nodiscard]] const TracedGeometry& geometry(std::uint32_t id) const { return geometries_[id]; }
     [[nodiscard]] std::uint32_t geometryCount() const { return static_cast<std::uint32_t>(geometries_.size()); }
@@ -65,10 +64,10 @@ private:
     RTCScene scene_ = nullptr;
     TraceOptions options_;
     Material defaultMaterial_;
-    std::deque<TracedGeometry> geometries_;         // by Embree geometry id; addresses stay put for the filter
-    std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array an object; Embree reads them in place
-    std::deque<std::vector<glm::vec3>> normals_;    // world space, one array a deformed object
-    // By Embree geometry id, and one more for a miss: facing of single-sided surfaces, 0 of all else.
+    std::deque<TracedGeometry> geometries_;  // by Embree geometry id; a deque, because the filter keeps addresses
+    std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array per object; Embree reads them in place
+    std::deque<std::vector<glm::vec3>> normals_;    // world space, one array per deformed object
+    // By Embree geometry id, with one more entry for a miss: `facing` of single-sided surfaces, else 0.
     std::vector<float> culledFacing_;
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;

@@ -1,5 +1,5 @@
-// Lambert 1760; sRGB decoding by IEC 61966-2-1; lights by KHR_lights_punctual: a lux on a white Lambert surface gives
-// 1/π cd/m². Points on their disks by Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// Sources: Lambert 1760; IEC 61966-2-1 (sRGB decoding); KHR_lights_punctual (1 lux on a white Lambert surface gives 1/π
+// cd/m²); Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square (points on lights).
 
 #include "embree/traced_shading.h"
 
@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The corners of the triangle that a ray hit, and the hit's weights for them.
+// The vertices of the hit triangle and the hit's barycentric weights.
 struct Corners {
     std::array<std::uint32_t, 3> vertices{};
     glm::vec3 weights{0.0f};
@@ -58,14 +58,14 @@ glm::vec3 texel(const TextureImage& image, const Texture& texture, int x, int y)
     return {decoded(rgba[0]), decoded(rgba[1]), decoded(rgba[2])};
 }
 
-// Level 0 of a base-colour texture; the filter works on decoded values.
+// Returns a base colour from texture level 0, filtered after decoding.
 glm::vec3 textureColor(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
     const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) return glm::vec3(1);
     const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (image.width <= 0 || image.height <= 0) return glm::vec3(1);
     const glm::vec2 place = glm::vec2(use.uvTransform * glm::vec3(uv, 1)) * glm::vec2(image.width, image.height);
-    // Keeps the integer texel in range for absurd coordinates.
+    // Clamp, so that extreme coordinates don't overflow the integer texel.
     const glm::vec2 bounded = glm::clamp(place, glm::vec2(-1e6f), glm::vec2(1e6f));
     if (texture.magnification == Filter::nearest) {
         const glm::ivec2 cell(glm::floor(bounded));
@@ -97,7 +97,7 @@ glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Co
     return color;
 }
 
-// Unit, world space, on the side that the ray came from.
+// Returns the unit normal in world space, on the side of the ray's origin.
 glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const SurfaceHit& hit) {
     const float behind = glm::dot(hit.facet, hit.direction) * geometry.facing;
     const glm::vec3 front = geometry.normals->empty() ? geometry.facing * (geometry.worldFromCamera * hit.facet)
@@ -106,14 +106,14 @@ glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, 
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
 }
 
-// From the square [0, 1)² to the unit disk, square ring by square ring.
+// Maps the square [0, 1)² to the unit disk; square rings map to circles.
 glm::vec2 onDisk(const glm::vec2& place) {
     const float a = 2 * place.x - 1;
     const float b = 2 * place.y - 1;
     const float ring = std::max(std::abs(a), std::abs(b));
     if (!(ring > 0)) return glm::vec2(0);
     constexpr float eighth = std::numbers::pi_v<float> / 4;
-    float angle = 0;  // from the first axis; each side of the ring is a quarter turn
+    float angle = 0;  // from the first axis; each side of a ring is a quarter turn
     if (std::abs(a) > std::abs(b))
         angle = a > 0 ? eighth * b / a : eighth * (4 + b / a);
     else
@@ -121,11 +121,11 @@ glm::vec2 onDisk(const glm::vec2& place) {
     return {ring * std::cos(angle), ring * std::sin(angle)};
 }
 
-// What a light throws on a place (world, from the scene's origin) without obstacles, in lux across its direction.
+// Unoccluded light at a point: illuminance in lux on a surface perpendicular to the light.
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit
-    float distance = 0;        // to the middle, m; 0: infinitely far
+    float distance = 0;        // m, to the light's centre; 0: infinitely far
 };
 
 Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
@@ -150,10 +150,10 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
     return incoming;
 }
 
-// Does something stand between the hit and the point of the light's disk, which faces the place that it shines on?
+// Returns whether the light's sample point is occluded from the hit. The light is a disk that faces the hit.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // The disk's axes, by the convention of the plan's points: the second is the light's own up.
+    // Axes of the disk, as for the plan's light points: the second axis is the light's up direction.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));
@@ -163,8 +163,8 @@ bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeo
     const glm::vec3 aside = radius * (at.x * right + at.y * glm::cross(front, right));
     const glm::vec3 toPoint = (far ? front : incoming.distance * front) + aside;
 
-    // From just above the facet, on the side that is seen. Nothing as near as the lamp is large hides it: it may be the
-    // lamp's own glass.
+    // The shadow ray starts just above the facet, on the visible side. It ends one lamp diameter before the light, so
+    // that the lamp's own glass casts no shadow.
     const glm::vec3 place = hit.origin + hit.distance * hit.direction;
     const glm::vec3 facet = glm::normalize(hit.facet);
     const float lift = 1e-5f * std::max(1.0f, glm::length(place));

@@ -1,6 +1,6 @@
 #pragma once
-// What a single ray sees of a surface: unlit surfaces, Lambert under the lights of the scene, with or without shadows
-// (nothing from the environment). What packets see, packet_shading.h.
+// Shades a surface for a single ray: unlit, or Lambert under the scene's lights, with or without shadows. The
+// environment gives no light. packet_shading.h shades packets.
 
 #include <cstdint>
 
@@ -8,24 +8,25 @@
 
 namespace defocus::engine {
 
-// As Embree gives it; camera space.
+// A hit as Embree reports it, in camera space.
 struct SurfaceHit {
-    std::uint32_t triangle = 0;  // of the primitive
+    std::uint32_t triangle = 0;  // triangle of the primitive
     float u = 0;                 // weight of the triangle's second corner
-    float v = 0;                 // of its third
+    float v = 0;                 // weight of the third corner
     glm::vec3 facet{0.0f};       // normal of the triangle, any length
-    glm::vec3 direction{0.0f};   // of the ray
-    float distance = 0;          // along it, in its lengths
+    glm::vec3 direction{0.0f};   // direction of the ray
+    float distance = 0;          // distance in units of `direction`
     glm::vec3 origin{0.0f};
 };
 
-// What stands before the lights: rays go to a point of each, (r, s) ∈ [0, 1)² of its disk.
+// Shadow rays to one point on each light: (r, s) ∈ [0, 1)² on its disk.
 struct ShadowRays {
-    const TracedScene* scene = nullptr;  // null: nothing casts a shadow
+    const TracedScene* scene = nullptr;  // null: no shadows
     glm::vec2 lightPoint{0.5f};
 };
 
-// Linear radiance towards the camera at a hit. Base colour: factor × vertex colour × texture at level 0.
+// Returns the linear radiance of a hit towards the camera. The base colour is factor × vertex colour × texture at level
+// 0.
 glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit,
                           const ShadowRays& shadows);
 

@@ -14,7 +14,7 @@ def span(values, digits):
 
 
 def by_size_only(bench_has):
-    """Returns the sentence under a table that no command of the current program repeats."""
+    """Returns the sentence under a table that the current program can no longer reproduce."""
     return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
             "repeats the figures.\n")
 
@@ -35,7 +35,7 @@ def scaling(with_parts=True):
 
 
 def ending_in_numbers(lines, count):
-    """Returns (name, numbers) of the lines that end in so many numbers, without text in brackets."""
+    """Returns (name, numbers) of the lines that end in `count` numbers; text in brackets is ignored."""
     rows = []
     for line in lines:
         words = line.split("  (")[0].split()
@@ -62,7 +62,7 @@ def pyramid_sections():
 
 
 def pyramid_memory():
-    """Returns the peak bytes a triangle of building pyramids: of large meshes, and {name: bytes} of all."""
+    """Returns the peak bytes per triangle of building pyramids: for large meshes, and {name: bytes} for all."""
     times = pyramid_sections()[0]
     timed = ending_in_numbers(times, 12)
     bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
@@ -124,7 +124,7 @@ def scenes_of(name):
     return [json.loads(line) for line in lines_of(name) if line.startswith("{")]
 
 
-def truth():
+def ray_tracer():
     rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrAtEqualLensPoints']:.1f} dB", f"{scene['flip']:.4f}"]
             for scene in scenes_of("llvmpipe-truth")]
     return table(["scene", "PSNR, other lens points", "PSNR, same lens points", "FLIP, other lens points"], rows) + source(
@@ -185,7 +185,7 @@ def sequences():
         "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
 
 
-# Method and setting, samples, milliseconds, PSNR, FLIP.
+# Groups: method and setting, samples, milliseconds, PSNR, FLIP.
 METHOD_ROW = re.compile(r"[*+f ]{3}(\S.*?)\s+(\d+)\s+([\d.]+)\s+[\d.]+ to [\d.]+\s+\d+\s+\d+\s+([\d.]+)\s+[\d.]+\s+([\d.]+)")
 
 
@@ -208,7 +208,7 @@ def command_in(name, scene):
 
 
 def few_images():
-    """Errors of methods that draw few images, as published, by default and at their best."""
+    """Errors of methods that draw few images: as published, by default and with their best settings."""
     name = "llvmpipe-circular"
     forms = {"published": "published", "best": "best", None: "default"}
     rows = []
@@ -259,7 +259,7 @@ def parts(summary=False):
         ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
          f"{fastest('uniform'):.1f} ms; {fastest('gradient'):.1f} ms with a gradient sky", "wave"],
         ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
-         of_both([f"{100 * (away + outside) / whole:.0f} %" for whole, away, outside, *_ in clusters]), "cluster"],
+         of_both([f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]), "cluster"],
         ["the same: times as fast, same image", of_both([f"{row[6]:.2f}" for row in clusters]), "cluster"],
         ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
          of_both([f"{100 * row[1] / row[0]:.0f} %" for row in hidden]), "cluster"],
@@ -317,7 +317,7 @@ def lens_level_table():
         "many lines")
 
 
-TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": truth, "shadows": shadows, "stability": stability, "honesty": honesty,
+TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": ray_tracer, "shadows": shadows, "stability": stability, "honesty": honesty,
           "lens equation": lambda: honesty(every_setting=False), "memory": memory, "few images": few_images, "layers": layers,
           "exponents": lambda: scaling(with_parts=False), "pyramid summary": lambda: pyramids(summary=True),
           "parts summary": lambda: parts(summary=True),

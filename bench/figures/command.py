@@ -1,4 +1,4 @@
-"""What the commands share: the repository's root, option parsers, runs of the program."""
+"""Shared parts of the commands: the repository's root, option parsers, runs of the program."""
 
 import argparse
 import pathlib

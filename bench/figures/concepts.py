@@ -15,7 +15,7 @@ from figures.command import ROOT, add_program, parser_of, run
 from figures.files import write_file
 
 FOLDER = ROOT / "docs" / "concepts"
-INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # after Okabe and Ito
+INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # colours after Okabe and Ito
 CELL_COLOURS = ("#0063a8", "#f0a070", "#35b089", "#c070a0")
 FOCUS = 2.0  # m
 
@@ -76,7 +76,7 @@ def disk_points(count):
 
 
 def draw_lens_sample():
-    """A side view: three lens points see a far and a near point at different places of the focus plane."""
+    """Draws a side view: three lens points see a far and a near point at different positions on the focus plane."""
     drawing = Drawing(720, 300, "Three lens points see one point at three places of the focus plane")
     lens, plane, axis, half = 70, 380, 150, 75
     far, near = (660, axis - 40), (250, axis + 25)
@@ -101,7 +101,7 @@ def draw_lens_sample():
 
 
 def draw_circle_of_confusion():
-    """Diameter over depth for a 50 mm lens at f/2, 36 mm sensor, 1024 px; below, the disks at the same scale."""
+    """Draws the diameter over depth for a 50 mm lens at f/2, 36 mm sensor, 1024 px; below, the disks at the same scale."""
     drawing = Drawing(720, 330, "Diameter of the circle of confusion over depth")
     left, right, top, bottom, first, last, most = 60, 690, 20, 220, 0.8, 8.0, 30.0
     scale = 0.050 / 2 * 1024 / 0.72  # A · W / (2 tan(θx/2)), with tan(θx/2) = 18/50
@@ -152,7 +152,7 @@ def triangles_of(data):
 
 
 def draw_pyramid(program):
-    """Every second level of a fish, as wireframes seen from its side."""
+    """Draws every second level of a fish, as wireframes seen from the side."""
     with tempfile.TemporaryDirectory() as folder:
         run(program, "pyramid", "--fish", 1, "--fish-triangles", 1600, "--no-measure", "--export", folder)
         files = sorted(pathlib.Path(folder).glob("*-level-*.glb"))
@@ -174,7 +174,7 @@ def draw_pyramid(program):
 
 
 def draw_sample_split():
-    """Which of 16 samples draw which level, for nine values of λ between two levels."""
+    """Draws which of 16 samples have which level, for nine values of λ between two levels."""
     drawing = Drawing(720, 290, "Levels that 16 samples draw while λ goes from 1 to 2")
     count, side = 16, 22
     drawing.text((60, 22), "lens sample 0 … 15")
@@ -198,7 +198,7 @@ def draw_sample_split():
 
 
 def halved(points, count):
-    """Divides points into `count` groups of equal size by halving them across their longer side."""
+    """Divides points into `count` groups of equal size by repeated halving across the longer side."""
     if count == 1:
         return [points]
     spans = [max(point[axis] for point in points) - min(point[axis] for point in points) for axis in (0, 1)]
@@ -208,7 +208,7 @@ def halved(points, count):
 
 
 def draw_lens_cells():
-    """Left: 16 lens points. Right: 16 cells of 32 points each, and their means."""
+    """Draws 16 lens points (left), and 16 cells of 32 points each with their means (right)."""
     drawing = Drawing(720, 300, "Sixteen lens points, and sixteen lens cells with their means")
     radius = 125
     left, right = (180, 140), (540, 140)

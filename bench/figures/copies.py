@@ -15,8 +15,8 @@ import pathlib
 from figures.command import add_program, parser_of, path, run
 from figures.files import read_json, write_file
 
-TANGENT = 18 / 50  # of half the camera's horizontal field of view
-SPREAD = (0.7548776662466927, 0.5698402909980532)  # the R2 sequence
+TANGENT = 18 / 50  # tangent of half the camera's horizontal field of view
+SPREAD = (0.7548776662466927, 0.5698402909980532)  # steps of the R2 sequence
 
 
 def copied(document, index):

@@ -29,7 +29,10 @@ def blurs(program, options):
 
 
 def draw_curves(program, file):
-    """Left: C in clip space, w · c / W for a blur of c px in an image W px wide; right: c. The paper's C has the opposite sign."""
+    """Draws two plots. Left: C in clip space, w · c / W for a blur of c px in an image W px wide; right: c.
+
+    The paper's C has the opposite sign.
+    """
     figure, (clip, image) = plt.subplots(1, 2, figsize=(10, 3.8), dpi=100, layout="constrained")
     for name, color, style, options in CURVES:
         pixels, width = blurs(program, options)

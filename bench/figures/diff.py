@@ -17,8 +17,8 @@ from collections import Counter, namedtuple
 from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
-MIN_RUNS = 3  # for a verdict on times
-TOLERANCE = 0.01  # of the larger error
+MIN_RUNS = 3  # min runs for a verdict on times
+TOLERANCE = 0.01  # relative to the larger error
 SSIM_ROUNDING = 1e-6  # CSV files hold six digits of SSIM
 # Columns that identify a row, and columns of errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
@@ -71,7 +71,7 @@ def row_of(cells):
 
 
 def subject_of(document):
-    """Returns what two results must share to be compared, by name; names that the document lacks are left out."""
+    """Returns the properties that comparable results share, by name, without those that the document lacks."""
     subject = {name: document[name] for name in ("scene", "camera", "device", "driver", "frames", "pathFrames") if name in document}
     if "width" in document:
         subject["size"] = f"{document['width']} x {document['height']} px"

@@ -21,7 +21,7 @@ SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBott
 FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px on the sheet
-COLUMNS = 2  # of scenes
+COLUMNS = 2  # columns of scenes
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 

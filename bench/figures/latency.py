@@ -2,8 +2,8 @@
 
     scripts/figures latency [--program build/release/defocus] [--size 1024x768] [--seconds 15] [-- options of view …]
 
-Prints the milliseconds from an event to the end of the frame that shows it, as the window measures them. They are an upper bound:
-the arrival of an event during a frame is unknown. Held equal: scene, window and path of the mouse (30 steps a second).
+Prints the milliseconds from an event to the end of the frame that shows its effect, as the window measures them. They are upper
+bounds, because the arrival of an event during a frame is unknown. Held equal: scene, window and path of the mouse (30 steps a second).
 """
 
 import json

@@ -106,7 +106,7 @@ def table(header, rows, left=1):
 
 
 def facts(results, more=()):
-    """Returns the table of what a bench was run on and with."""
+    """Returns a table of the program, machine and settings of a bench."""
     machine = results["machine"]
     lines = [
         ["scene", f"{results['scene']}, {results['width']} × {results['height']} px" if results.get("scene") else ""],

@@ -57,7 +57,7 @@ def bars(values, spreads):
 
 
 def draw_series(axes, one, rows, error_of, name):
-    """Draws a line with bars over runs and seeds; returns its times and errors."""
+    """Draws a line with error bars over runs and seeds; returns its times and errors."""
     times, errors = [median(row) for row in rows], [error_of(row) for row in rows]
     over_runs = [(row["milliseconds"]["low"], row["milliseconds"]["high"]) for row in rows]
     over_seeds = [row.get("errorsOverSeeds", {}).get(name) for row in rows]

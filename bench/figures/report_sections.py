@@ -100,15 +100,15 @@ def difference_cells(difference):
 
 
 def reference_cell(row):
-    truth, own = row["fromReference"], row["referenceRemaining"]
-    if truth is None or own is None:
+    error, own = row["fromReference"], row["referenceRemaining"]
+    if error is None or own is None:
         return ""
-    return f"{row['referenceSamples']} samples<br>{below_reference(truth['rmse'] < own['rmse'], truth['flip'] < own['flip'])}"
+    return f"{row['referenceSamples']} samples<br>{below_reference(error['rmse'] < own['rmse'], error['flip'] < own['flip'])}"
 
 
 def speedup_table(rows):
-    truths = [(key, name) for key, name in (("fromFullDetail", "full detail"), ("fromReference", "the reference"))
-              if any(row[key] for row in rows)]
+    references = [(key, name) for key, name in (("fromFullDetail", "full detail"), ("fromReference", "the reference"))
+                  if any(row[key] for row in rows)]
     lines = []
     for row in rows:
         equal = equal_error_speedup(row, rows)
@@ -117,12 +117,12 @@ def speedup_table(rows):
             f"{median(row):.1f}<br>{spread_text(row['milliseconds'])}", f"{row['speedUp']:.2f}", "—" if equal is None else f"{equal:.2f}",
             *(f"{row[part]['speedUp']:.2f}" if row.get(part) else "" for part in ("sizeOnly", "blurOnly")),
             f"{row['triangles'] / 1e6:.2f}", f"{row['gpuBytes'] / 2**20:.0f}", f"{row['setupMilliseconds']:.0f}",
-            f"{row['pyramidMilliseconds']:.0f}", *(cell for key, _ in truths for cell in difference_cells(row[key])),
+            f"{row['pyramidMilliseconds']:.0f}", *(cell for key, _ in references for cell in difference_cells(row[key])),
             seeds_text(row), reference_cell(row)])
     return table([
         "levels", "lens samples", "f-number", "focus, m", "frame, ms; 10–90 %", "times as fast at equal N", "at equal error",
         "size only", "blur only", "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms",
-        *(f"{name} from {truth}" for _, truth in truths for name in ("PSNR, dB,", "SSIM", "FLIP")),
+        *(f"{name} from {reference}" for _, reference in references for name in ("PSNR, dB,", "SSIM", "FLIP")),
         "RMSE from the reference over seeds", "the reference"], lines)
 
 

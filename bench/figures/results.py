@@ -7,9 +7,9 @@ from figures.command import ROOT
 from figures.files import read_json
 
 RESULTS = ROOT / "bench" / "results"
-# Options that repeat a run with the current program: these runs chose levels by size by default.
+# Options that reproduce older runs with the current program: their default metric was the size.
 BY_SIZE = {"llvmpipe-methods-fish": " --metrics size", "llvmpipe-speedup-fish": " --lod-metric size"}
-# Runs whose circular filter had one near component and a near field by coverage by default.
+# Runs in which the circular filter's defaults were one near component and a near field by coverage.
 CIRCULAR_BY_COVERAGE = ("llvmpipe-methods-fish", "llvmpipe-methods-lens-space")
 
 
@@ -30,13 +30,13 @@ def numbers(text):
 
 
 def numbers_after(lines, beginning):
-    """Returns all numbers after the beginning of the only line that begins so."""
+    """Returns all numbers in the only line that starts with `beginning`, after this text."""
     (line,) = [line for line in lines if line.startswith(beginning)]
     return numbers(line[len(beginning):])
 
 
 def command_of(name, results):
-    """Returns the command of a run without its outputs, with the options that repeat it."""
+    """Returns the command of a run without output options, with the options that reproduce it."""
     command = re.sub(r" (-o \S+|--report \S+|--quiet)", "", results["commands"][0]) + BY_SIZE.get(name, "")
     if name not in CIRCULAR_BY_COVERAGE:
         return command
@@ -45,7 +45,7 @@ def command_of(name, results):
 
 
 def accumulation_rows(name, preset=""):
-    """Returns the rows of `bench speedup` that the accumulation drew with a preset."""
+    """Returns the rows of `bench speedup` for accumulation with a preset."""
     return [row for row in run_of(name)["rows"]
             if (row.get("preset", ""), row.get("method", "accumulation")) == (preset, "accumulation")]
 
@@ -66,7 +66,7 @@ def rmse(row):
 
 
 def error_ratio(modes, error="rmse"):
-    """Returns the error of levels over that of full detail."""
+    """Returns the error with levels divided by the error at full detail."""
     return modes["fractional"]["fromReference"][error] / modes["off"]["fromReference"][error]
 
 

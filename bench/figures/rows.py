@@ -12,7 +12,7 @@ METRICS = {"error": " by error", "halving": " in steps of half", "score": " by s
 
 
 def label_of(row):
-    """'accumulation', 'lod=fractional metric=size thresholds=2' -> 'accumulation, fractional levels ×2'."""
+    """Returns a label: 'accumulation', 'lod=fractional metric=size thresholds=2' -> 'accumulation, fractional levels ×2'."""
     method, parts = row["method"], [part.partition("=") for part in row["setting"].split()]
     values = {name: value for name, _, value in parts if value}
     words = [f"{method} ({row['form']})" if row.get("form") in ("published", "best") else method]
@@ -25,7 +25,7 @@ def label_of(row):
 
 
 def drawn_text(row, part=""):
-    """Returns what a row of `bench speedup`, or a part of it, draws: 'jeong2011, fractional levels'."""
+    """Returns a label for a row of `bench speedup`, or a part of it: 'jeong2011, fractional levels'."""
     drawn = part or (MODES[row["lod"]][0] if row["method"] == "accumulation" else row["method"])
     return f"{row['preset']}, {drawn}" if row["preset"] else drawn
 

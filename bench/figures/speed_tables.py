@@ -9,8 +9,8 @@ from figures.results import (accumulation_rows, command_of, error_ratio, lines_o
 
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
-MAX_ERROR_RATIO = 1.2  # of levels to full detail
-MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}  # to the nearest level's largest pop
+MAX_ERROR_RATIO = 1.2  # error with levels over error at full detail
+MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}  # relative to the nearest level's largest pop
 
 
 def limited(value, limit):
@@ -126,7 +126,7 @@ def demo():
 
 
 def seeds():
-    """The difference that other lens samples make, beside that of levels."""
+    """Differences caused by other lens samples, beside those caused by levels."""
     names = {"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}
     rows = []
     for line in lines_of("llvmpipe-seeds"):
@@ -154,7 +154,7 @@ def popping():
 
 
 def pop_shares():
-    """Largest pop by RMSE: of the nearest level, and the share of it that other levels have."""
+    """Largest pop by RMSE: the nearest level's, and the other modes' relative to it."""
     rows = {(row["movement"], row["lod"]): row["stepRmse"] for row in run_of("llvmpipe-popping")["rows"] if row["samples"] == 32}
     cells = [[movement.replace("-", " "), f"{rows[movement, 'nearest']['worst']:.4f}",
               *(limited(rows[movement, mode]["ofNearest"], limit) for mode, limit in MAX_POP_RATIO.items())]

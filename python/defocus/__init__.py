@@ -6,15 +6,15 @@
     defocus.write_image("out.exr", image)
 
 Keywords are the settings of `defocus render` in snake_case: `defocus.settings()` and docs/settings.md list them with
-their units, ranges and defaults. Numbers, truth values, strings, paths and choices are given as such; a size, a pixel, a
-point or a colour as a tuple; `node_blur` as a dictionary. None leaves a value open, as if it were not given.
+their units, ranges and defaults. Numbers, booleans, strings, paths and choices are passed as such. A size, a pixel, a
+point or a colour is a tuple, and `node_blur` is a dictionary. None leaves a setting unset.
 
 Images are C-contiguous float32 arrays: H×W×4 (or H×W×3, or H×W for data), row 0 at the top, linear Rec.709, alpha
-premultiplied. Rendered ones own the renderer's pixels without a copy, and can be written to. Functions that take images
-read such arrays where they lie.
+premultiplied. Rendered arrays are writable and own the renderer's pixels without a copy. Functions that take images
+read such arrays without a copy.
 
-Work runs without Python's lock: other threads go on, and Ctrl-C ends it. A function given as `progress` is called as
-progress(stage, done, total); what it raises ends the work and reaches the caller.
+Work runs without the GIL, so that other threads continue, and Ctrl-C ends it. A function passed as `progress` is called
+as progress(stage, done, total). An exception that it raises ends the work and reaches the caller.
 """
 
 from __future__ import annotations
@@ -39,54 +39,54 @@ __all__ = [
     "progressive", "pyramid", "read_image", "render", "settings", "write_image",
 ]
 
-Error.__doc__ = """A file, a name, the driver: what was being done, what it concerned and what to do, on one line."""
-UsageError.__doc__ = """What was asked for makes no sense by itself: an unknown keyword (it is a TypeError too), a value
-out of its range (it is a ValueError too)."""
+Error.__doc__ = """An error of a file, a name or the driver. The message says in one line what failed and what to do."""
+UsageError.__doc__ = """An invalid request: an unknown keyword (also a TypeError), or a value out of range (also a
+ValueError)."""
 
 Path = Union[str, "os.PathLike[str]"]
 Progress = Callable[[str, int, int], object]
 
 
 class Setting(NamedTuple):
-    """A keyword of render and of all that takes settings."""
+    """A keyword of render() and of all other functions that take settings."""
 
     keyword: str
     option: str  # on the command line
     group: str
     kind: str  # "number", "integer", "boolean", "text", "path", "choice" or "other"
-    form: str  # of the value on the command line: "PX", "X,Y,Z"
+    form: str  # form of the value on the command line: "PX", "X,Y,Z"
     unit: str  # empty: none
-    range: Optional[Tuple[float, float]]  # of numbers
+    range: Optional[Tuple[float, float]]  # range of numbers, else None
     choices: Tuple[str, ...]
-    default: Optional[str]  # None: left open
-    methods: Tuple[str, ...]  # that take it; empty: it isn't a method's
+    default: Optional[str]  # None: unset
+    methods: Tuple[str, ...]  # methods that take the setting; empty: not specific to methods
     help: str
 
 
 class Difference(NamedTuple):
-    """What tells two images apart, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped)."""
+    """Difference between two images, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped)."""
 
     mae: float  # mean absolute error
     rmse: float  # root mean squared error
     psnr: float  # dB; infinite for equal images
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
-    flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels a degree
+    flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     max_error: float  # largest absolute difference of a channel
-    max_error_pixel: Tuple[int, int]  # (column, row) of the first one
+    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error
     pixel_count: int
     non_finite: int  # pixels with NaN or infinity in either image
 
 
 class Aovs(NamedTuple):
-    """What the nearest surface at each pixel is, through the pinhole at the pixel's centre: H×W each."""
+    """Data of the nearest surface at each pixel's centre, seen through a pinhole: H×W each."""
 
-    depth: numpy.ndarray  # m along the view axis; infinite where nothing is
+    depth: numpy.ndarray  # m along the view axis; infinity without a surface
     coc: numpy.ndarray  # signed diameter of the circle of confusion, px, > 0 behind the focus plane
-    level: numpy.ndarray  # the object's fractional level of detail; −1 where nothing is
+    level: numpy.ndarray  # the object's fractional level of detail; −1 without a surface
 
 
 class Statistics(NamedTuple):
-    """What a frame took; times are wall clock."""
+    """Time, memory and amount of work of a frame; times are wall-clock times."""
 
     samples: int
     load_milliseconds: float
@@ -97,12 +97,12 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
-    stopped: str  # why there are no more samples: "samples", "target error", "time limit" or "nothing blurred"
+    stopped: str  # why sampling stopped: "samples", "target error", "time limit" or "nothing blurred"
     estimated_error: Optional[float]  # with target_error or time_limit: RMSE of the display-encoded image at EV 0
 
 
 def settings() -> List[Setting]:
-    """All keywords, in the order of `defocus render --help`."""
+    """Returns all keywords, in the order of `defocus render --help`."""
     rows = []
     for info in _INFOS.values():
         ranged = info.kind.name in ("number", "integer")
@@ -113,14 +113,14 @@ def settings() -> List[Setting]:
 
 
 class Renderer:
-    """Renders one scene, frame after frame; its meshes are read and simplified once.
+    """Renders frames of one scene, whose meshes are loaded and simplified once.
 
         with defocus.Renderer("scene.glb", samples=128) as renderer:
             for f_stop in (1.4, 2.8, 5.6):
                 image = renderer.render(f_stop=f_stop)
 
-    Settings given to `render` and `start` replace those of the constructor for that frame; None leaves one open again.
-    Threads may share a renderer: they take turns. `close()`, or the end of the `with` block, frees all it holds.
+    Settings given to `render` and `start` replace those of the constructor for that frame; None unsets a setting.
+    Threads may share a renderer: they take turns. `close()`, or the end of the `with` block, frees its memory.
     """
 
     @_takes_settings
@@ -141,14 +141,14 @@ class Renderer:
 
     @_takes_settings
     def render(self, *, progress: Optional[Progress] = None, **settings: Any) -> numpy.ndarray:
-        """The finished image of a frame: H×W×4."""
+        """Renders a frame and returns its image: H×W×4."""
         image = self._native.render(self._request(settings), _listener(progress))
         self._warn()
         return image
 
     @_takes_settings
     def progressive(self, **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
-        """The image of the samples so far with their number, again and again until the frame is done."""
+        """Yields the image so far and its number of samples repeatedly, until the frame is done."""
         self.start(**settings)
         more = True
         while more:
@@ -157,37 +157,37 @@ class Renderer:
 
     @_takes_settings
     def start(self, **settings: Any) -> None:
-        """Begins a frame; `advance` draws it."""
+        """Starts a frame; `advance` draws it."""
         self._native.start(self._request(settings))
         self._warn()
 
     def advance(self) -> bool:
-        """Draws some more samples; False once the frame is done."""
+        """Draws more samples. Returns False once the frame is done."""
         return self._native.advance()
 
     def image(self) -> numpy.ndarray:
-        """The image of the samples so far."""
+        """Returns the image of the samples drawn so far."""
         return self._native.image()
 
     @property
     def samples(self) -> int:
-        """In the image so far."""
+        """Number of samples drawn so far."""
         return self._native.samples()
 
     @property
     def sample_total(self) -> int:
-        """When the frame is done."""
+        """Number of samples of the finished frame."""
         return self._native.sample_total()
 
     @property
     def statistics(self) -> Statistics:
-        """Of the frame so far."""
+        """Statistics of the frame so far."""
         native = self._native.statistics()
         return Statistics(*(getattr(native, name) for name in Statistics._fields))
 
     @property
     def warnings(self) -> List[str]:
-        """What is worth knowing of the file and the request; Python's warnings have said it."""
+        """Warnings about the file and the request, which have also been issued as Python warnings."""
         return self._native.warnings()
 
     @property
@@ -195,16 +195,16 @@ class Renderer:
         return self._native.scene()
 
     def aovs(self) -> Aovs:
-        """Depth, circle of confusion and level of detail of the frame that was started last."""
+        """Returns depth, circle of confusion and level of detail of the latest frame."""
         return Aovs(*self._native.aovs())
 
     def plan(self) -> Dict[str, Any]:
-        """The plan of the frame that was started last, as `defocus plan --json` prints it."""
+        """Returns the plan of the latest frame, as `defocus plan --json` prints it."""
         return json.loads(self._native.plan_json())
 
     def write(self, path: Path, image: Any) -> None:
-        """Writes an image of this renderer's frame with its metadata; a PNG or JPEG is exposed and tone-mapped as the
-        settings say."""
+        """Writes an image of this renderer's frame with its metadata. The settings define the exposure and the tone map
+        of PNG and JPEG files."""
         self._native.write(path, _pixels(image))
         self._warn()
 
@@ -221,8 +221,8 @@ class Renderer:
 @_takes_settings
 def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
            **settings: Any) -> numpy.ndarray:
-    """The image of a scene, a glTF file's or an open one, with the depth of field of its lens: H×W×4 float32, linear.
-    Without a scene: the built-in school of fish."""
+    """Renders a scene, a glTF file or an open one, with depth of field and returns the image: H×W×4 float32, linear.
+    Default scene: the built-in school of fish."""
     with Renderer(scene, progress=progress, **settings) as renderer:
         return renderer.render(progress=progress)
 
@@ -235,8 +235,8 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
         for image, samples in defocus.progressive("scene.glb", samples=1024):
             ...
 
-    Each image is an array of its own. Leaving the loop frees the renderer as soon as the generator goes; its `close()`
-    does so at once. Wrong keywords are reported by the call, faults of the scene by the first step.
+    Each image is a new array. The renderer is freed with the generator; the generator's `close()` frees it at once. The
+    call reports wrong keywords, and the first step reports errors in the scene.
     """
     _request_of(scene, settings)
 
@@ -249,32 +249,32 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
 
 @_takes_settings
 def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
-    """What a render would draw, without drawing and without a GPU, as `defocus plan --json` prints it: blur, level and
-    samples of each object, and what is left out and why."""
+    """Returns the plan of a render, without drawing and without a GPU, as `defocus plan --json` prints it. The plan
+    lists blur, level and samples of each object, and omitted objects with the reason."""
     return json.loads(_defocus.plan_json(_request_of(scene, settings), _listener(progress)))
 
 
 @_takes_settings
 def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
-    """The levels of detail of each mesh of a scene: triangles, mean edge and error, in the mesh's units."""
+    """Returns the levels of detail of each mesh of a scene: triangles, mean edge and error, in the mesh's units."""
     return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
 
 
 def compare(reference: Any, test: Any) -> Difference:
-    """The difference between two linear images of one size, each an array or a file."""
+    """Returns the difference between two linear images of the same size, each an array or a file."""
     native = _defocus.compare(_pixels(reference), _pixels(test))
     return Difference(*(getattr(native, name) for name in Difference._fields))
 
 
 def read_image(path: Path) -> numpy.ndarray:
-    """A PNG, JPEG, OpenEXR, Radiance HDR or TIFF as linear float32: H×W×4, H×W×3 or H×W. Integer formats are decoded
-    from sRGB, straight alpha is premultiplied."""
+    """Reads a PNG, JPEG, OpenEXR, Radiance HDR or TIFF file as linear float32: H×W×4, H×W×3 or H×W. Integer formats are
+    decoded from sRGB, and straight alpha is premultiplied."""
     return _defocus.read_image(path)
 
 
 def write_image(path: Path, image: Any, *, tone_map: Optional[str] = None, exposure: Optional[float] = None) -> None:
-    """Writes .exr (32-bit float, linear), .png or .jpg (8 bit, sRGB). `tone_map` ("none", "aces", "agx", "neutral"; "neutral"
-    unless it is given) and `exposure` (EV) are for the 8-bit ones. The file appears whole or not at all."""
+    """Writes an .exr (32-bit float, linear), .png or .jpg file (8 bit, sRGB). `tone_map` ("none", "aces", "agx" or
+    "neutral"; default: "neutral") and `exposure` (EV) apply to 8-bit files. The file is replaced atomically."""
     request = _request_of(None, {"tone_map": tone_map, "exposure": exposure})
     _defocus.write_image(path, _pixels(image), request)
 
@@ -286,7 +286,7 @@ def _listener(progress: Optional[Progress]) -> Optional[Progress]:
 
 
 def _pixels(image: Any) -> numpy.ndarray:
-    """The image as C++ reads it: itself where it is C-contiguous float32."""
+    """Returns the image as a C-contiguous float32 array; without a copy if it already is one."""
     if isinstance(image, (str, os.PathLike)):
         return read_image(image)
     array = numpy.asarray(image)
@@ -298,7 +298,7 @@ def _pixels(image: Any) -> numpy.ndarray:
 
 
 def _warn(lines: List[str]) -> None:
-    """As warnings of the first caller outside of this package."""
+    """Issues warnings at the first caller outside this package."""
     level = 1
     while sys._getframe(level).f_globals.get("__name__", "").split(".")[0] == __name__:
         level += 1

@@ -1,4 +1,4 @@
-# Types of the package `defocus`. The class Keywords is written by scripts/python_stubs.py from the settings table.
+# Types of the package `defocus`. scripts/python_stubs.py writes the class Keywords from the settings table.
 
 import os
 from typing import Any, Callable, ContextManager, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union

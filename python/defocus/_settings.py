@@ -1,4 +1,4 @@
-"""Python's keywords and values to the settings of a request: those of the settings table, whatever they are."""
+"""Converts Python keywords and values to the settings of a request, as defined by the settings table."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from . import _defocus
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-# By keyword, in the order of `defocus render --help`.
+# Settings by keyword, in the order of `defocus render --help`.
 INFOS = {info.keyword: info for info in _defocus.setting_infos()}
 
-# The built-in school's own.
+# Settings of the built-in school only.
 SCHOOL = ("fish_count", "triangles_per_fish")
 
 
 def text(value: Any, separator: str = ",") -> str:
-    """The value as the command line has it."""
+    """Returns the value in the command line's syntax."""
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
@@ -60,7 +60,7 @@ def set_value(request: _defocus.Request, keyword: str, value: Any) -> None:
         for part in texts(info, value):
             request.set(info.name, part)
     except _defocus.UsageError as error:
-        # The name that was written here, not the table's.
+        # Replace the table's name by the keyword that the caller used.
         raise _defocus.UsageError(str(error).replace(f"{info.name}: ", f"{keyword}: ", 1)) from None
 
 
@@ -74,7 +74,7 @@ def check_exclusions(given: Mapping[str, Any]) -> None:
 
 
 def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
-    """The request of a path (or None, or an open scene) and keywords; what is None is left open."""
+    """Returns the request for a path (or None, or an open scene) and keywords, except those with the value None."""
     request = _defocus.Request()
     given = {keyword: value for keyword, value in settings.items() if value is not None}
     if scene is not None:
@@ -86,7 +86,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
     elif scene is not None and not isinstance(scene, _defocus.Scene):
         raise _defocus.UsageError(f"scene: {scene!r} is neither a path nor a Scene")
     check_exclusions(given)
-    # In the table's order: what is given beside a preset or a method wins over what these set.
+    # In the table's order, so that explicit settings override those of a preset or a method.
     order = {keyword: place for place, keyword in enumerate(INFOS)}
     for keyword, value in sorted(given.items(), key=lambda item: order.get(item[0], 0)):
         set_value(request, keyword, value)
@@ -94,7 +94,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
 
 
 def takes_settings(function: Function) -> Function:
-    """Shows the settings as keywords of a function whose last parameter is **settings: in help() and for completion."""
+    """Adds the settings to the signature of a function with **settings, for help() and completion."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     names = {parameter.name for parameter in own}

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 struct Machine {
-    std::string processor;  // "AMD EPYC …"; empty if it isn't known
+    std::string processor;  // "AMD EPYC …"; empty if unknown
     unsigned threads = 0;   // hardware threads
     std::uint64_t memoryBytes = 0;
     std::string system;  // "Linux 6.1.0 x86_64"

@@ -12,11 +12,11 @@ struct Spread {
     double high = 0;  // 90th percentile
 };
 
-// Returns the value below which `share` ∈ [0, 1] of the values lie. It interpolates linearly between two values
-// (Hyndman and Fan 1996, type 7) and needs at least one.
+// Returns the value below which `share` ∈ [0, 1] of the values lie, interpolated linearly between two values (Hyndman
+// and Fan 1996, type 7). Needs at least one value.
 double percentile(std::vector<double> values, double share);
 
-// Without values, all of the result is 0.
+// Returns the spread of the values; zeros without values.
 Spread spreadOf(const std::vector<double>& values);
 
 nlohmann::ordered_json spreadJson(const Spread& spread);

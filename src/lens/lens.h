@@ -20,7 +20,7 @@ struct Lens {
     double fStop = 2.8;              // f-number, > 0
     double focusDistance = 2.5;      // m from the camera along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // mm, width of the sensor
-    bool dofEnabled = true;          // false: a pinhole camera, whatever the f-number
+    bool dofEnabled = true;          // false: a pinhole camera for any f-number
     double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physical
     bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
     double exposureTime = 0;         // s, see photographic_exposure.h; 0: the lens doesn't affect the exposure
@@ -42,8 +42,8 @@ struct Lens {
     // Artistic controls of the blur; see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus, px
     double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus, px
-    double focusRangeFront = 0;        // m in front of the focus distance that stay sharp, [0, focusDistance)
-    double focusRangeBehind = 0;       // m behind the focus distance that stay sharp, ≥ 0
+    double focusRangeFront = 0;        // m, depth of the sharp range in front of the focus, [0, focusDistance)
+    double focusRangeBehind = 0;       // m, depth of the sharp range behind the focus, ≥ 0
     bool focusRangeRefocuses = false;  // true: blur behind the range as if focused at its far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer

@@ -118,10 +118,10 @@ double lensFieldValue(const Lens& lens, const LensField& field) {
 }
 
 void setLensField(Lens& lens, const LensField& field, double value) {
-    const bool whole = !std::holds_alternative<double Lens::*>(field.member);
-    if (!(value >= field.min && value <= field.max) || (whole && value != std::floor(value)))
-        fail("{} must be {} from {} to {}, not {}", field.name, whole ? "an integer" : "a number", field.min, field.max,
-             value);
+    const bool isInteger = !std::holds_alternative<double Lens::*>(field.member);
+    if (!(value >= field.min && value <= field.max) || (isInteger && value != std::floor(value)))
+        fail("{} must be {} from {} to {}, not {}", field.name, isInteger ? "an integer" : "a number", field.min,
+             field.max, value);
     if (field.name == std::string_view("bladeCount") && (value == 1 || value == 2))
         fail("bladeCount must be 0 (a disk) or 3 to 64, not {}", value);
     if (const auto* number = std::get_if<double Lens::*>(&field.member))

@@ -37,7 +37,8 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     return uses;
 }
 
-// Ray tracers have the meshes as they were read, and post-process methods draw pinholes, for which blur is no excuse.
+// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes. Post-process methods start
+// from a sharp image, in which no blur hides a coarse level.
 bool drawsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
@@ -114,7 +115,7 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
     return cases;
 }
 
-// A method with settings of its own as it is, else in each of the forms.
+// Returns the cases of a method with settings of its own, or with default settings those of each requested form.
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;
@@ -140,7 +141,7 @@ bool allFinite(const Image& image) {
     return std::ranges::all_of(image.pixels, [](float value) { return std::isfinite(value); });
 }
 
-// Is the image what it claims to be?
+// Returns why the image is invalid; empty if it is valid.
 std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats& stats, const Method& method,
                     std::uint32_t sampleTotal) {
     if (image.width != plan.view.width || image.height != plan.view.height)
@@ -156,7 +157,7 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     return {};
 }
 
-// Not unlit and opaque. glTF's default material is lit.
+// Returns whether the primitive is lit or not opaque. glTF's default material is lit.
 bool needsShading(const Scene& scene, const Primitive& primitive) {
     if (primitive.material < 0) return true;
     const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
@@ -169,7 +170,8 @@ bool needsShading(const Scene& scene) {
     });
 }
 
-// Throws Error where the method's image could only be another than the reference's, however good the method is.
+// Throws Error if the method can't match the reference on this scene because it shades differently or lacks shadows or
+// motion.
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
         fail("it shades otherwise than the reference; compare it with --shading unlit");
@@ -184,7 +186,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 
-    // Set-up, and a first wave that doesn't count.
+    // Set-up, with an untimed first wave.
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
     renderer->start(plan);
@@ -192,7 +194,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     frame.run.setupMilliseconds = millisecondsSince(begin);
     renderer->advance();
 
-    // The frame.
+    // The timed frame.
     renderer->start(plan);
     while (renderer->advance()) {
     }
@@ -216,7 +218,7 @@ ImageError errorOf(const Difference& difference) {
     return {difference.rmse * difference.rmse, difference.ssim, difference.flip};
 }
 
-// ---- all of them ----------------------------------------------------------------------------------------------------
+// ---- all cases ------------------------------------------------------------------------------------------------------
 
 class Measurement {
 public:
@@ -234,7 +236,8 @@ public:
         return std::ranges::any_of(runs_, [&](const ConvergenceRun& r) { return r.run == run && sameCase(r, wanted); });
     }
 
-    // Throws Error where the method can't draw it. `flipMap` stays empty unless this is the first frame of the case.
+    // Measures run `number` of a case. Throws Error if the method can't draw it. Fills `flipMap` only for the first
+    // frame of the case.
     Frame measure(ConvergenceCase wanted, int number, Image& flipMap) {
         wanted.plan.seed += static_cast<std::uint32_t>(number % seeds_);
         Frame frame = frameOf(wanted.world != nullptr ? *wanted.world : world_, view_, wanted, renderer_);
@@ -249,13 +252,13 @@ public:
     }
 
 private:
-    // What says where the lens samples lie: their number, sequence and seed.
+    // Identifies a set of lens samples by its size, sequence and seed.
     using SamplePoints = std::tuple<std::uint32_t, Sequence, std::uint32_t>;
     static SamplePoints pointsOf(const ConvergenceCase& wanted) {
         return {wanted.samples, wanted.plan.sequence, wanted.plan.seed};
     }
 
-    // The same image has the same error.
+    // Sets the frame's error. If an earlier run with the same seed has the same image, its error is reused.
     void measureError(Frame& frame, const ConvergenceCase& wanted, Image& flipMap) {
         ConvergenceRun& run = frame.run;
         const auto ofCase = [&](const ConvergenceRun& r) { return sameCase(r, wanted); };
@@ -266,7 +269,8 @@ private:
             run.bias = known->bias;
             return;
         }
-        if (frame.image.width != view_.width || frame.image.height != view_.height) return;  // a fault, and no error
+        if (frame.image.width != view_.width || frame.image.height != view_.height)
+            return;  // a fault; the error stays unset
         CompareOptions options;
         if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));
@@ -278,7 +282,7 @@ private:
         fullDetail_ = image;
     }
 
-    // At the same lens samples; usually what was drawn just before.
+    // Returns full detail at the same lens samples, usually from the cache.
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
         if (fullDetailPoints_ != pointsOf(wanted)) {
             const ConvergenceCase full =

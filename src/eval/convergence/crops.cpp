@@ -11,7 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-// sums(x, y) of all values above and to the left: any rectangle's sum takes four of them (Crow 1984).
+// Summed-area table: sum(x, y) covers all values above and to the left. The sum over any rectangle takes four of its
+// entries (Crow 1984).
 class SummedArea {
 public:
     explicit SummedArea(const Image& values)

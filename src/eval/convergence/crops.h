@@ -1,5 +1,5 @@
 #pragma once
-// Chooses parts of an image that show details which the whole picture hides.
+// Chooses parts of an image that show details too small to see in the complete picture.
 
 #include <optional>
 #include <string>
@@ -17,8 +17,8 @@ struct Crop {
     int height = 0;
 };
 
-// Returns the square of `size` px in which a 1-channel image of values ≥ 0 has the largest sum; of equal ones, the
-// first in reading order. It shares no pixel with `other`. Returns nothing if no square fits.
+// Returns the square of `size` px with the largest sum in a 1-channel image of values ≥ 0; ties go to the first in
+// reading order. The square shares no pixel with `other`. Returns nothing if no square fits.
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other = {});
 
 // Returns two squares of a quarter of the image's shorter side. In the first, accumulation at full detail with

@@ -20,7 +20,7 @@ std::string competitorOf(const ConvergenceRow& row) {
     return row.bias ? row.method + " with levels" : row.method;
 }
 
-// From the fastest and farthest to the slowest and closest.
+// Returns the competitor's Pareto front, from the fastest step to the most accurate one.
 std::vector<Step> frontOf(std::span<const ConvergenceRow> rows, const std::string& competitor) {
     std::vector<Step> steps;
     std::vector<Trial> trials;
@@ -37,7 +37,7 @@ std::vector<Step> frontOf(std::span<const ConvergenceRow> rows, const std::strin
     return front;
 }
 
-// Where the straight line through both, in logarithms, has the error `rmse`.
+// Returns the time at error `rmse`, interpolated linearly between the logarithms of both steps.
 double timeBetween(const Step& far, const Step& close, double rmse) {
     if (!(close.rmse > 0) || !(far.milliseconds > 0)) return close.milliseconds;
     const double part = std::log(far.rmse / rmse) / std::log(far.rmse / close.rmse);

@@ -1,4 +1,4 @@
-// The journal of bench convergence: see convergence_text.h.
+// Writes and reads the journal of bench convergence; see convergence/text.h.
 
 #include <fmt/format.h>
 
@@ -30,13 +30,13 @@ std::vector<std::string_view> fieldsOf(std::string_view line) {
     return fields;
 }
 
-// Takes a line's fields one after the other; `good` turns false at the first that isn't what it should be.
+// Reads a line's fields in order; `good` turns false at the first malformed field.
 class FieldReader {
 public:
     explicit FieldReader(std::string_view line) : fields_(fieldsOf(line)), good_(fields_.size() == fieldCount) {}
 
     [[nodiscard]] bool good() const { return good_; }
-    // The next field is empty: those that follow may not be there.
+    // Returns whether the next field is empty, so that an optional group of fields is absent.
     [[nodiscard]] bool missing() const { return good_ && fields_[next_].empty(); }
     void skip(std::size_t count) { next_ += count; }
 

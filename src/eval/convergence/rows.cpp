@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Frames of one case whose MSE differs by more than this share are not one image.
+// Max relative difference of the MSE between frames of one case and seed, which should be the same image.
 constexpr double maxDifference = 0.01;
 
 bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
@@ -38,7 +38,7 @@ ImageError meanOf(const std::vector<ImageError>& errors) {
     return mean;
 }
 
-// Means over the seeds, each with its first run.
+// Sets the row's errors to the means over the seeds, taking the first run of each seed.
 void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& runs, int seeds) {
     std::set<int> seen;
     std::vector<ImageError> biases;
@@ -47,7 +47,7 @@ void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& ru
         row.ofSeeds.push_back(run->error);
         if (run->bias) biases.push_back(*run->bias);
     }
-    // Of one value the mean is the value, bit for bit.
+    // A single value is copied, to stay identical bit for bit.
     row.error = row.ofSeeds.size() == 1 ? row.ofSeeds.front() : meanOf(row.ofSeeds);
     if (!biases.empty()) row.bias = biases.size() == 1 ? biases.front() : meanOf(biases);
 }

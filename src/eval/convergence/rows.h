@@ -1,6 +1,6 @@
 #pragma once
-// Summarises the frames of each case as one row: the medians with their spread, whether another row beats it, and for
-// each setting of the levels how far it stays from full detail with any number of lens samples.
+// Summarises the frames of each case as one row: medians with their spread, and whether another row beats it. Also
+// computes how far each setting of the levels stays from full detail, however many lens samples it has.
 
 #include <optional>
 #include <span>
@@ -14,14 +14,14 @@ namespace defocus::engine {
 
 struct ConvergenceRow {
     std::string method;
-    std::string form;  // as in ConvergenceCase
+    std::string form;  // see ConvergenceCase
     std::string setting;
-    std::uint32_t asked = 0;    // lens samples asked for; 0 if the method takes none
+    std::uint32_t asked = 0;    // requested lens samples; 0 if the method takes none
     std::uint32_t samples = 0;  // lens samples drawn
     int runs = 0;
-    Spread milliseconds;              // wall clock, of a frame
-    Spread setupMilliseconds;         // of the renderer; not part of `milliseconds`
-    double pyramidMilliseconds = 0;   // of building the pyramids; not part of `milliseconds`
+    Spread milliseconds;              // wall-clock time of a frame
+    Spread setupMilliseconds;         // time of the renderer's set-up; not part of `milliseconds`
+    double pyramidMilliseconds = 0;   // time of building the pyramids; not part of `milliseconds`
     double gpuMilliseconds = 0;       // median
     ImageError error;                 // against the reference; the mean over the seeds
     std::optional<ImageError> bias;   // only with levels: against full detail at the same lens samples; the same mean
@@ -31,7 +31,7 @@ struct ConvergenceRow {
     bool front = false;          // no other row of any method beats it: see paretoFront, with time and MSE
     bool frontOfMethod = false;  // the same among the rows of its method
     bool frontByFlip = false;    // the same as `front`, with FLIP instead of MSE
-    // True if the error is smaller than the reference's own error; then its value means nothing else.
+    // True if the error is smaller than the reference's own error; the value is then only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;
     std::string fault;  // says why the image isn't valid; such a row is on no front
@@ -51,13 +51,13 @@ struct Trial {
 // equal cost and a lower or equal error, and one of them is lower. Equal trials are all on the front or all off it.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
-// How close one setting of the levels comes to full detail. With the thresholds of the largest number of samples that
-// was measured, more lens samples would not bring the image closer: the sampling noise is the same in both images and
-// cancels in their difference.
+// Error of one setting of the levels against full detail, with the thresholds of the largest measured number of
+// samples. More lens samples would not reduce the error: both images have the same sampling noise, which cancels in
+// their difference.
 struct BiasFloor {
     std::string method;
     std::string setting;
-    std::uint32_t samples = 0;  // lens samples at which it was measured
+    std::uint32_t samples = 0;  // number of lens samples of the measurement
     ImageError error;
 };
 

@@ -13,7 +13,7 @@ namespace {
 const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // object space
 constexpr float ambient = 0.2f;
 
-// Linear; white for an image without pixels.
+// Returns the linear mean colour; white for an image without pixels.
 glm::vec3 meanColour(const TextureImage& image) {
     glm::dvec3 sum(0);
     const std::size_t count = image.rgba.size() / 4;

@@ -1,14 +1,13 @@
 #pragma once
-// Makes a scene that every method shades alike, ray tracers included: it is unlit and opaque, and a fixed light is
-// painted on it. Then only geometry, visibility, the lens and its sampling can differ.
+// Makes a scene that every method shades alike, ray tracers included: unlit and opaque, with baked lighting. Images can
+// then differ only by geometry, visibility, the lens and its sampling.
 
 #include "scene/scene.h"
 
 namespace defocus::engine {
 
-// Each material becomes unlit and opaque and takes the mean colour of its texture. Lambert shading under one light,
-// which is fixed to each mesh, goes into 8-bit vertex colours; the methods interpolate these linearly. Meshes, nodes,
-// cameras and environment don't change.
+// Returns the scene with unlit, opaque materials in the mean colours of their textures. Lambert shading by one light,
+// fixed to each mesh, is baked into vertex colours. Geometry, nodes, cameras and environment don't change.
 Scene unlitScene(Scene scene);
 
 }  // namespace defocus::engine

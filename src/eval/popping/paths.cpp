@@ -14,14 +14,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double dollyLength = 0.5;  // of the focus distance
+constexpr double dollyLength = 0.5;  // as a fraction of the focus distance
 
 struct Depths {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
 };
 
-// Of whatever the view shows.
+// Returns the depth range of the objects in the view. Throws Error if it is empty.
 Depths depthsOf(const World& world, const View& view) {
     RenderSettings settings;
     settings.sampleCount = 1;
@@ -48,7 +48,7 @@ View dolliedToPlace(const View& view, double focusDistance, double place) {
     return result;
 }
 
-// By object.
+// Returns the levels that LodMode::nearest draws, by object.
 std::map<int, std::uint32_t> nearestLevels(const World& world, const View& view, RenderSettings settings) {
     settings.lod = LodMode::nearest;
     std::map<int, std::uint32_t> levels;
@@ -79,7 +79,8 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
         fail("the scene has no animation clip {}", clip);
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
-    const double focusDistance = std::min(view.lens.focusDistance, depths.farthest);  // it may be at infinity
+    const double focusDistance =
+        std::min(view.lens.focusDistance, depths.farthest);  // finite, even if the lens focuses at infinity
     std::vector<MovementFrame> result;
     for (int i = 0; i < frames; ++i) {
         const double place = static_cast<double>(i) / (frames - 1);
@@ -112,7 +113,7 @@ std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& fram
     if (length < 1 || static_cast<std::size_t>(length) > frames.size())
         fail("{} frames: the movement has {}", length, frames.size());
 
-    // Changes up to each frame.
+    // Level changes up to each frame.
     std::vector<int> changes;
     std::map<int, std::uint32_t> levels;
     for (const MovementFrame& frame : frames) {

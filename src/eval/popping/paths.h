@@ -1,5 +1,5 @@
 #pragma once
-// The movements of focus, camera and scene along which popping is measured, because levels of detail change on the way.
+// Movements of focus, camera and scene that change levels of detail. The popping benchmark measures along them.
 
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace defocus::engine {
 enum class Movement {
     focusPull,  // the focus goes from the nearest to the farthest object, evenly in 1/distance, as a focus ring does
     dolly,      // the camera goes forward along its axis by half the focus distance; the focus stays on its plane
-    turntable,  // the camera goes once around the middle of the scene, about the vertical
+    turntable,  // the camera circles the scene's centre once, about the vertical
     clip,       // an animation of the scene plays once, such as a walk cycle; the camera stands still
 };
 
@@ -21,18 +21,17 @@ struct MovementFrame {
     Pose pose;
 };
 
-// Returns the whole movement as `frames` frames. `view` is in the middle of the dolly and of the turntable. All frames
-// have the world's pose, except with Movement::clip, which plays the scene's clip number `clip`. Throws Error if there
-// are fewer than two frames, if nothing lies in front of the camera, or if the scene doesn't have the clip.
+// Returns the complete movement as `frames` frames. `view` is in the middle of the dolly and of the turntable. All
+// frames have the world's pose, except with Movement::clip, which plays the scene's clip number `clip`. Throws Error if
+// there are fewer than two frames, if nothing lies in front of the camera, or if the scene doesn't have the clip.
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames,
                                        int clip = 0);
 
-// Gives the world the pose of the frame.
+// Sets the world's pose and lights to those of the frame.
 void poseWorld(World& world, const MovementFrame& frame);
 
-// Returns the `length` consecutive frames in which LodMode::nearest pops most often, that is in which the whole levels
-// nearest to the objects' λ change most often; of equal stretches, the first. Leaves `world` in the pose of the last
-// frame. Throws Error if `length` is larger than the number of frames.
+// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; ties go to the first.
+// Leaves `world` in the pose of the last frame. Throws Error if `length` is larger than the number of frames.
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 

@@ -1,4 +1,4 @@
-// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering, section on popping: here measured.
+// Measures the popping that Jeong, Kim and Lee discuss in Multi-Resolution Depth-of-Field Rendering (2011).
 
 #include "eval/popping/popping.h"
 
@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float maxBlur = 256;  // px: blur that is grown around an object
+constexpr float maxBlur = 256;  // px; max blur diameter added around an object
 
 Image rendered(Renderer& renderer, const FramePlan& plan) {
     renderer.start(plan);
@@ -35,7 +35,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// Of a precision that doesn't show in what is measured.
+// The renderers of the modes. Their layers are precise enough that rounding doesn't affect the measurements.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;
@@ -74,7 +74,7 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // of the plan that was held
+    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose draws differ
 };
 
 // Returns `plan` with the levels of the frame before, for objects that both frames show. Returns nothing if no level
@@ -98,14 +98,14 @@ std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before)
     return held;
 }
 
-// Of the pixels in `objects`, those that the boxes of `changed` can touch, with their blur.
+// Returns the pixels of the mask `objects` that lie in the bounding boxes of `changed`, grown by their blur.
 Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects) {
     Image pixels(objects.width, objects.height, 1);
     const auto bounded = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
-        const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel beside a pixel's middle
+        const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel from a pixel's centre
         const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);
         const int top = bounded(0.5 * (1 - box.ndcMax.y) * objects.height - reach, objects.height);
@@ -126,7 +126,8 @@ double largestSpeed(const FramePlan& plan, const FramePlan& before) {
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-// `difference`: 3 channels of display values.
+// Returns the root mean square of `difference` (3 channels of display values) over the mask, or over all pixels if it
+// is null.
 double rootMeanSquare(const Image& difference, const Image* mask) {
     double sum = 0;
     std::uint64_t values = 0;
@@ -150,7 +151,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// The display values that `image` should have had come to `expected`.
+// Returns the error of `image` against `expected`, both in display values.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -171,7 +172,7 @@ Image displayColours(const Image& linear) {
     return colours;
 }
 
-// I_{t−1} + (R_t − R_{t−1})
+// Returns the expected frame, I_{t−1} + (R_t − R_{t−1}).
 Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
     Image result = before;
     for (std::size_t i = 0; i < result.pixels.size(); ++i)
@@ -247,7 +248,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
 
 // ---- one sample's step ----------------------------------------------------------------------------------------------
 
-// The object that is blurred most, of those with a coarser level to go to.
+// Returns the most blurred object that has a coarser level; null if there is none.
 ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {
     ObjectPlan* found = nullptr;
     for (ObjectPlan& object : plan.objects) {
@@ -289,7 +290,7 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
     step.level = static_cast<std::uint32_t>(object->lambda);
     const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
     step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
-    // Level 0 projects a mean edge to projectedEdge at the nearest depth.
+    // projectedEdge is the size in px of level 0's mean edge at the nearest depth.
     step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
                      object->nearestDepth / depth;
     step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;
@@ -315,7 +316,7 @@ std::string_view poppingModeName(PoppingMode mode) {
 }
 
 Image objectPixels(const Image& level, const Image& coc) {
-    // Each pixel marks the disk around it, row by row, as the beginning and the end of a run.
+    // Each object pixel marks its blur disk, row by row, as the beginning and the end of a run.
     const int width = level.width;
     std::vector<int> runs(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(level.height));
     for (int y = 0; y < level.height; ++y)
@@ -350,7 +351,7 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
     const Renderers renderers{methodNamed("accumulation").make(world, precise),
                               methodNamed("multirate").make(world, precise)};
     const MovementFrame own{view, world.pose};
-    std::vector<std::vector<MovementFrame>> movements;  // first of all: they know what is impossible
+    std::vector<std::vector<MovementFrame>> movements;  // computed first: impossible movements throw
     for (const Movement movement : options.movements) {
         movements.push_back(busiestStretch(
             framesAlong(movement, world, view, options.pathFrames, options.clip), world,
@@ -361,7 +362,7 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
         options.movements.size() * options.sampleCounts.size() * static_cast<std::size_t>(options.frames);
     std::uint64_t done = 0;
 
-    // Objects held still.
+    // Static objects.
     for (const std::uint32_t samples : options.sampleCounts)
         if (const auto step = measureSampleStep(world, *renderers.accumulation, view, options, samples))
             visitor.sampleStep(*step);

@@ -1,28 +1,28 @@
 #pragma once
-// Measures how much levels of detail pop, that is what they add to the change from frame to frame while camera, focus
-// or scene move. It compares four modes: the nearest level; samples that are split between two levels (fractional); the
-// same with the sample at the boundary split over its pixels (continuous); and fractional levels drawn by the method
-// "multirate".
+// Measures the popping of levels of detail: the change that they add from frame to frame while camera, focus or scene
+// move. It compares four modes: the nearest level; samples split between two levels (fractional); the same with the
+// sample at the boundary split by pixels (continuous); and fractional levels drawn by the method "multirate".
 //
-// The truth is full detail at the SAME lens samples, which multirate has of its own. So the noise cancels, and full
-// detail itself measures 0. Let I be a frame of the mode and R the same frame at full detail, both display-encoded:
-//   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench takes its RMSE, and the FLIP between I_t and the frame that it
-//           should have become, I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Besides pops, it contains all other
-//           errors of the levels that move with the camera.
-//   step:   I_t minus the same view and pose drawn with the levels and splits of the frame before. This is
-//           the pop alone.
-// Both are measured over the whole image and over the objects' pixels, which an object or its blur touches in either
-// frame. For the step, only the objects count whose draws differ. So quiet objects don't dilute a pop, and its error is
-// about the same whether one object pops in a frame or several do.
+// The reference is full detail at the same lens samples; multirate has lens samples of its own. Sampling noise cancels,
+// and full detail itself measures 0. Let I be a frame of the mode and R the same frame at full detail, both
+// display-encoded:
+//   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench measures its RMSE, and the FLIP between I_t and the expected
+//           frame I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. The change includes pops and all other errors of the
+//           levels that move with the camera.
+//   step:   I_t minus the same view and pose drawn with the levels and splits of the previous frame. The
+//           step is the pop alone.
+// Both are measured over the complete image and over the objects' pixels, which an object or its blur touches in either
+// frame. For the step, only objects whose draws differ count. Unchanged objects therefore don't dilute a pop, and its
+// error hardly depends on how many objects pop in a frame.
 //
-// How large should a step be? If a whole level pops, N samples share the difference, which is blurred by c px. The
-// difference of one sample is sharp, w px wide. So the step of one sample is √(c/w)/N of the whole pop. If less than
-// one sample changes in a frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others.
-// Continuous levels change a share Δλ·N of the sample's pixels in every frame, which gives √(c/w)·√(Δλ/N): half as much
-// at a quarter of the speed.
+// How large should a step be? If all N samples change their level at once, the difference is blurred by c px. The
+// difference of one sample is sharp, w px wide. The step of one sample is therefore √(c/w)/N of the pop of all samples.
+// If less than one sample changes in a frame (Δλ·N < 1), fractional levels make this step in some frames and none in
+// the others. Continuous levels change a share Δλ·N of the sample's pixels in every frame, which gives √(c/w)·√(Δλ/N):
+// half as much at a quarter of the speed.
 //
-// Held equal between modes: scene, views, lens samples, thresholds, size and, but for multirate, renderer. Layers are
-// 32-bit floats unless the options say otherwise, so that their rounding isn't taken for an error of the levels.
+// Held equal between modes: scene, views, lens samples, thresholds, size and, except for multirate, renderer. Layers
+// are 32-bit floats by default, so that their rounding doesn't count as an error of the levels.
 
 #include <array>
 #include <cstdint>
@@ -49,9 +49,9 @@ struct PoppingOptions {
     std::vector<Movement> movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // number of the scene's clip, for Movement::clip
-    int pathFrames = 240;  // frames of a whole movement, which set its speed
-    int frames = 48;       // frames measured of each movement: those with the most changes of level
-    RenderSettings plan;   // what the bench doesn't vary: seed, metric, where the blur is taken, keepAll
+    int pathFrames = 240;  // frames of a complete movement, which set its speed
+    int frames = 48;       // measured frames of each movement, with the most level changes
+    RenderSettings plan;   // settings that the bench doesn't vary: seed, metric, keepAll …
     RendererOptions renderer;
 };
 
@@ -69,22 +69,22 @@ struct PoppingFrame {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frame = 0;     // t, 1 or more
+    int frame = 0;     // t ≥ 1
     double speed = 0;  // the largest |λ_t − λ_{t−1}| of all objects
     Pop change;
     Pop step;
 };
 
-// The step of one sample, compared with the pop of a whole level, while the object stands still. The RMSEs are of
-// linear values over the image.
+// The step of one sample compared with the pop of all samples, for a static object. The RMSEs are of linear values over
+// the image.
 struct SampleStep {
     std::uint32_t samples = 0;
     std::string object;
-    std::uint32_t level = 0;  // the finer of the two
-    double coc = 0;           // px, in the middle of the object
+    std::uint32_t level = 0;  // the finer of the two levels
+    double coc = 0;           // px, at the object's middle depth
     double edgeError = 0;     // px, the deviation of the coarser level
     double expected = 0;      // √(coc/edgeError)/N, if coc > edgeError
-    double measured = 0;      // root mean square of all N steps, divided by the RMSE between the two levels
+    double measured = 0;      // RMS of all N steps, divided by the RMSE between the two levels
 };
 
 struct PoppingVisitor {
@@ -93,8 +93,8 @@ struct PoppingVisitor {
     std::function<void(const SampleStep&)> sampleStep;
 };
 
-// Needs a current GL context. `world` takes the pose of each frame and gets its own pose back at the end. Throws Error
-// like planning, rendering and framesAlong.
+// Measures all movements and numbers of samples. Needs a current GL context. `world` takes the pose of each frame and
+// gets its own pose back at the end. Throws Error like planning, rendering and framesAlong.
 void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 

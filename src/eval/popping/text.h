@@ -1,5 +1,5 @@
 #pragma once
-// Summarises the frames of the popping benchmark as a table for people, as CSV and as JSON.
+// Summarises the frames of the popping benchmark as a text table, CSV and JSON.
 
 #include <span>
 #include <string>
@@ -15,14 +15,14 @@ struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // interpolated linearly between frames
-    double ofNearest = 0;     // `worst` divided by that of LodMode::nearest; NaN if that is 0 or missing
+    double ofNearest = 0;     // `worst` divided by the `worst` of LodMode::nearest; NaN if the latter is 0 or missing
 };
 
 struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frames = 0;  // number of changes, one less than the number of views
+    int frames = 0;  // number of frame pairs, one less than the number of views
     double speed = 0;
     PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // over the objects' pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
@@ -34,11 +34,11 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 std::string poppingHeader();                         // two lines
 std::string poppingLine(const PoppingRow& row);      // one line
 std::string sampleStepLine(const SampleStep& step);  // one line with its own legend
-// Gives the largest pop of each mode as a fraction of the nearest level's, at the largest number of samples.
+// Returns the largest pop of each mode as a fraction of the nearest level's, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
 std::string poppingCsv(std::span<const PoppingFrame> frames);  // one line for each frame
-// Holds the worst frame and the 99th percentile of each movement, number of samples and mode.
+// Returns the worst frame and the 99th percentile of each movement, number of samples and mode.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);
 

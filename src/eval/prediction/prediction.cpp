@@ -19,17 +19,17 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // of each of the two sets, whose own errors cancel
+constexpr std::uint32_t enoughSamples = 1024;  // of each of two sets, whose sampling noise cancels
 
-// One mesh alone before nothing, without skin or animation, under the default lights, focused far away.
+// A single static mesh without background, under the default lights, with the focus far away.
 struct Stand {
     World world;
     View view;
     PlacedCamera camera;
-    double depth = 0;  // m, of the mesh's centre
+    double depth = 0;  // m, depth of the mesh's centre
 };
 
-// Turns the mesh so that the camera sees it as the eye of a picture does.
+// Turns the mesh so that the camera sees it from the direction `towards`, as the prediction's pictures do.
 void turnTo(Stand& stand, const glm::dvec3& towards) {
     const Pyramid& pyramid = stand.world.pyramids[0];
     const Eye eye = eyeAlong(pyramid, towards, 1);
@@ -63,7 +63,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     const Finishes finishes(*scene);
     stand.world.pyramids = buildPyramids(scene->meshes, {.finishes = &finishes});
     if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels", frame.sceneName);
-    // A ball around the mesh fills the image, from whichever side it is seen.
+    // Frame the bounding sphere, so that the mesh fits the image from every side.
     const Bounds& bounds = stand.world.pyramids[0].bounds;
     const glm::dvec3 radius(0.5 * glm::length(bounds.size()));
     Pose ball = stand.world.pose;
@@ -82,7 +82,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     return stand;
 }
 
-// The f-number that blurs the mesh's centre by `coc` px.
+// Sets the f-number that blurs the mesh's centre by `coc` px.
 void blurBy(Stand& stand, double coc) {
     Lens& lens = stand.view.lens;
     const double aperture = coc * stand.depth * 2 * tanHalfHorizontalFov(lens) / stand.view.width;
@@ -105,7 +105,7 @@ FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level,
 
 using Views = std::vector<Image>;
 
-// From each of the directions that the prediction looks from.
+// Renders the level from each view direction of the prediction.
 Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uint32_t seed,
               const RendererOptions& options) {
     Views views;
@@ -120,14 +120,14 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     return views;
 }
 
-// Two sets of lens samples that have nothing in common.
+// Images with two independent sets of lens samples.
 using TwoSets = std::array<Views, 2>;
 
 TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& options) {
     return {viewsOf(stand, enoughSamples, level, 1, options), viewsOf(stand, enoughSamples, level, 2, options)};
 }
 
-// The mean light of what covers the images, and how much they cover, in pixels.
+// Mean light of the covered pixels, and the covered area in pixels.
 struct Light {
     double mean = 0;
     double cover = 0;
@@ -144,24 +144,25 @@ Light lightOf(const Views& views) {
     return light;
 }
 
-// Root mean square over the cover, in units of the mean light, of which no more is shown than shownWhite. What the two
-// sets of samples change is multiplied: the chance of each cancels, and what N → ∞ samples would leave remains.
-double renderedError(const TwoSets& truth, const TwoSets& level) {
-    const Light light = lightOf(truth[0]);
+// Returns the RMS error over the covered area, in units of the mean light and clamped at shownWhite times the mean
+// light. It multiplies the differences of both sample sets: their independent noise cancels, and the error of N → ∞
+// samples remains.
+double renderedError(const TwoSets& reference, const TwoSets& level) {
+    const Light light = lightOf(reference[0]);
     if (!(light.mean > 0)) return 0;
     const double white = shownWhite * light.mean;
     const auto change = [&](std::size_t set, std::size_t view, std::size_t i) {
         return std::min(double{level[set][view].pixels[i]}, white) -
-               std::min(double{truth[set][view].pixels[i]}, white);
+               std::min(double{reference[set][view].pixels[i]}, white);
     };
     double products = 0;
-    for (std::size_t view = 0; view < truth[0].size(); ++view)
-        for (std::size_t i = 0; i < truth[0][view].pixels.size(); ++i)
+    for (std::size_t view = 0; view < reference[0].size(); ++view)
+        for (std::size_t i = 0; i < reference[0][view].pixels.size(); ++i)
             if (i % 4 != 3) products += change(0, view, i) * change(1, view, i) / 3;
     return std::sqrt(std::max(products, 0.0) / light.cover) / light.mean;
 }
 
-// Of the squares over all patches.
+// Returns the root of the mean of `squared` over all patch sizes.
 template <typename Squared>
 double rootMean(const std::array<double, patchDepths>& sides, const Squared& squared) {
     double sum = 0;
@@ -187,7 +188,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         const double pixelsPerUnit = pixelsPerUnitAtCentre(plan.objects.front(), plan);
         const double finest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(512));
         const double coarsest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(16));
-        const TwoSets truth = twoSetsOf(stand, 0, options.renderer);
+        const TwoSets reference = twoSetsOf(stand, 0, options.renderer);
 
         PredictionRow row;
         row.mesh = stand.world.scene->meshes[0].name;
@@ -196,14 +197,14 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         row.predicted = rootMean(sides, [&](double side) { return squaredContrast(pyramid, side); }) *
                         expectedSampleError(fewSamples);
         const Views few = viewsOf(stand, fewSamples, 0, 0, options.renderer);
-        row.rendered = renderedError(truth, {few, few});
+        row.rendered = renderedError(reference, {few, few});
         row.used = true;
         visit(row);
         report(progress, "levels", ++done, total);
         for (row.level = 1; row.level < levels; ++row.level) {
             row.triangles = pyramid.levels[row.level].triangleCount;
             row.predicted = rootMean(sides, [&](double side) { return squaredError(pyramid, row.level, side); });
-            row.rendered = renderedError(truth, twoSetsOf(stand, row.level, options.renderer));
+            row.rendered = renderedError(reference, twoSetsOf(stand, row.level, options.renderer));
             row.used = row.level < coarsest + 1 && row.level > finest - 1;
             visit(row);
             report(progress, "levels", ++done, total);

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// How far the prediction is off, at least 1.
+// Returns the ratio between prediction and rendering, inverted if necessary to be ≥ 1.
 double factorOff(const PredictionRow& row) {
     return std::max(row.predicted / row.rendered, row.rendered / row.predicted);
 }

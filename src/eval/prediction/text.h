@@ -1,5 +1,5 @@
 #pragma once
-// Writes the rows of the prediction benchmark as a table for people, as CSV and as JSON.
+// Writes the rows of the prediction benchmark as a text table, CSV and JSON.
 
 #include <span>
 #include <string>
@@ -12,8 +12,8 @@ namespace defocus::engine {
 std::string predictionHeader();                        // two lines
 std::string predictionLine(const PredictionRow& row);  // one line
 
-// Says in a sentence how many of the levels that are used are predicted within a factor of two, how far off the worst
-// one is, and how far the mean.
+// Returns a sentence: how many of the used levels are predicted within a factor of two, and the worst and the mean
+// factor.
 std::string predictionSummary(std::span<const PredictionRow> rows);
 
 std::string predictionCsv(std::span<const PredictionRow> rows);

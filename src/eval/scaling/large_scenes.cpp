@@ -16,11 +16,11 @@ std::vector<LargeScene> largeScenes() {
 }
 
 LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions& options, const Progress& progress) {
-    giveBackFreedMemory();  // of the scene before
+    giveBackFreedMemory();  // memory of the previous scene
     LargeSceneRow row;
     row.scene = scene;
 
-    // The world.
+    // World and pyramids.
     const Clock::time_point begin = Clock::now();
     const ScalingWorld world =
         scene.instances ? gridOf(scene.objects, scene.trianglesPerObject, options.cacheFolder)
@@ -30,7 +30,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     for (const Object& object : world.world.pose.objects)
         row.triangles += world.world.pyramids[static_cast<std::size_t>(object.mesh)].levels.front().triangleCount;
 
-    // The plan, again and again.
+    // The plan, timed repeatedly.
     RenderSettings settings;
     settings.sampleCount = 8;
     FramePlan plan;
@@ -42,7 +42,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     }
     row.planMilliseconds = spreadOf(times);
 
-    // The first image, and the frame once all is in its place.
+    // The first image, then the frame with all resources ready.
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world.world, options.renderer);
     renderer->start(plan);

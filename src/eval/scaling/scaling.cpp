@@ -16,11 +16,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
-constexpr int gridTriangles = 500;        // of an instance
-constexpr int smallFactor = 40;           // by which the image shrinks for the work of vertices alone
-constexpr double bytesPerTriangle = 600;  // mesh, pyramid while it is made, and what the driver keeps
+constexpr int gridTriangles = 500;        // of each instance
+constexpr int smallFactor = 40;           // by which the image shrinks to leave only vertex work
+constexpr double bytesPerTriangle = 600;  // mesh, pyramid during construction, and the driver's copy
 constexpr double memoryShareMax = 0.8;
-constexpr double minMargin = 0.05;  // of the frame, between parts that are told apart
+constexpr double minMargin = 0.05;  // share of the frame by which two parts must differ to rank them
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -40,18 +40,19 @@ double milliseconds(Renderer& renderer, const FramePlan& plan) {
     return renderer.stats().renderMilliseconds;
 }
 
-// The frame in its three versions. Whole and empty frames share a renderer: targets and programs are made once.
+// The frame in its three versions. The complete and the empty frame share a renderer, so targets and programs are made
+// once.
 struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;
-    FramePlan whole, empty, small;
+    FramePlan complete, empty, small;
     ScalingTimes times;
 
     void run(bool counts) {
-        const double one[] = {milliseconds(*renderer, whole), milliseconds(*renderer, empty),
+        const double one[] = {milliseconds(*renderer, complete), milliseconds(*renderer, empty),
                               milliseconds(*smallRenderer, small)};
         if (!counts) return;
-        times.whole.push_back(one[0]);
+        times.complete.push_back(one[0]);
         times.layers.push_back(one[1]);
         times.vertices.push_back(one[2]);
     }
@@ -63,10 +64,10 @@ TimedMode timedMode(const ScalingWorld& world, const ScalingPoint& point, LodMod
     TimedMode timed;
     timed.renderer = method.make(world.world, options);
     timed.smallRenderer = method.make(world.world, options);
-    timed.whole = planOf(world, point, mode);
-    timed.empty = timed.whole;
+    timed.complete = planOf(world, point, mode);
+    timed.empty = timed.complete;
     timed.empty.objects.clear();
-    timed.small = timed.whole;
+    timed.small = timed.complete;
     timed.small.view.width = std::max(1, point.width / smallFactor);
     timed.small.view.height = std::max(1, point.height / smallFactor);
     return timed;
@@ -93,13 +94,13 @@ std::uint64_t pyramidBytes(const World& world) {
 ScalingRow rowOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode, const TimedMode& timed) {
     ScalingRow row;
     row.axis = point.axis;
-    row.value = point.axis == ScalingAxis::blur ? largestBlur(timed.whole) : point.value;
+    row.value = point.axis == ScalingAxis::blur ? largestBlur(timed.complete) : point.value;
     row.mode = mode;
-    row.samples = static_cast<std::uint32_t>(timed.whole.samples.size());
+    row.samples = static_cast<std::uint32_t>(timed.complete.samples.size());
     row.width = point.width;
     row.height = point.height;
     setTimes(row, timed.times);
-    row.triangles = timed.whole.trianglesDrawn;
+    row.triangles = timed.complete.trianglesDrawn;
     row.gpuBytes = timed.renderer->stats().peakBytes;
     row.pyramidBytes = pyramidBytes(world.world);
     return row;
@@ -119,7 +120,7 @@ bool sameWorld(const ScalingPoint& a, const ScalingPoint& b) {
     return a.triangles == b.triangles && a.instances == b.instances;
 }
 
-// Why this machine can't hold the point; empty where it can.
+// Returns why this machine can't hold the point; empty if it can.
 std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     const double needed = bytesPerTriangle * static_cast<double>(point.triangles);
     const double max = memoryShareMax * static_cast<double>(machine.memoryBytes);
@@ -127,28 +128,28 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("{:.0f} GB of main memory needed, about", needed / 1e9);
 }
 
-// The world of the point before, which the next may share.
+// The last measured point and its world, which the next point may share.
 struct Subject {
     Machine machine;
     ScalingPoint point;
     std::unique_ptr<ScalingWorld> world;
 };
 
-// Empty once the point is measured.
+// Measures the point. Returns why it could not; empty on success.
 std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);
     if (!reason.empty()) return reason;
     try {
         if (!subject.world || !sameWorld(point, subject.point)) {
-            subject.world.reset();  // before the next is made: both may not fit
+            subject.world.reset();  // freed first: two worlds may not fit
             subject.world = std::make_unique<ScalingWorld>(
                 point.instances > 0 ? gridOf(point.instances, gridTriangles, options.cacheFolder)
                                     : schoolOf(point.triangles, options.cacheFolder, progress));
             subject.point = point;
         }
         measurePoint(*subject.world, point, options, visitor);
-    } catch (const Error& error) {  // graphics memory
+    } catch (const Error& error) {  // out of graphics memory
         reason = error.what();
     } catch (const std::bad_alloc&) {
         reason = "main memory is exhausted";
@@ -238,10 +239,10 @@ std::vector<ScalingPart> ScalingRow::largestParts() const {
 
 void setTimes(ScalingRow& row, const ScalingTimes& times) {
     std::vector<double> fill;
-    for (std::size_t i = 0; i < times.whole.size(); ++i)
-        fill.push_back(std::max(0.0, times.whole[i] - times.layers[i] - times.vertices[i]));
-    row.runs = static_cast<int>(times.whole.size());
-    row.milliseconds = spreadOf(times.whole);
+    for (std::size_t i = 0; i < times.complete.size(); ++i)
+        fill.push_back(std::max(0.0, times.complete[i] - times.layers[i] - times.vertices[i]));
+    row.runs = static_cast<int>(times.complete.size());
+    row.milliseconds = spreadOf(times.complete);
     row.layers = spreadOf(times.layers);
     row.vertices = spreadOf(times.vertices);
     row.fill = spreadOf(fill);

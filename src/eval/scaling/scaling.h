@@ -1,14 +1,14 @@
 #pragma once
 // Measures how the time and the memory of a frame grow with triangles, instances, lens samples, pixels and blur, one at
-// a time, at full detail and with fractional levels. It also tells what bounds the time.
+// a time, at full detail and with fractional levels. Also finds the part of the work that bounds the time.
 //
-// Each frame is timed in three versions. The first is the whole frame. The second draws nothing, which leaves clearing
-// and adding the layers. The third draws the same levels into an image of 1/40 the width and height, which leaves the
-// work for each vertex and triangle. The rest of the whole frame is fill, the work for each pixel of a surface. On a
-// GPU these parts overlap, so they say what bounds a frame, not what each part costs.
+// Each frame is timed in three versions. The first is the complete frame. The second draws nothing, which leaves
+// clearing and adding the layers. The third draws the same levels into an image of 1/40 the width and height, which
+// leaves the work for each vertex and triangle. The rest of the complete frame is fill, the work for each pixel of a
+// surface. On a GPU these parts overlap, so they show what bounds a frame, not what each part costs.
 //
 // Held equal along an axis: everything that the axis doesn't name (see scalingPoints), and the process. Runs alternate
-// between modes. Times are medians of wall-clock times between finished frames, after one frame that doesn't count.
+// between modes. Times are medians of wall-clock times between finished frames, after one untimed frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -65,28 +65,29 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // what the axis counts; px for blur
+    double value = 0;  // value on the axis; px for blur
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;
     int height = 0;
     int runs = 0;
-    Spread milliseconds;             // the whole frame
+    Spread milliseconds;             // the complete frame
     Spread layers;                   // ms
     Spread vertices;                 // ms
     Spread fill;                     // ms; the rest of each run, ≥ 0
     std::uint64_t triangles = 0;     // drawn, over all samples
-    std::uint64_t gpuBytes = 0;      // the most that the renderer's resources took
+    std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels
 
-    // Returns the part with the largest median, and those that can't be told from it: their spreads touch, or their
-    // medians differ by less than a twentieth of the frame. They have the order of ScalingPart.
+    // Returns the part with the largest median and the parts that are too close to it to rank. Two parts are too close
+    // if their spreads touch or their medians differ by less than a twentieth of the frame. The order is that of
+    // ScalingPart.
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
-// The times of a frame's runs in its three versions, ms. There are equally many of each.
+// The times of a frame's runs in its three versions, ms. The three vectors have the same size.
 struct ScalingTimes {
-    std::vector<double> whole;
+    std::vector<double> complete;
     std::vector<double> layers;    // nothing drawn
     std::vector<double> vertices;  // drawn into a small image
 };
@@ -96,10 +97,10 @@ void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;  // points that memory didn't allow
+    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;  // points that don't fit in memory
 };
 
-// Needs a current GL context.
+// Measures all points of the axes. Needs a current GL context.
 void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor, const Progress& progress = {});
 
 // The fit y ≈ factor · x^exponent by least squares of the logarithms.
@@ -109,8 +110,8 @@ struct PowerLaw {
     std::size_t points = 0;
 };
 
-// Fits the upper half of the points, those whose x is at least the geometric mean of the least and the largest x.
-// Returns nothing if they have fewer than two different x. All values must be > 0.
+// Fits the upper half of the points: x at or above the geometric mean of the min and max x. Returns nothing if these
+// points have fewer than two different x. All values must be > 0.
 std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>> points);
 
 }  // namespace defocus::engine

@@ -1,6 +1,5 @@
 #pragma once
-// Writes the rows of the scaling benchmark, with the exponents fitted to them, as a table for people, as CSV and as
-// JSON.
+// Writes the rows of the scaling benchmark and the exponents fitted to them as a text table, CSV and JSON.
 
 #include <span>
 #include <string>
@@ -15,11 +14,11 @@ namespace defocus::engine {
 std::string scalingHeader();                     // two lines
 std::string scalingLine(const ScalingRow& row);  // one line
 
-// Gives the exponent of the time along each axis, and what bounds the frame there, in sentences.
+// Returns a line for each axis and mode: the fitted exponents of time and memory, and the parts that bound the frame.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Describes the largest parts of the rows of one axis and mode, in their order, such as "fill up to 300 k, vertex work
-// and fill alike from 1 M".
+// Returns the largest parts along the rows of one axis and mode, such as "fill up to 300 k, vertex work and fill alike
+// from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

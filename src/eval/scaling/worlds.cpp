@@ -15,9 +15,9 @@ namespace {
 constexpr int fishCount = 8;
 constexpr double gridNear = 2;     // m
 constexpr double gridFar = 6;      // m
-constexpr double gridWidth = 0.8;  // of the view at each depth
+constexpr double gridWidth = 0.8;  // share of the view's width at each depth
 
-// The school's camera, lens, lights and surroundings; no objects' pyramids yet.
+// Sets the school's camera, lens, lights and environment. The caller adds the pyramids.
 void surround(ScalingWorld& result) {
     const Scene& scene = *result.scene;
     World& world = result.world;
@@ -64,7 +64,7 @@ ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& c
     surround(result);
     result.world.pyramids = cachedPyramids(result.scene->meshes, cacheFolder).pyramids;
 
-    // Cells of the view's pyramid, front layer first, each with a fish in its middle.
+    // Cells of the view frustum, front layer first, each with a fish at its centre.
     const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(instances) - 1e-9)));
     const Bounds& box = result.world.pyramids.front().bounds;
     const double extent = std::max({box.size().x, box.size().y, box.size().z});

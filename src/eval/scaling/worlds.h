@@ -1,5 +1,5 @@
 #pragma once
-// Makes the scenes of the scaling benchmark, so that one number at a time can grow while the rest stays.
+// Makes the scenes of the scaling benchmark, in which one number at a time grows and the others stay constant.
 
 #include <filesystem>
 #include <memory>
@@ -16,17 +16,17 @@ struct ScalingWorld {
     View view;  // the school's own camera, 640 × 480 px
 };
 
-// Returns the first eight fish of the built-in school with about `triangles` in all (1,600 … 80,000,000). Shapes and
-// places don't depend on the number of triangles. Pyramids are kept in `cacheFolder`, unless it is empty.
+// Returns the first eight fish of the built-in school with about `triangles` in total (1,600 … 80,000,000). Shapes and
+// positions don't depend on the number of triangles. Pyramids are cached in `cacheFolder`, unless it is empty.
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress = {});
 
-// Returns `count` fish of the built-in school with about `triangles` each, every one with a mesh of its own.
+// Returns `count` fish of the built-in school, each with a mesh of its own of about `triangles` triangles.
 ScalingWorld differentFish(int count, int triangles, const std::filesystem::path& cacheFolder,
                            const Progress& progress = {});
 
-// Returns `instances` copies of one fish of about `triangles`, before the same camera. They stand on a grid with as
-// many columns and rows as layers behind each other, which always fills the same part of the view. Each fish is as
-// large as its cell, so a fish covers fewer pixels as their number grows, and a layer covers about as many as before.
+// Returns `instances` copies of one fish of about `triangles` before the same camera. The copies form a cubic grid that
+// always fills the same part of the view. Each fish is as large as its cell: as the number of fish grows, each covers
+// fewer pixels, and a layer of the grid covers about the same area.
 ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& cacheFolder);
 
 }  // namespace defocus::engine

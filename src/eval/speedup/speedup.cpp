@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // samples of the reference, unless told, over the most measured with it
+constexpr std::uint32_t referenceFactor = 8;  // default: reference samples per max measured samples
 
 struct Setting {
     const char* sweep;
@@ -56,14 +56,14 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
-// Of the setting's lens; that of the setting before where it has the same.
+// Renders the reference for a setting's lens, and reuses it while consecutive settings have the same lens.
 class References {
 public:
     References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
                const Progress& progress)
         : world_(world), settings_(settings), options_(options), progress_(progress) {}
 
-    // Null where none is asked for.
+    // Returns null if no reference is requested.
     const ReferenceImage* of(const Setting& setting) {
         const std::uint32_t samples = referenceSamplesOf(setting, settings_, options_);
         if (samples == 0) return nullptr;
@@ -88,24 +88,25 @@ struct SpeedupSubject {
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // of the same form
+    const SpeedupSubject* fullDetail = nullptr;  // full detail of the same form
     std::unique_ptr<Renderer> renderer;
     std::vector<FramePlan> plans;  // of the seeds
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
-    double setupMilliseconds = 0;           // of the renderer, once
-    Image image;                            // of the first seed
+    double setupMilliseconds = 0;           // set-up of the renderer, once
+    Image image;                            // image of the first seed
     std::vector<Difference> fromReference;  // of the seeds
 };
 
-// Ray tracers have the meshes as they were read, and post-process methods draw pinholes, for which blur is no excuse.
+// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes. Post-process methods start
+// from a sharp image, in which no blur hides a coarse level.
 bool followsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
 
-// In the order in which the rows come; what belongs to a row follows it.
+// Returns the subjects in row order; the parts of a row (size only, blur only) follow it.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
-    std::deque<SpeedupSubject> subjects;  // their places stay
+    std::deque<SpeedupSubject> subjects;  // a deque keeps pointers to its elements valid
     const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, LodCause cause) {
         SpeedupSubject& subject = subjects.emplace_back();
         subject.form = &form;
@@ -137,7 +138,7 @@ FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uin
     return planFrame(*subject.form->world, setting.view, settings);
 }
 
-// Shaders, uploads and the driver's own caches are ready before anything is timed.
+// Plans all seeds, sets up the renderer and draws an untimed frame, which fills the driver's caches.
 void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, RendererOptions options) {
     for (int seed = 0; seed < seeds; ++seed) subject.plans.push_back(planOf(subject, setting, setting.samples, seed));
     const Clock::time_point begin = Clock::now();
@@ -148,7 +149,7 @@ void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, Rendere
     finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-// Run `number`, of one seed after the other.
+// Draws and times run `number`; the seeds take turns.
 void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
     finish(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();
@@ -171,7 +172,7 @@ Difference meanOf(const std::vector<Difference>& differences) {
     }
     const auto count = static_cast<double>(differences.size());
     mean.rmse = std::sqrt(mse / count);
-    mean.psnr = -20 * std::log10(mean.rmse);  // of 0: infinity
+    mean.psnr = -20 * std::log10(mean.rmse);  // infinity for an RMSE of 0
     mean.ssim = ssim / count;
     mean.flip = flip / count;
     return mean;
@@ -213,7 +214,7 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     return row;
 }
 
-// Hands out a row for each subject that isn't part of another's.
+// Visits a row for each subject; size-only and blur-only subjects become parts of the row before them.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the rows of the speed-up benchmark as a table for people, as CSV and as JSON.
+// Writes the rows of the speed-up benchmark as a text table, CSV and JSON.
 
 #include <span>
 #include <string>

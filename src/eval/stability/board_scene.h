@@ -24,7 +24,7 @@ View boardView(int width = 96, int height = 64);
 struct BoardScene {
     BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
 
-    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the world's
+    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the scene that `world` points to
     World world;
     View view;
     RenderSettings settings;  // full detail, everything kept
@@ -41,26 +41,26 @@ Board squareAt(const View& view, double depth, double pixels, const glm::vec3& r
 // Returns three boards: in front of the focus at depth `nearest`, in focus at 2 m, and behind it at depth `farthest`.
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
-// Returns the largest difference of any channel of any pixel, linear. The images must have the same size. The result is
-// infinite if one of them has a value that isn't finite.
+// Returns the largest linear difference over all pixels and channels. The images must have the same size. The result is
+// infinite if a value of either image isn't finite.
 double largestError(const Image& a, const Image& b);
 
-// Computes the diameter of the blur in px, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double and from the lens alone.
+// Returns the blur diameter in px, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), computed in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 
 // The errors of a light made by squareAt against the closed form. The diameter of its disk comes from the second
 // moment.
 struct BlurredLight {
     double diameterError = 0;  // px
-    double placeError = 0;     // px, of the disk's centre
+    double placeError = 0;     // px, distance of the disk's centre from the exact one
 };
 
-// The arguments that squareAt took for the light, and the channel of the image to measure. The channel must show
-// nothing else near the disk.
+// The light's arguments of squareAt, and the image channel to measure. Near the disk, the channel must show only this
+// light.
 struct LightPlace {
     double depth = 6;      // m
-    double pixels = 3;     // wide
-    glm::dvec2 offset{0};  // px from the image's middle (right, up)
+    double pixels = 3;     // width, px
+    glm::dvec2 offset{0};  // px from the image's centre (right, up)
     int channel = 0;
 };
 BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light);

@@ -1,5 +1,5 @@
-// Edges under blurs that leave nothing of them in focus: a straight edge through the image, as the disk's area on its
-// side.
+// Straight edges under extreme blur. The closed form of their profile is the area of the blur disk on one side of the
+// edge.
 
 #include <algorithm>
 #include <cmath>
@@ -14,25 +14,26 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double edgeTurn = 0.5;   // of the edge about the image's middle, radians: neither rows nor columns
-constexpr double edgeOffset = 10;  // of the edge from the image's middle, px
+constexpr double edgeTurn = 0.5;   // radians, rotation about the image's centre; aligned with neither rows nor columns
+constexpr double edgeOffset = 10;  // px, distance from the image's centre
 constexpr std::uint32_t edgeSamples = 4096;
 
-// A half plane whose edge crosses the image, before a wall; both of one colour.
+// A half plane whose edge crosses the image, before a wall. Each has a uniform colour.
 struct Edge {
     View view;
     double depth = 3;   // m
     double wall = 1e7;  // m
 };
 
-// The share of a disk of diameter `diameter` that lies on one side of a line, `distance` from its centre into it.
+// Returns the share of a disk of diameter `diameter` that lies on one side of a line. `distance` is the centre's signed
+// distance from the line, positive on that side.
 double diskShare(double distance, double diameter) {
     const double x = std::clamp(2 * distance / diameter, -1.0, 1.0);
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// The largest error of a pixel. Light on its way to the wall passes the half plane's depth in the same disk, so the
-// wall is hidden by as much as the half plane shows.
+// Returns the largest error of a pixel. Rays to the wall cross the half plane's depth within the same disk, so the
+// visible shares of wall and half plane add up to 1.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
     const glm::dvec3 near(0.9, 0.5, 0.1);
@@ -46,15 +47,15 @@ double edgeError(const Edge& edge) {
         glm::translate(turned, glm::dvec3(edgeOffset * pixel - half, 0, -edge.depth)), glm::dvec3(half, half, 1));
 
     const Image image = rendered(boards);
-    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // out of the half plane; up
+    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // points out of the half plane; y is up
     const double diameter = blurDiameter(view, edge.depth);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const glm::dvec2 place(x + 0.5 - 0.5 * image.width, 0.5 * image.height - y - 0.5);
-            const glm::dvec3 truth = glm::mix(far, near, diskShare(edgeOffset - glm::dot(normal, place), diameter));
+            const glm::dvec3 expected = glm::mix(far, near, diskShare(edgeOffset - glm::dot(normal, place), diameter));
             for (int c = 0; c < 3; ++c)
-                largest = std::max(largest, std::abs(static_cast<double>(image.at(x, y)[c]) - truth[c]));
+                largest = std::max(largest, std::abs(static_cast<double>(image.at(x, y)[c]) - expected[c]));
         }
     return largest;
 }
@@ -66,7 +67,7 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// The edge at 0.02 m, the wall at 2,000 km, and the focus where both are blurred.
+// Returns an edge at 0.02 m before a wall at 2,000 km, with a focus that blurs both.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

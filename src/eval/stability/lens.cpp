@@ -1,4 +1,5 @@
-// Lenses at their limits: what is blurred, and by how much.
+// Lenses at their limits: blur diameter and position for extreme apertures, focus distances, fields of view and image
+// sizes.
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double pixelLimit = 0.5;  // of a diameter, px
+constexpr double pixelLimit = 0.5;  // max error of a diameter, px
 constexpr double placeLimit = 0.1;  // px
 constexpr std::uint32_t manySamples = 1024;
 struct LensSetting {
@@ -27,7 +28,7 @@ struct LensSetting {
     int width = 96;            // px; 64 high
 };
 
-// The diameter of a point's disk by its second moment against the formula, px.
+// Returns the error, in px, of a point's blur diameter from its second moment, against the formula.
 double diameterError(const LensSetting& setting) {
     View view = boardView(setting.width, 64);
     view.lens.fStop = setting.fStop;
@@ -39,7 +40,8 @@ double diameterError(const LensSetting& setting) {
     return std::abs(measured - blurDiameter(view, setting.depth));
 }
 
-// Aperture zero by each way to say it, against no depth of field at all.
+// Returns the largest difference between a lens of zero aperture, by f-number or blur scale, and disabled depth of
+// field.
 double pinholeError(double fStop, double blurScale) {
     View view = boardView();
     view.lens.fStop = fStop;
@@ -59,7 +61,7 @@ double farFocusError() {
     return largestError(image, rendered(boards));
 }
 
-// A light near the image's corner, blurred, for a field of view in degrees.
+// Returns the errors of a blurred light near the image's corner. `fieldOfView` is in degrees.
 BlurredLight lightInField(double fieldOfView) {
     View view = boardView(192, 128);
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(fieldOfView * std::acos(-1.0) / 360));
@@ -70,11 +72,11 @@ BlurredLight lightInField(double fieldOfView) {
     return blurredLight(rendered(boards), view, {.depth = 5, .offset = place});
 }
 
-// Lights in the image's corners, along its edges and in its middle: the largest error of any.
+// Returns the largest errors of lights in the image's corners, along its edges and at its centre.
 BlurredLight lightsInLargeImage(int width, int height) {
     View view = boardView(width, height);
     setBlur(view, 6, 10);
-    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px; the disks just fit in
+    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px; the disks just fit into the image
     std::vector<Board> lights;
     std::vector<glm::dvec2> places;
     for (const double up : {-1.0, 0.0, 1.0})
@@ -94,7 +96,7 @@ BlurredLight lightsInLargeImage(int width, int height) {
     return largest;
 }
 
-// What two rows share.
+// Returns a function that measures the light on the first call and caches the result, so that two rows can share it.
 std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
     return [light, known = std::make_shared<std::optional<BlurredLight>>()] {
         if (!*known) *known = light();
@@ -105,9 +107,9 @@ std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& 
 }  // namespace
 
 void addLensCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"lens", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"lens", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const auto addDiameter = [&](std::string name, const LensSetting& setting) {
         add(std::move(name), "disk diameter, px", "closed form", pixelLimit,

@@ -1,7 +1,7 @@
 #pragma once
 // Tests whether the blur follows the lens and nothing else. It compares the diameter and the energy of a blurred point
-// of light with the formula, while one thing at a time changes: f-number, focus distance, depth, sensor, lens samples,
-// resolution, or a setting of the method.
+// of light with the formula, while one parameter at a time changes: f-number, focus distance, depth, sensor, lens
+// samples, resolution, or a setting of the method.
 
 #include <functional>
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace defocus::engine {
 
-inline constexpr double honestDiameter = 0.5;  // px by which a disk that follows the lens may be off
-// The share of the sharp light's energy by which a disk may be off. If each pixel has 256 samples of its own, their
-// noise is 0.02 of it.
+inline constexpr double honestDiameter = 0.5;  // px, max diameter error of a disk that follows the lens
+// Max energy error of a disk that follows the lens, as a share of the sharp light's energy. Noise alone is 0.02 for
+// methods with 256 independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
@@ -22,17 +22,17 @@ struct HonestyRow {
     double expected = 0;       // px, the diameter by the formula
     double measured = 0;       // px, the diameter by the second moment
     double energy = 0;         // as a share of the sharp light's
-    std::string leftOut = {};  // why this driver can't draw it, with no figures; empty if it can
+    std::string leftOut = {};  // why this driver can't draw it; the figures are then unset
     [[nodiscard]] bool followsLens() const;
 };
 
-// Returns every method of the table with its defaults. After each come variants in which one setting has another of its
-// choices, or the largest value that it takes.
+// Returns every method of the table with its defaults, each followed by its variants. A variant sets one setting to
+// another choice or to its max value.
 std::vector<std::string> honestyMethods();
 
-// Measures all rows of each method. The light is a square of 3 px on a black wall at its depth. The measured diameter
-// is that of a uniform disk with the same second moment as the image. A method that the driver can't draw has one row,
-// which says why. Needs a current GL context.
+// Measures all rows of each method. The light is a square of 3 px on a black wall at the same depth. The measured
+// diameter is that of a uniform disk with the same second moment as the image. A method that the driver can't draw has
+// one row with the reason. Needs a current GL context.
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// Meshes that simplifiers stumble over.
+// Meshes that are hard to simplify: flat, huge, tiny, sliver and degenerate grids.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// A grid of cells × cells over the square [0, width] × [0, height], plus triangles that are none or hardly any.
+// Returns a flat grid of `cells` × `cells` quads over [0, width] × [0, height].
 Mesh gridMesh(int cells, float width, float height) {
     Mesh mesh;
     for (int y = 0; y <= cells; ++y)
@@ -32,7 +32,8 @@ Mesh gridMesh(int cells, float width, float height) {
     return mesh;
 }
 
-// Over all levels: how much of the area is lost, relative, and how far vertices leave the plane, in sides.
+// Returns the max over all levels of the relative area error and of the vertices' distance from the plane in units of
+// `side`.
 double flatError(const Mesh& mesh, double area, double side) {
     const Pyramid pyramid = buildPyramid(mesh);
     double largest = 0;
@@ -55,11 +56,11 @@ double flatError(const Mesh& mesh, double area, double side) {
     return largest;
 }
 
-// A grid beset with triangles of zero area and needles along its diagonals.
+// Returns a grid with additional degenerate triangles: repeated indices and collinear corners.
 Mesh besetGrid() {
     Mesh mesh = gridMesh(24, 1, 1);
     auto& indices = mesh.primitives[0].indices;
-    for (std::uint32_t i = 0; i < 100; ++i) indices.insert(indices.end(), {i, i, i + 1});     // no area
+    for (std::uint32_t i = 0; i < 100; ++i) indices.insert(indices.end(), {i, i, i + 1});     // repeated index
     for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear
     return mesh;
 }
@@ -67,16 +68,17 @@ Mesh besetGrid() {
 }  // namespace
 
 void addLevelCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"levels", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"levels", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     add("flat grid", "area or height, relative", "the plane", 1e-5, [] { return flatError(gridMesh(64, 1, 1), 1, 1); });
     add("flat grid of 1e6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e6f, 1e6f), 1e12, 1e6); });
     add("flat grid of 1e-6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e-6f, 1e-6f), 1e-12, 1e-6); });
-    for (const float side : {0.1f, 0.7f})  // whose corners are rounded
+    for (const float side : {0.1f, 0.7f})  // coordinates that a float rounds
         add(fmt::format("flat grid of {:g} m", side), "area or height, relative", "the plane", 1e-5, [side] {
             const double exact = static_cast<double>(side);
             return flatError(gridMesh(64, side, side), exact * exact, exact);

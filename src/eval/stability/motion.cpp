@@ -1,4 +1,4 @@
-// Motion that one straight line between the shutter's opening and closing does not follow.
+// Motion that a single straight segment between the shutter's opening and closing cannot follow.
 
 #include <cmath>
 #include <functional>
@@ -14,15 +14,14 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t movingSamples = 1024;
-constexpr double halfSide = 8;  // px, of a white square before black
-constexpr double way = 40;      // px, from one end to the other
+constexpr double halfSide = 8;  // px, of a white square on black
+constexpr double way = 40;      // px, length of the path
 constexpr double squareDepth = 4;
 
-// A square and where it is during the exposure: its matrix from the one that it has in the image's middle, by time in
-// [0, 1].
+// Returns the square's matrix at `time` ∈ [0, 1] of the exposure, given its matrix `middle` at the image's centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
-Image movedSquare(const Path& path, int segments) {  // 0: a pose of its own for each sample
+Image movedSquare(const Path& path, int segments) {  // 0: one pose per sample
     View view = boardView(128, 64);
     view.lens.dofEnabled = false;
     BoardScene square(view, {squareAt(view, squareDepth, 2 * halfSide, glm::vec3(1))});
@@ -40,7 +39,7 @@ Image movedSquare(const Path& path, int segments) {  // 0: a pose of its own for
     return rendered(square);
 }
 
-// To and fro `turns` times, at an even speed.
+// Returns a path that goes to and fro `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);
@@ -51,7 +50,8 @@ Path toAndFro(int turns) {
     };
 }
 
-// Each column is covered while |x − place| < halfSide, and every place between the ends takes as long: a trapezoid.
+// Returns the largest error of the middle row against a trapezoid. The square covers a column while |x − position| <
+// halfSide, and its position is uniformly distributed over the path.
 double trapezoidError(const Image& image) {
     double largest = 0;
     for (int x = 0; x < image.width; ++x) {
@@ -64,7 +64,8 @@ double trapezoidError(const Image& image) {
     return largest;
 }
 
-// Many whole turns about its middle: a point at radius r is outside of each side for 2·acos(a/r) of a turn.
+// Returns the RMSE of a square that spins 20 turns about its centre. A point at radius r is outside each side for an
+// angle of 2·acos(halfSide/r) of a turn.
 double spinError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {
@@ -83,7 +84,7 @@ double spinError() {
     return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
 }
 
-// Through the camera to behind it, and back: what is before the camera is finite, and no more than white.
+// Returns the number of values outside [0, 1] for a square that moves through the camera and back.
 double throughCameraError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {
@@ -99,9 +100,10 @@ double throughCameraError() {
 }  // namespace
 
 void addMotionCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"motion", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"motion", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const auto addPath = [&](std::string name, int turns, int segments, double limit) {
         add(std::move(name), "largest difference", "closed form", limit,

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Everything `scale` times as large, the aperture too.
+// Returns the RMSE between a scene and the same scene scaled by `scale`, aperture included.
 double scaleError(double scale) {
     const View view = boardView();
     BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));
@@ -27,7 +27,7 @@ double scaleError(double scale) {
     return compareImages(image, rendered(boards)).rmse;
 }
 
-// The same scene and camera far from the origin: how far a board's centre moves, px.
+// Returns by how many px a board's centre moves if scene and camera are `distance` m from the origin.
 double distanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene boards(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
@@ -40,14 +40,14 @@ double distanceError(double distance) {
     return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
 }
 
-// A board whose vertices lie `distance` from its node's origin: how far its centre moves at most, px, while the camera
-// goes on by half millimetres.
+// Returns the max error, in px, of the centre of a board whose vertices lie `distance` m from its node's origin. The
+// camera moves in steps of 0.5 mm.
 double ownDistanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene near(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     BoardScene far(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     glm::dmat4& worldFromObject = far.world.pose.objects[0].worldFromObject;
-    // In units of the mesh, whose corners stay what they are up to 2²³.
+    // In mesh units; integer offsets up to 2²³ keep the corners exact in floats.
     const glm::vec3 offset(
         glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
     for (glm::vec3& position : far.scene->meshes[0].vertices.positions) position += offset;
@@ -66,7 +66,8 @@ double ownDistanceError(double distance) {
     return largest;
 }
 
-// A floor as one board that runs from behind the camera to 40 m, and the same floor from the near plane on.
+// Returns the largest difference between a floor from behind the camera to 40 m and the same floor cut at the near
+// plane.
 double cameraPlaneError() {
     const View view = boardView();
     const auto floorFrom = [&](double nearest) {
@@ -80,7 +81,8 @@ double cameraPlaneError() {
     return largestError(floorFrom(-25), floorFrom(view.nearPlane));
 }
 
-// Boards at 0.02 m and at 2,000 km, and one just before the far one, all sharp: each hides what lies behind it.
+// Returns the largest error of sharp boards at 0.02 m, 1,990 km and 2,000 km, each of which must hide the boards behind
+// it.
 double depthRatioError() {
     View view = boardView();
     view.lens.dofEnabled = false;
@@ -100,7 +102,7 @@ double depthRatioError() {
     return largest;
 }
 
-// A light at 0.02 m and one at 2,000 km, both blurred: red alone shows the one, blue alone the other.
+// Returns the errors of the light at `depth`, for a red light at 0.02 m and a blue one at 2,000 km, both blurred.
 BlurredLight lightAt(double depth) {
     View view = boardView(192, 128);
     view.lens.focusDistance = 0.035;
@@ -118,9 +120,9 @@ BlurredLight lightAt(double depth) {
 }  // namespace
 
 void addSpaceCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"space", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"space", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     for (const double scale : {1e-4, 1e-2, 1e3, 1e6})
         add(fmt::format("everything {:g} times as large", scale), "RMSE", "the scene at scale 1", 1e-3,

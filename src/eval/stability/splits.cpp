@@ -1,4 +1,4 @@
-// λ at integers, and where a sample changes its level: what moves is one sample at most, in the split and in the
+// λ near integers and near sample boundaries: a tiny change of λ moves at most one sample, in the split and in the
 // image.
 
 #include <fmt/format.h>
@@ -15,11 +15,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double nudge = 1e-6;                 // of λ
-constexpr double oneSample = 1 + 1e-4;         // of an image in 32-bit floats
-constexpr std::uint32_t renderedSamples = 60;  // not a multiple of a wave
+constexpr double nudge = 1e-6;                 // small change of λ
+constexpr double oneSample = 1 + 1e-4;         // limit for an image of 32-bit floats
+constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the wave size
 
-// Samples drawn at another level when λ passes the integer `level`.
+// Returns the number of samples that change their level when λ passes the integer `level`.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {
         const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
@@ -36,7 +36,7 @@ double splitError(double level, std::uint32_t samples) {
 
 // ---- a ball ---------------------------------------------------------------------------------------------------------
 
-// Of radius 1, of rings of quads; its levels have other silhouettes.
+// Returns a unit sphere of rings of quads, whose levels differ in their silhouettes.
 Mesh ballMesh() {
     constexpr std::uint32_t rings = 20;
     constexpr std::uint32_t sides = 40;
@@ -60,7 +60,7 @@ Mesh ballMesh() {
     return mesh;
 }
 
-// White before black: a pixel of a sample is 0 or 1.
+// A white ball on black, so that a pixel of one sample is 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
         scene->meshes[0] = ballMesh();
@@ -71,7 +71,7 @@ struct Ball : BoardScene {
     }
 };
 
-// As the threshold on the edges' size asks for λ; NaN where that isn't what comes of it.
+// Renders the ball with the size threshold that yields `lambda`. Returns an empty image if the plan has another λ.
 Image imageAt(Ball& ball, double lambda, LodMode mode) {
     const std::vector<PyramidLevel>& levels = ball.world.pyramids[0].levels;
     const auto level = static_cast<std::size_t>(lambda);
@@ -85,7 +85,7 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// The largest change of a pixel when λ goes from one value to another, in samples: each may change it by 1/N.
+// Returns the largest change of a pixel between two values of λ, in samples; one sample changes a pixel by up to 1/N.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);
@@ -108,7 +108,7 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const char* name = lodModeName(mode);
-        // Where sample 21 becomes coarse, or begins to.
+        // λ at which sample 21 becomes coarse (fractional) or starts to (continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
             add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,

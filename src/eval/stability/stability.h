@@ -1,7 +1,6 @@
 #pragma once
-// Measures numerically stiff and extreme cases. Each case says what is measured, against which truth, and how large the
-// error may be; the limit stands in the code before anything is measured. The benchmark prints the cases, and a test
-// holds them to their limits.
+// Measures numerically stiff and extreme cases. Each case names the measured error, the reference and the max error,
+// which is fixed in advance. The benchmark prints the cases, and a test checks their limits.
 
 #include <functional>
 #include <limits>
@@ -15,23 +14,23 @@ namespace defocus::engine {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
-    std::string area;      // "sums", "lens", "motion", "space", "values", "levels", "traced"
-    std::string name;      // what makes it stiff or extreme
-    std::string measured;  // what the error measures, with its unit
-    std::string truth;     // "closed form", "double sum", …
-    double limit = 0;      // the largest error that passes; infinity if the case is for comparison only
+    std::string area;       // "sums", "lens", "motion", "space", "values", "levels", "traced"
+    std::string name;       // what makes it stiff or extreme
+    std::string measured;   // what the error measures, with its unit
+    std::string reference;  // "closed form", "double sum", …
+    double limit = 0;       // the largest error that passes; infinity if the case is for comparison only
     std::function<double()> error;
-    std::string method = {};  // the method that the truth comes from, of the table of methods; empty if there is none
+    std::string method = {};  // method that renders the reference; empty if none does
 };
 
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // true if this program doesn't have the method that the truth comes from
+    bool leftOut = false;  // true if this program lacks the reference's method
     [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN fails
 };
 
-// Measuring the cases needs a current GL context.
+// Returns all cases. Calling their `error` needs a current GL context.
 std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});

@@ -1,4 +1,4 @@
-// Sums of many samples, and what layers round.
+// Sums of many samples, and the rounding of layers.
 
 #include <fmt/format.h>
 
@@ -14,36 +14,36 @@ namespace defocus::engine {
 namespace {
 
 constexpr double sumLimit = 1e-6;              // relative to a double sum of the same layers
-constexpr double halfLimit = 0x1p-11 * 1.001;  // a half float's rounding
+constexpr double halfLimit = 0x1p-11 * 1.001;  // rounding error of a half float
 constexpr double comparison = std::numeric_limits<double>::infinity();
 
 const RendererOptions exactLayers = {
     .layerFormat = LayerFormat::rgba32f, .wave = 0, .shaderFolder = {}, .settings = {}};
 
-// A wall of one radiance, in and out of focus alike, at 12 × 8 px.
+// Returns an image of 12 × 8 px of a wall with uniform radiance, which blur doesn't change.
 Image wall(const glm::vec3& radiance, std::uint32_t samples, const RendererOptions& options) {
     BoardScene boards(boardView(12, 8), {{4, {0, 0}, {40, 40}, radiance}});
     boards.settings.sampleCount = samples;
     return rendered(boards, "accumulation", options);
 }
 
-double largestRelativeError(const Image& image, const glm::dvec3& truth) {
+double largestRelativeError(const Image& image, const glm::dvec3& reference) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c) {
-                const double error = std::abs(double(image.at(x, y)[c]) - truth[c]) / truth[c];
+                const double error = std::abs(double(image.at(x, y)[c]) - reference[c]) / reference[c];
                 largest = std::isnan(error) ? comparison : std::max(largest, error);
             }
     return largest;
 }
 
-// As the renderer sums: 32-bit layers hold the radiance exactly, so that what is left is the sum's own error.
+// Returns the error of the renderer's sum. 32-bit layers hold the radiance exactly, so only the summation errs.
 double constantError(float value, std::uint32_t samples) {
     return largestRelativeError(wall(glm::vec3(value), samples, exactLayers), glm::dvec3(value));
 }
 
-// The same sums without compensation: one after the other, and by waves of 8.
+// Returns the error of the same sum in floats without compensation, by waves of `wave` samples.
 double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     float sum = 0;
     for (std::uint32_t i = 0; i < samples; i += wave) {
@@ -54,8 +54,8 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     return std::abs(static_cast<double>(sum / static_cast<float>(samples)) / value - 1);
 }
 
-// A light of 10,000 whose blur passes over a ground of 0.0001: each pixel's samples, drawn one by one, are summed in
-// double.
+// Returns the largest relative error for a light of 10,000 blurred over a background of 0.0001. The reference is the
+// double sum of the samples drawn one by one.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);
@@ -81,9 +81,9 @@ double mixedError() {
 }  // namespace
 
 void addSumCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"sums", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back({"sums", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     const char* relative = "relative error";
     for (const std::uint32_t samples : {1u, 2u, 3u, 61u, 127u, 4096u, 65'536u})

@@ -21,7 +21,7 @@ std::string verdict(const StabilityRow& row) {
     return row.failed() ? "FAILED" : "ok";
 }
 
-// Columns that hold UTF-8 count characters.
+// Pads UTF-8 text to `width` characters; counts code points, not bytes.
 std::string padded(const std::string& text, std::size_t width) {
     const auto characters = static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
@@ -34,10 +34,10 @@ std::string stabilityLine(const StabilityRow& row, const StabilityRow* before) {
     const StabilityCase& s = row.subject;
     std::string text;
     if (!before || before->subject.area != s.area || before->subject.measured != s.measured ||
-        before->subject.truth != s.truth)
-        text =
-            fmt::format("{}{} {:>9} {:>9}\n", before ? "\n" : "",
-                        padded(fmt::format("{}: {}; against {}", s.area, s.measured, s.truth), 62), "limit", "error");
+        before->subject.reference != s.reference)
+        text = fmt::format("{}{} {:>9} {:>9}\n", before ? "\n" : "",
+                           padded(fmt::format("{}: {}; against {}", s.area, s.measured, s.reference), 62), "limit",
+                           "error");
     const std::string limit = std::isinf(s.limit) ? "" : fmt::format("{:.2g}", s.limit);
     const std::string error = row.leftOut ? "" : fmt::format("{:.2g}", row.error);
     return text + fmt::format("  {} {:>9} {:>9}  {}\n", padded(s.name, 60), limit, error, verdict(row));
@@ -85,7 +85,7 @@ std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const Ho
         document["cases"].push_back({{"area", row.subject.area},
                                      {"case", row.subject.name},
                                      {"errorOf", row.subject.measured},
-                                     {"against", row.subject.truth},
+                                     {"against", row.subject.reference},
                                      {"limit", jsonNumber(row.subject.limit)},
                                      {"error", jsonNumber(row.error)},
                                      {"leftOut", row.leftOut},

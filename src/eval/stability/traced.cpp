@@ -1,5 +1,5 @@
-// Extremes against the ray tracer, at the same points on the lens and in the pixel: nothing is left to differ but
-// geometry and visibility.
+// Extreme scenes against the ray tracer, with the same sample points on the lens and in the pixel. Only geometry and
+// visibility can differ.
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -25,7 +25,7 @@ struct TracedCase {
     double fromOrigin = 0;     // m
 };
 
-// Three boards, in front of the focus, in it and behind it, hide each other in part.
+// Returns the RMSE for three boards in front of, in and behind the focus, which partly hide each other.
 double tracedError(const TracedCase& subject) {
     View view = boardView();
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(glm::radians(0.5 * subject.fieldOfView)));
@@ -55,7 +55,7 @@ void addTracedCases(std::vector<StabilityCase>& cases) {
         cases.push_back({.area = "traced",
                          .name = subject.name,
                          .measured = "RMSE",
-                         .truth = "ray tracer, same lens points",
+                         .reference = "ray tracer, same lens points",
                          .limit = 1e-3,
                          .error = [subject] { return tracedError(subject); },
                          .method = rayTracer});

@@ -1,4 +1,4 @@
-// Values that are no numbers: what they spoil is at most their own bokeh.
+// NaN in materials and environment maps, which must not affect pixels beyond its own bokeh.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@ namespace {
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-// A material without a value on a small board: pixels beyond its blur that differ from the scene without it.
+// Returns the number of wrong pixels around a small board with a NaN material. Pixels must be finite and, beyond the
+// board's blur, equal to the scene without the board.
 double materialError() {
     View view = boardView();
     setBlur(view, 5, 12);
@@ -24,24 +25,24 @@ double materialError() {
     const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(notANumber)),
                                      squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
     BoardScene spoiled(view, list);
-    BoardScene whole(view, {list[1]});
+    BoardScene intact(view, {list[1]});
     const Image image = rendered(spoiled);
-    const Image truth = rendered(whole);
+    const Image reference = rendered(intact);
     double wrong = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const bool inside = std::abs(x + 0.5 - 48) < reach && std::abs(y + 0.5 - 32) < reach;
             const bool finite = std::isfinite(image.at(x, y)[0]);
-            if (!finite || (!inside && image.at(x, y)[0] != truth.at(x, y)[0])) wrong += 1;
+            if (!finite || (!inside && image.at(x, y)[0] != reference.at(x, y)[0])) wrong += 1;
         }
     return wrong;
 }
 
-// ---- a texel of a map around the scene ------------------------------------------------------------------------------
+// ---- a texel of an environment map ----------------------------------------------------------------------------------
 
 constexpr int mapWidth = 256;  // texels
 
-// All of it 0.5; but for the texel, where there is one, in column `x` of the row at the horizon.
+// Returns a map of uniform 0.5, with a NaN texel in column `x` at the horizon if x ≥ 0.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
@@ -49,14 +50,14 @@ Environment surroundings(int x) {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// The sky itself, out of focus: pixels that aren't from 0 to 0.5, or differ beyond the texel's blur.
+// Returns the number of pixels of the blurred sky outside [0, 0.5] or changed beyond the texel's blur.
 double skyTexelError(LayerFormat format) {
     constexpr double blur = 12;  // px
     View view = boardView();
     setBlur(view, infinite, blur);
     const double texel =
         2 * std::acos(-1.0) / mapWidth * view.width * view.lens.focalLength / view.lens.horizontalAperture;
-    // The texel is right of the middle and below it; its neighbours fade into it.
+    // The texel lies right of and below the image's centre. Filtering spreads it over its neighbours.
     const double reach = 0.5 * blur + texel + 1;
     const auto picture = [&](int x) {
         BoardScene sky(view, {});
@@ -64,18 +65,18 @@ double skyTexelError(LayerFormat format) {
         return rendered(sky, "accumulation", {.layerFormat = format, .shaderFolder = {}, .settings = {}});
     };
     const Image image = picture(mapWidth / 2);
-    const Image truth = picture(-1);
+    const Image reference = picture(-1);
     double wrong = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double distance = std::hypot(x + 0.5 - 48 - 0.5 * texel, y + 0.5 - 32 - 0.5 * texel);
             const float value = image.at(x, y)[0];
-            wrong += !(value >= 0 && value <= 0.5f) || (distance > reach + texel && value != truth.at(x, y)[0]);
+            wrong += !(value >= 0 && value <= 0.5f) || (distance > reach + texel && value != reference.at(x, y)[0]);
         }
     return wrong;
 }
 
-// A rough surface that the whole map lights, by its spherical harmonics and its mip levels: relative error of a pixel.
+// Returns the largest relative pixel error of a rough surface lit by the map's spherical harmonics and mip levels.
 double lightTexelError(float metallic) {
     View view = boardView();
     BoardScene wall(view, {{3, {0, 0}, {10, 10}, glm::vec3(0.8f)}});
@@ -85,12 +86,12 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // behind the camera, where the wall looks
-    const Image truth = picture(-1);
+    const Image image = picture(0);  // texel behind the camera, which the wall faces
+    const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            const double error = std::abs(static_cast<double>(image.at(x, y)[0]) / truth.at(x, y)[0] - 1);
+            const double error = std::abs(static_cast<double>(image.at(x, y)[0]) / reference.at(x, y)[0] - 1);
             largest = std::isnan(error) ? infinite : std::max(largest, error);
         }
     return largest;
@@ -99,9 +100,10 @@ double lightTexelError(float metallic) {
 }  // namespace
 
 void addValueCases(std::vector<StabilityCase>& cases) {
-    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+    const auto add = [&](std::string name, std::string measured, std::string reference, double limit,
                          std::function<double()> error) {
-        cases.push_back({"values", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+        cases.push_back(
+            {"values", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
     add("a material that is no number", "pixels spoiled elsewhere", "the scene without it", 0, materialError);
     const auto addSky = [&](const char* layers, LayerFormat format) {
@@ -110,7 +112,7 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // The texel's share of all directions, weighted by the cosine, is 2e-4; of the smallest mip level it is 3e-5.
+    // The texel's cosine-weighted share of all directions is 2e-4; its share of the smallest mip level is 3e-5.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,

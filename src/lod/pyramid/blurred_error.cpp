@@ -130,20 +130,20 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Adds the squared differences between `seen` and `truth`. If `truth` is null, the row `dark` of black cells replaces
-// it.
+// Adds the squared differences between `seen` and `reference`. If `reference` is null, the row `dark` of black cells
+// replaces it.
 //
 // Each cell shows one point, so that a patch mean contains sampling noise. Squaring the mean would add the variance of
 // this noise. Therefore two independent means are multiplied: over the white and over the black cells of a
 // checkerboard. Their noise is uncorrelated and cancels on average.
-void addSquares(const Patches* truth, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
+void addSquares(const Patches* reference, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
     for (std::size_t i = 0; i < seen.count(); ++i) {
         const CellBox& box = seen.box(i);
         double sum = 0;
         for (int y = box.bottom; y < box.top; ++y) {
             const auto change = [&](bool black) {
-                return Change{truth != nullptr ? truth->row(i, black, y) : dark.data(), seen.row(i, black, y)};
+                return Change{reference != nullptr ? reference->row(i, black, y) : dark.data(), seen.row(i, black, y)};
             };
             sum += sumOfProducts(change(false), change(true), box.width(), brightest);
         }
@@ -187,14 +187,14 @@ private:
 // The pictures and measurements from one direction.
 struct Sight {
     Eye eye;
-    SparseCells truth;                // picture of level 0
+    SparseCells reference;            // picture of level 0
     double covered = 0, sum = 0;      // of level 0; see Picture
     SquareSums light{};               // squared light of level 0
     std::vector<SquareSums> changes;  // squared differences from level 0, per level
 
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
-        const LargeVector<glm::vec3> cells = truth.all();
-        truth = {};
+        const LargeVector<glm::vec3> cells = reference.all();
+        reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         Patches before(eye), after(eye);
         before.measure(cells);
@@ -270,10 +270,10 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     };
     fromAll([&](Sight& sight, const glm::dvec3& direction) {
         sight.eye = eyeAlong(pyramid, direction, resolution);
-        const Picture truth = pictureOf(pyramid, 0, sight.eye, finishes);
-        sight.truth = SparseCells(truth.light);
-        sight.covered = static_cast<double>(truth.covered);
-        sight.sum = truth.sum;
+        const Picture reference = pictureOf(pyramid, 0, sight.eye, finishes);
+        sight.reference = SparseCells(reference.light);
+        sight.covered = static_cast<double>(reference.covered);
+        sight.sum = reference.sum;
     });
 
     // A black mesh has no light to serve as unit, and no error.

@@ -151,7 +151,7 @@ void keepOpen(const ClusterGrowth& g, std::vector<TriangleNumber>& list) {
 }
 
 // Returns the triangle of the list that is most similar to the cluster in position and orientation.
-TriangleNumber mostAlike(const ClusterGrowth& g, const std::vector<TriangleNumber>& list) {
+TriangleNumber closestMatch(const ClusterGrowth& g, const std::vector<TriangleNumber>& list) {
     const glm::vec3 centre = g.centres / static_cast<float>(g.size);
     const float length = glm::length(g.normals);
     const glm::vec3 normal = length > 0 ? coneWeight / length * g.normals : glm::vec3(0);
@@ -173,9 +173,9 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     if (const TriangleNumber triangle = lastFacing(g, g.closed); triangle.isValid()) return triangle;
     if (const TriangleNumber triangle = lastFacing(g, g.hanging); triangle.isValid()) return triangle;
     keepOpen(g, g.beside);
-    if (!g.beside.empty()) return mostAlike(g, g.beside);
+    if (!g.beside.empty()) return closestMatch(g, g.beside);
     keepOpen(g, g.touching);
-    return mostAlike(g, g.touching);
+    return closestMatch(g, g.touching);
 }
 
 // Returns the unassigned neighbour of the full cluster with the fewest unassigned neighbours of its own. Such a

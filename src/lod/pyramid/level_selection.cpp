@@ -131,9 +131,9 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode) {
     if (mode == LodMode::off || !(lambda > 0)) return {};
     if (mode == LodMode::nearest) return {static_cast<std::uint32_t>(std::lround(lambda)), 0};
-    const double whole = std::floor(lambda);
-    const double coarse = (lambda - whole) * sampleCount;
-    SampleSplit split{static_cast<std::uint32_t>(whole), 0};
+    const double integer = std::floor(lambda);
+    const double coarse = (lambda - integer) * sampleCount;
+    SampleSplit split{static_cast<std::uint32_t>(integer), 0};
     if (mode == LodMode::continuous) {
         split.coarseCount = static_cast<std::uint32_t>(coarse);
         split.boundaryShare = coarse - split.coarseCount;

@@ -25,8 +25,8 @@ constexpr int lanes = 4;
 // Returns the first cell in [first, end] whose centre is at or after `place`.
 int firstAt(float place, int first, int end) {
     const float bounded = std::min(std::max(static_cast<float>(first), place - 0.5f), static_cast<float>(end));
-    const int whole = static_cast<int>(bounded);
-    return whole + (static_cast<float>(whole) < bounded ? 1 : 0);
+    const int truncated = static_cast<int>(bounded);
+    return truncated + (static_cast<float>(truncated) < bounded ? 1 : 0);
 }
 
 // Computes the range of a row in which the barycentric weights of a triangle are positive.

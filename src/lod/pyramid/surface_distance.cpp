@@ -78,19 +78,19 @@ template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
     keys.reserve(count);
-    Box whole;
+    Box bounds;
     for (std::size_t i = 0; i < count; ++i) {
         const Triangle t = triangle(i);
         if (!isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2]) || !(areaOf(t) > 0)) continue;
-        whole = around(whole, boxOf(t));
+        bounds = around(bounds, boxOf(t));
         keys.push_back(i);
     }
-    const glm::dvec3 size = glm::dvec3(whole.maximum) - glm::dvec3(whole.minimum);
+    const glm::dvec3 size = glm::dvec3(bounds.maximum) - glm::dvec3(bounds.minimum);
     const double longest = std::max({size.x, size.y, size.z});
     for (std::uint64_t& key : keys) {
         const Triangle t = triangle(key);
         const glm::dvec3 centre = (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
-        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(whole.minimum)) * (mortonCells / longest), glm::dvec3(0),
+        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(bounds.minimum)) * (mortonCells / longest), glm::dvec3(0),
                                          glm::dvec3(mortonCells)));
         const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
         key |= std::uint64_t{code} << 32;

@@ -18,8 +18,8 @@ constexpr double gridMargin = 1.04;  // relative to the box's diagonal; levels m
 template <typename T>
 int firstAt(T place, int end) {
     const T bounded = std::min(std::max(T{0}, place), static_cast<T>(end));
-    const int whole = static_cast<int>(bounded);
-    return whole + (static_cast<T>(whole) < bounded ? 1 : 0);
+    const int truncated = static_cast<int>(bounded);
+    return truncated + (static_cast<T>(truncated) < bounded ? 1 : 0);
 }
 
 // Returns a mask of the bits [low, high).
@@ -121,10 +121,10 @@ void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c
     if (middle->y < low->y) std::swap(low, middle);
     if (high->y < middle->y) std::swap(middle, high);
     if (middle->y < low->y) std::swap(low, middle);
-    const Side whole(*low, *high);
+    const Side longSide(*low, *high);
     const auto between = [&](const Side& side, int from, int to) {
         for (int row = from; row < to; ++row) {
-            const float one = whole.at(static_cast<float>(row));
+            const float one = longSide.at(static_cast<float>(row));
             const float other = side.at(static_cast<float>(row));
             mark(row, firstAt(std::min(one, other), resolution_), firstAt(std::max(one, other), resolution_));
         }

@@ -275,7 +275,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     FollowingMeans at;
     const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
-    double leastSquares = std::numeric_limits<double>::infinity();
+    double minSquares = std::numeric_limits<double>::infinity();
     // Strong at first, so that normals turn no further than necessary and highlights keep their positions.
     double damping = 1;
     for (int round = 0; round < maxRounds; ++round) {
@@ -289,9 +289,9 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             worst = std::max(worst, std::abs(rest[l]));
         }
         if (round == 0) worstAtFirst = worst;
-        if (squares < leastSquares) {
+        if (squares < minSquares) {
             if (round > 0 && turned(original, normals, groups, at) > maxTurn * (worstAtFirst - worst)) break;
-            leastSquares = squares;
+            minSquares = squares;
             std::copy(normals.begin(), normals.end(), best.begin());
             wanted = rest;
             if (worst <= enough) break;

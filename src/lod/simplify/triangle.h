@@ -46,8 +46,8 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double pastB = alongAcFromB - alongAbFromB;
     const double pastC = alongAbFromC - alongAcFromC;
     if (overBc <= 0 && pastB >= 0 && pastC >= 0) return {pastC / (pastB + pastC), pastB / (pastB + pastC)};
-    const double whole = overAb + overAc + overBc;
-    return {overAc / whole, overAb / whole};
+    const double total = overAb + overAc + overBc;
+    return {overAc / total, overAb / total};
 }
 
 inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {

@@ -1,5 +1,5 @@
 #pragma once
-// The scene of the window: loading it, its edits, and the world that is drawn of it.
+// The window's scene: loading, edits, and the world that is drawn.
 
 #include "view/document/edit_history.h"
 #include "view/document/scene_loader.h"
@@ -18,7 +18,7 @@ struct Document {
     Request shown;                           // the request that `frame` shows; see updateWorld
     bool poseIsStale = false;                // the pose is due even if the request is unchanged
     std::vector<double> ownBlurs;            // Node::cocScale of the scene's nodes when it was opened
-    std::vector<glm::dmat4> shutterCameras;  // as View has them, while the view follows the file's camera
+    std::vector<glm::dmat4> shutterCameras;  // see View; only while the view follows the file's camera
     std::uint64_t poseVersion = 0;           // increases when anything in the world moves
     std::uint64_t worldVersion = 0;          // increases when GPU copies of the world must be rebuilt
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Undo and redo of everything that makes the picture: camera, lens, surroundings, levels, samples, exposure. Overlays,
-// comparisons and the time of the animation are no edits.
+// Undo and redo of everything that determines the picture: camera, lens, surroundings, levels, samples, exposure.
+// Overlays, comparisons and the animation's time don't count as edits.
 
 #include <deque>
 #include <optional>
@@ -18,8 +18,8 @@ public:
     // Restarts with the state in which a scene was opened.
     void begin(const ViewEdit& opened);
 
-    // Takes the state of each frame. An edit becomes an undo step once the hand lets go (`held` turns false), or, for
-    // mouse wheel and keys, after half a second without change.
+    // Takes the state of each frame. An edit becomes an undo step when the mouse button or key is released (`held`
+    // turns false). Edits by mouse wheel and keys become one after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
     // Returns the state before the latest edit, or after the next one; none if there is no such step.
@@ -37,7 +37,7 @@ private:
     std::optional<ViewEdit> step(const ViewEdit& now, Steps& from, Steps& to);
 
     ViewEdit opened_, current_;
-    ViewEdit latest_;  // of the previous frame
+    ViewEdit latest_;  // state of the previous frame
     Steps before_, after_;
     bool pending_ = false;  // latest_ differs from current_
     bool held_ = false;

@@ -93,7 +93,7 @@ json allViews(const fs::path& file) {
     return object;
 }
 
-// Includes scenes that are missing: their drive may come back.
+// Returns the recent scenes, including missing ones, whose drive may be mounted again.
 std::vector<std::string> rememberedNames(const fs::path& list) {
     std::vector<std::string> names;
     try {

@@ -1,12 +1,12 @@
 #pragma once
-// The JSON files that the window keeps from one run to the next: its settings and saved views in
-// $XDG_CONFIG_HOME/defocus (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
+// The JSON files that the window keeps between runs. Settings and saved views are in $XDG_CONFIG_HOME/defocus
+// (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
 
 #include "view/state/view_state.h"
 
 namespace defocus::engine {
 
-// These are empty if the environment names no folder.
+// Paths of the files; empty if the environment names no folder.
 std::filesystem::path viewSettingsPath();
 std::filesystem::path savedViewsPath();
 std::filesystem::path recentFilesPath();
@@ -16,7 +16,7 @@ struct ViewSettings {
     bool panel = true;
     double interfaceScale = 1;                 // 0.5 … 3
     std::optional<double> budgetMilliseconds;  // none: depends on the driver
-    int width = 0;                             // of the window, in its units; 0: not stored
+    int width = 0;                             // window size in window units; 0: not stored
     int height = 0;
 };
 

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t draftTriangles = 60'000;  // of all meshes; smaller scenes get no draft
+constexpr std::uint64_t draftTriangles = 60'000;  // min triangles of all meshes for a draft
 
-// Returns null for small scenes, whose pyramids are ready soon enough.
+// Returns the scene with draft pyramids; null for small scenes, whose pyramids are ready soon.
 std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {
     const std::vector<Mesh>& meshes = frame.scene->meshes;
     std::uint64_t total = 0;

@@ -17,7 +17,7 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: opening failed
     std::string fault;                     // reason of the failure
-    bool draft = false;                    // with coarse meshes; the same scene follows with its pyramids
+    bool draft = false;                    // coarse meshes; the same scene with its pyramids follows
 };
 
 class SceneLoader {
@@ -35,7 +35,7 @@ public:
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
     struct Opening {
-        std::string name;   // of the scene
+        std::string name;   // name of the scene
         std::string stage;  // "fish", "pyramids" …
         double share = 0;   // progress of the stage, 0 … 1
     };
@@ -55,7 +55,7 @@ private:
     };
     static void run(Job& job);
 
-    std::vector<std::unique_ptr<Job>> jobs_;  // the last one counts, the others are cancelled
+    std::vector<std::unique_ptr<Job>> jobs_;  // only the last job is active; the others are cancelled
 };
 
 }  // namespace defocus::engine

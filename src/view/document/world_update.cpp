@@ -40,7 +40,7 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the request for placing a camera of the file: without another place, focus or size.
+// Returns the request that places a camera of the file, without other position, focus or size.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -59,7 +59,7 @@ void updateLights(Document& document, const ViewState& state) {
     ++document.poseVersion;
 }
 
-// Returns the camera that the view follows, at the world's pose; without one, the view's own place.
+// Returns the camera that the view follows, at the world's pose; the view's own position if it follows none.
 PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
     const PreparedFrame& frame = *document.frame;
@@ -96,7 +96,7 @@ void updatePose(Document& document, ViewState& state) {
 
 void updateNodeBlur(Document& document, ViewState& state) {
     Scene& scene = *document.frame->scene;
-    const std::size_t count = std::min(scene.nodes.size(), document.ownBlurs.size());  // a ground may be gone
+    const std::size_t count = std::min(scene.nodes.size(), document.ownBlurs.size());  // fewer nodes without the ground
     for (std::size_t i = 0; i < count; ++i) scene.nodes[i].cocScale = document.ownBlurs[i];
     setNodeBlur(state.options, scene);
     updatePose(document, state);

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns a boolean, an integer or a number, as the field's type has it.
+// Returns the value as a JSON boolean, integer or number, according to the field's type.
 ordered_json valueJson(const LensField& field, double value) {
     if (std::holds_alternative<bool Lens::*>(field.member)) return value != 0;
     if (std::holds_alternative<int Lens::*>(field.member)) return static_cast<int>(value);
@@ -97,7 +97,7 @@ void addSettings(ordered_json& shot, const Request& request) {
         if (text) shot[ordered_json::json_pointer(setting.shotPlace)] = settingJson(setting, *text);
     }
     if (!shot.contains("shutter")) return;
-    shot["shutter"]["seconds"] = request.shutter;  // a shutter needs it
+    shot["shutter"]["seconds"] = request.shutter;  // required by a shutter
     if (shutterSettings(request).exactMotion()) {
         shot["shutter"].erase("segments");
         shot["shutter"]["exact"] = true;

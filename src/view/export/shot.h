@@ -12,11 +12,11 @@ inline constexpr int framesBetweenKeys = 48;  // 2 s
 
 struct ShotRecording {
     const Request& options;  // scene, clip, samples, levels, method
-    const Lens& cameraLens;  // of the camera that options.camera names; the shot's default
+    const Lens& cameraLens;  // lens of the camera options.camera; the shot's default
     const std::vector<ShotKey>& keys;
     double animationSpeed = 1;
     WriteOptions write;
-    double metresPerUnit = 1;  // of the scene
+    double metresPerUnit = 1;  // metres per unit of the scene
 };
 
 // Returns the shot as JSON. Camera, focus and lens values that differ between the keys are keyframed; other values are

@@ -19,7 +19,7 @@ constexpr double hoverDelay = 0.12;  // s
 struct Legend {
     const char* title;
     const char* shortTitle;            // for narrow pictures
-    glm::vec3 (*colour)(float);        // of a position in [0, 1], linear
+    glm::vec3 (*colour)(float);        // linear colour at a position in [0, 1]
     std::array<const char*, 5> marks;  // evenly spaced
 };
 
@@ -81,7 +81,7 @@ void drawLegend(const Ui& ui, const ImVec2& status) {
     const char* title = wanted <= room ? legend->title : legend->shortTitle;
     const ImVec2 size(std::min(room, wanted), 10 * s);
     ImVec2 end = pictureCorner(ui, 1, 1);
-    if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;  // no room beside the status
+    if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;  // no space beside the status labels
     const ImVec2 at(end.x - size.x - 8 * s - pad, end.y - 8 * s - pad - line - 4 * s - size.y);
     list.AddRectFilled({at.x - pad, at.y - line - 5 * s - pad}, {end.x - 8 * s, end.y - 8 * s}, plateColor, 4 * s);
     list.AddText({at.x, at.y - line - 5 * s}, brightColor, title);

@@ -5,8 +5,8 @@
 
 namespace defocus::engine {
 
-// The sections from top to bottom: function, title, whether it is open at first, when it is shown. A new section needs
-// its function and a line here.
+// The sections from top to bottom: function, title, initially open, condition for being shown. A new section needs a
+// function and a line here.
 #define DEFOCUS_PANELS(PANEL)                                    \
     PANEL(scenePanel, "Scene", true, always)                     \
     PANEL(objectsPanel, "Objects", false, withScene)             \

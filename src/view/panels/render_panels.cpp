@@ -38,7 +38,7 @@ void environmentRows(ViewState& state) {
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
 }
 
-// Whether the settings panel lists the setting.
+// Returns whether the settings panel lists the setting.
 bool hasPlainRow(const Setting& setting) {
     const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                        setting.group == SettingGroup::developer;
@@ -78,7 +78,7 @@ void surroundingsPanel(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// All settings of samples, levels and methods that a widget can edit.
+// Draws all settings of samples, levels and methods that a widget can edit.
 void settingsPanel(const Ui& ui) {
     Request& request = ui.state.options;
     for (const Setting& setting : settings()) {

@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// A field for the path, a button for the dialog, and a menu of recent scenes.
+// Draws a field for the path, a button for the dialog and a menu of recent scenes.
 void openRow(const Ui& ui) {
     ViewState& state = ui.state;
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -63,7 +63,7 @@ void undoRow(const Ui& ui) {
     ImGui::NewLine();
 }
 
-// Lists what the file holds and the program does not draw.
+// Lists the parts of the file that the program doesn't draw.
 void ignoredRows(const Scene& scene) {
     std::vector<std::string> lines = ignoredWarnings(scene);
     const std::vector<std::string> damage = damageWarnings(scene);

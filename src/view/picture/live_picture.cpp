@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t minClippingSamples = 16;  // for an image that shows what is clipped
+constexpr std::uint32_t minClippingSamples = 16;  // min samples of an image that shows clipping
 
 std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSide& first) {
     switch (state.comparison) {
@@ -57,7 +57,7 @@ std::string pictureSettings(Request request) {
     return pixelSettings(request);
 }
 
-// Returns the picture that the state asks for. `plan`: of the previous frame, for the depths of the popping test.
+// Returns the request for the state's picture. `plan`: the previous frame's plan, for the depths of the popping test.
 PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
     PictureRequest result;
     result.view = currentView(document, state);
@@ -86,12 +86,12 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     options.layerFormat = state.options.layerFormat;
     options.shaderFolder = document.shaderFolder;
     options.wave = state.options.wave.value_or(software ? 1 : 8);
-    picture.image.reset();  // frees its memory first
+    picture.image.reset();  // frees memory before the next allocation
     picture.image.emplace(document.frame->world, options, software);
     picture.worldVersion = document.worldVersion;
 }
 
-// Switches off what the state asks for beyond the plainest picture. Returns false if it asks for nothing more.
+// Switches off comparison and popping test, or else the selected method. Returns false if none is in use.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;
@@ -104,7 +104,7 @@ bool simplifyRequest(ViewState& state) {
     return true;
 }
 
-// Meters the exposure once the view is still again.
+// Meters the exposure when the view comes to rest.
 void meter(LivePicture& picture, Document& document, ViewState& state, bool exporting) {
     const bool moving = picture.image->moving();
     const bool meters = state.meters && !(state.lens.exposureTime > 0);
@@ -115,7 +115,7 @@ void meter(LivePicture& picture, Document& document, ViewState& state, bool expo
     state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
 }
 
-// Collects the warnings about a picture at rest. Clipping needs a read-back: it is looked for once per exposure.
+// Collects the warnings about a picture at rest. Clipping needs a read-back and is checked once per exposure.
 void updateWarnings(LivePicture& picture, const ViewState& state) {
     picture.warnings.clear();
     if (picture.image->moving()) {

@@ -14,14 +14,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // without change, before the image starts to grow
-constexpr std::uint32_t minShownSamples = 4;  // of a growing image: fewer look worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // growth of the sample count that is worth showing
+constexpr auto settleTime = 120ms;            // time without change before the image starts to grow
+constexpr std::uint32_t minShownSamples = 4;  // in a growing image; fewer look worse than the last moving frame
+constexpr double visibleGrowth = 1.08;        // min relative growth of the sample count for an update
 constexpr double softwareGrowthTime = 60;     // ms per frame, the minimum on a CPU
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numbers that the images depend on, beside settings, sides and aperture image. Exposure time and ISO only
-// change the display.
+// Returns the numbers that the images depend on, in addition to settings, sides and aperture image. Exposure time and
+// ISO only affect the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -140,7 +140,7 @@ bool ViewPicture::prepareSides(const PictureRequest& request) {
             sides_[i]->shows = wanted;
             continue;
         }
-        sides_[i].reset();  // frees its memory first
+        sides_[i].reset();  // frees memory before the next allocation
         sides_[i] = std::make_unique<Side>(Side{wanted, {*world_, parseMethodUse(wanted.method), options_}});
         fresh_ = true;
     }
@@ -170,7 +170,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
     if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    // At least half of the budget is the picture's: a slow interface must not lower its quality further.
+    // Reserve at least half of the budget for the picture, so that a slow interface does not lower its quality further.
     const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
     if (!fresh_ && !request.fixedQuality && !sharp) budget = adapted(budget, milliseconds + rest);
     fresh_ = false;

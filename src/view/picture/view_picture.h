@@ -36,7 +36,7 @@ struct PictureRequest {
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // ends a still image once its estimated error is below
     std::optional<FrameQuality> fixedQuality;  // replaces the budget's quality; the image does not grow then
-    double restOfFrame = 0;                    // ms of the frame's budget that the interface takes, as measured
+    double restOfFrame = 0;                    // measured ms of the frame's budget that the interface takes
 };
 
 class ViewPicture {
@@ -55,23 +55,23 @@ public:
     // Returns whether nothing is left to do until the request changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     [[nodiscard]] std::uint32_t samples() const { return sides_.empty() ? 0 : first().samples(); }
-    // With a target error, for the first image once the view is still.
+    // Returns whether the first image of a still view has reached the target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ ? first().estimatedError() : std::nullopt;
     }
-    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // the first one, linear
-    [[nodiscard]] const FramePlan& plan() const;  // of the first image; may be empty
+    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // the first image, linear
+    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; may be empty
     // Returns the second side; null if nothing is compared.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
-    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // between the sides, dB
+    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR between the sides, dB
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
     // Times of the latest frame: timer queries of passes, wall clock of the set-up.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
-    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // still images
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -81,7 +81,7 @@ private:
     };
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
-    [[nodiscard]] std::uint32_t minSamples() const;                    // over both sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // min over both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
@@ -98,7 +98,7 @@ private:
     DisplayPass display_;
     std::optional<AovPass> aovs_;
     std::optional<WorkPass> work_;
-    bool aovsCurrent_ = false;  // show this view, as the two below
+    bool aovsCurrent_ = false;  // true: drawn for the current view (also the next two)
     bool wireframeCurrent_ = false;
     bool workCurrent_ = false;
     bool workGrows_ = false;  // samples of the work are still to come

@@ -1,6 +1,6 @@
 #pragma once
-// Moves the focus from one distance to another within a moment, slowly at both ends. The path is linear in dioptres
-// (1/m), because the circle of confusion is linear in them.
+// Moves the focus smoothly from one distance to another, slowly at both ends. The path is linear in dioptres (1/m),
+// because the circle of confusion is linear in them.
 
 #include <algorithm>
 #include <cmath>

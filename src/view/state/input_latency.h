@@ -2,8 +2,8 @@
 // Measures the time from an input event to the end of the frame that shows its effect, including the swap of buffers
 // but not the delay of a compositor or a screen.
 //
-// The system does not tell when an event arrived, only when it is fetched. An event that arrives while a frame is drawn
-// counts from the previous fetch, so that the measured times are upper bounds.
+// The system reports when an event is fetched, not when it arrives. An event that arrives while a frame is drawn counts
+// from the previous fetch, so that the measured times are upper bounds.
 
 #include <algorithm>
 #include <chrono>
@@ -17,12 +17,12 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Notes that events were fetched that arrived after `since`. Their effect may take some frames to begin; the
-    // earliest unanswered event counts.
+    // Records fetched events that arrived after `since`. Their effect may start some frames later; the earliest
+    // unanswered event counts.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }
-    // Notes the end of a frame that shows another picture.
+    // Records the end of a frame that shows a different picture.
     void shown(Time at) {
         if (!waiting_) return;
         answers_.push_back(std::chrono::duration<double, std::milli>(at - *waiting_).count());
@@ -32,7 +32,7 @@ public:
     // Drops the waiting events: they do not change the picture.
     void forget() { waiting_.reset(); }
 
-    struct Summary {  // ms, of the latest answers
+    struct Summary {  // latencies of the latest answered events, ms
         std::size_t count = 0;
         double latest = 0, median = 0, worst = 0;
     };

@@ -1,5 +1,5 @@
 #pragma once
-// The keys of the window: one table for what they do and for the list that the window shows.
+// The keys of the window: one table for their commands and for the list of keys in the window.
 
 #include <span>
 
@@ -15,8 +15,8 @@ struct KeyContext {
 };
 
 struct KeyCommand {
-    const char* keys = nullptr;     // as the list names them; null: the row above names the key too
-    const char* meaning = nullptr;  // as the list explains them
+    const char* keys = nullptr;     // name in the list; null: the row above includes this key
+    const char* meaning = nullptr;  // explanation in the list
     int key = 0;                    // WindowEvent::key, see withControl; 0: not a key command
     void (*run)(KeyContext) = nullptr;
 };

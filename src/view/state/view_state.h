@@ -1,5 +1,5 @@
 #pragma once
-// Everything that the window shows and a person can change, as plain data.
+// All state that the window shows and the user can change, as plain data.
 
 #include <deque>
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Starts at the window's top left corner; sizes and positions are in window units.
+// Area of the picture, from the window's top left corner; sizes and positions are in window units.
 struct PictureArea {
     glm::dvec2 size{1.0};
     // Maps a position to [−1, 1], y up.
@@ -54,17 +54,17 @@ struct Message {
     double until = 0;  // s, as ViewState::now
 };
 
-// Marks the latest click to focus, and fades away.
+// Mark of the latest click to focus; it fades out.
 struct FocusMarker {
     bool shown = false;
-    std::uint64_t number = 0;  // of the click, from 1
+    std::uint64_t number = 0;  // number of the click, from 1
     glm::dvec3 point{0.0};     // world space
     double since = 0;          // s, as ViewState::now
-    std::string name;          // of the object; empty: the click hit none
-    double distance = 0;       // m, of the focus
+    std::string name;          // name of the object; empty: the click hit none
+    double distance = 0;       // m, focus distance
 };
 
-// Asks for the file of a still.
+// Dialog for the file of a still.
 struct ExportDialog {
     bool fresh = true;           // opened in this frame
     bool asksToReplace = false;  // the file exists
@@ -74,7 +74,7 @@ struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // without its aperture image, which stays the current one
+    Lens lens;                // without the aperture image, which a view doesn't store
 };
 
 struct ShotKey {
@@ -83,7 +83,7 @@ struct ShotKey {
     double time = 0;           // s into the animation
 };
 
-// The part that undo and redo cover.
+// State that undo and redo cover.
 struct ViewEdit {
     Request options;
     ViewCamera camera;
@@ -94,9 +94,9 @@ struct ViewEdit {
     bool meters = false;         // the exposure is metered whenever the view comes to rest
 };
 
-// The part that is reset with each scene.
+// State that is reset with each scene.
 struct SceneState {
-    int selected = -1;  // index into Pose::objects; the object that was focused on last
+    int selected = -1;  // index into Pose::objects of the object last focused on
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
@@ -121,17 +121,17 @@ struct ViewState : ViewEdit, SceneState {
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
-    std::uint32_t maxSamples = 4096;  // of a still view
+    std::uint32_t maxSamples = 4096;  // max samples of a still view
 
     // Window.
     bool panel = true;
     bool help = false;
     bool dark = true;
-    double interfaceScale = 1;                  // on top of the screen's own scale
-    std::vector<std::filesystem::path> recent;  // scenes, latest first
+    double interfaceScale = 1;                  // multiplies the screen's own scale
+    std::vector<std::filesystem::path> recent;  // recent scenes, latest first
     std::deque<Message> messages;
     std::string fault;          // text of the latest failure
-    bool printsFaults = false;  // on stderr
+    bool printsFaults = false;  // also prints faults on stderr
 
     // Text fields.
     std::string openPath, viewName, environmentPath, aperturePath;
@@ -142,20 +142,20 @@ struct ViewState : ViewEdit, SceneState {
     std::string shotPath = "shot.json";
 };
 
-// Requests of panels and keys that need files, the GPU or the window; done at the end of the frame.
+// Requests from panels and keys that need files, the GPU or the window. They are executed at the end of the frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // by name; "auto" frames the scene
     bool undo = false;
     bool redo = false;
     bool resetAll = false;
-    std::optional<std::string> saveView;  // under this name
+    std::optional<std::string> saveView;  // name of the view to save
     std::optional<std::size_t> goToView;  // index into ViewState::savedViews
     std::optional<std::size_t> deleteView;
     bool copyCommand = false;
     bool recordKey = false;
     bool saveShot = false;
-    bool askExport = false;    // opens the dialog
+    bool askExport = false;    // opens the export dialog
     bool exportStill = false;  // to ViewState::exportPath, replacing the file
     bool cancelExport = false;
     bool openDialog = false;
@@ -174,7 +174,7 @@ WriteOptions writeOptions(const ViewState& state);
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Shows another image on the right side of the divider, which moves into view.
+// Sets the image on the right side of the divider, and moves the divider into view.
 void compare(ViewState& state, Comparison comparison);
 
 // Starts to pull the focus to `distance` m.
@@ -192,7 +192,7 @@ void frameScene(const PreparedFrame& frame, ViewState& state);
 inline constexpr double poppingDuration = 8;  // s
 void togglePoppingTest(ViewState& state);
 
-// Moves the focus pull and the animation on by `seconds`; ends a popping test that is over.
+// Advances the focus pull and the animation by `seconds`; ends a finished popping test.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
 // Returns the value of --clip for a clip of the scene: its name, or its number if the name is ambiguous.

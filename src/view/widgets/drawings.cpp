@@ -52,7 +52,7 @@ float stopPosition(double fStop) {
 
 // Applies mouse wheel, drag and click on the ring, the previous widget. `spacing`: px per stop of the table.
 void turnRing(double& fStop, float centre, float spacing) {
-    ImGui::SetItemUsingMouseWheel();  // the panel does not scroll
+    ImGui::SetItemUsingMouseWheel();  // keeps the panel from scrolling
     if (const float wheel = ImGui::GetIO().MouseWheel; ImGui::IsItemHovered() && wheel != 0)
         fStop = steppedStop(fStop, wheel > 0 ? -1 : 1);
     static float dragged = 0;  // px

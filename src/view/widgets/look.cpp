@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double fontSize = 15;            // units
-constexpr double bitmapShare = 13.0 / 15;  // of the font size: makes the bitmap font look as large as others
+constexpr double bitmapShare = 13.0 / 15;  // of the font size; the bitmap font then looks as large as others
 
 // Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
 constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044, 0x2190,
@@ -45,7 +45,7 @@ void setColors(ImGuiStyle& style, bool dark) {
     grey(ImGuiCol_ScrollbarBg, 0.135f, 0.945f);
     accent(ImGuiCol_ButtonActive, 1);
     accent(ImGuiCol_CheckMark, 1);
-    accent(ImGuiCol_SliderGrab, 0.45f);  // the value is written over it
+    accent(ImGuiCol_SliderGrab, 0.45f);  // the value is drawn over the grab
     accent(ImGuiCol_SliderGrabActive, 0.65f);
     accent(ImGuiCol_PlotHistogram, 1);
     accent(ImGuiCol_NavHighlight, 1);

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSliderRange = 64;  // of integers; beyond, a slider is too coarse
+constexpr double maxSliderRange = 64;  // max range of integers for a slider; a larger range makes it too coarse
 
 // Returns ImGui's format for a number of the setting.
 std::string numberFormat(const Setting& setting, double value) {
@@ -91,7 +91,7 @@ bool valueIsSet(const std::string& name, std::string& text, const std::string& f
     return !text.empty();
 }
 
-// Returns whether a field has no effect, because of other fields.
+// Returns whether other fields disable a field.
 bool hasNoEffect(const Lens& lens, std::string_view name) {
     if (name == "iso") return !(lens.exposureTime > 0);
     if (name == "bladeRotation") return lens.bladeCount == 0 && !lens.apertureImage;
@@ -106,7 +106,7 @@ bool settingRow(Request& request, const std::string& name, const std::string& fi
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());
     rowLabel(fieldLabel(name), fmt::format("{} ({})", setting.help, setting.option));
-    // A number that a word may replace, as in "auto", counts as unset while the word stands.
+    // A setting with a number or a word, such as "auto", counts as unset while it holds the word.
     const bool words = setting.kind != SettingKind::choice && !setting.choices.empty();
     const auto unset = [&](const std::string& text) { return words && text == setting.choices.front() ? "" : text; };
     const std::string before = unset(setting.text(request).value_or(""));

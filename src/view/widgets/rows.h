@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 // Draws the row of the setting with this name. Returns whether the request changed. Values that the setting refuses are
-// ignored. `first`: of a setting that may be unset, its first value when it is switched on.
+// ignored. `first`: for a setting that may be unset, its value when it is switched on.
 bool settingRow(Request& request, const std::string& name, const std::string& first = "");
 
 // Draws the row of a lens field. Returns whether the lens changed. Values that checkLens refuses are ignored.

@@ -9,9 +9,9 @@
 namespace defocus::engine {
 
 struct FrameTimes {
-    double frame = 0;           // ms, of the latest frame
-    double interface = 0;       // ms, of its widgets and the swap of buffers
-    std::vector<float> recent;  // ms, of the latest frames
+    double frame = 0;           // ms, time of the latest frame
+    double interface = 0;       // ms, time of widgets and buffer swap
+    std::vector<float> recent;  // ms, times of the latest frames
     InputLatency latency;
 };
 

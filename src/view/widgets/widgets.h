@@ -41,7 +41,7 @@ bool slider(const char* id, std::uint32_t& value, std::uint32_t min, std::uint32
 // Draws a text field with a button on its right. Returns true if the button is pressed, or Enter in the field.
 bool pathRow(const char* id, const char* hint, const char* button, std::string& path);
 
-// Opens the next modal dialog in the middle of the window, no larger than it; height 0: as its content.
+// Opens the next modal dialog in the middle of the window, no larger than it; height 0: fits the content.
 void centreDialog(float width, float height = 0);
 
 // Window positions of widgets by name.
@@ -50,7 +50,7 @@ using Places = std::map<std::string, std::array<long, 2>>;
 // Notes the centre of the previous widget under a name, unless it is scrolled out of sight. Scripts read the positions
 // from the state (docs/window.md).
 void notePlace(const std::string& name);
-// Returns the positions since the last call.
+// Returns the positions noted since the last call.
 Places takePlaces();
 
 // Draws a ring of standard stops: drag, wheel and click change `fStop`.

@@ -22,13 +22,13 @@ struct Taken {
     bool button = false;
     bool editingKey = false;
     bool text = false;
-    std::optional<bool> control;  // of the keys
+    std::optional<bool> control;  // state of Ctrl for the keys taken so far
     std::set<int> pressed;
 };
 
 bool mustWait(const WindowEvent& event, const Taken& taken) {
     using Type = WindowEvent::Type;
-    if (taken.button) return true;  // a click decides about the focus of the keyboard a frame later
+    if (taken.button) return true;  // a click changes the keyboard focus one frame later
     if (event.type == Type::text) return taken.editingKey;
     if (event.type != Type::key || !event.pressed || event.repeated || isModifier(event.key)) return false;
     const bool otherControl = taken.control && *taken.control != event.control;

@@ -1,7 +1,7 @@
 #pragma once
-// Limits the events of a frame. ImGui sees keys and buttons once per frame: if a slow frame took everything that
-// happened meanwhile (Ctrl A and the text after it, a click and the word typed there), some of it would be lost. The
-// picture's own commands need no limit.
+// Limits the events of a frame. ImGui reads keys and buttons once per frame. If a slow frame took all waiting events,
+// some would be lost, such as text after Ctrl A or after a click into a field. The picture's own commands need no
+// limit.
 
 #include <deque>
 #include <vector>

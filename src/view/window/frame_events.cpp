@@ -16,7 +16,7 @@ void poll(Session& session, double seconds) {
     for (WindowEvent& event : session.window.poll(seconds)) session.events.push_back(std::move(event));
 }
 
-// Returns the seconds to sleep until something happens; 0 while anything moves or grows.
+// Returns the max seconds to sleep until the next event; 0 while anything moves or grows.
 double idleTime(const Session& session) {
     const ViewState& state = session.state;
     const bool loading = session.document.loader.busy();
@@ -30,7 +30,7 @@ double idleTime(const Session& session) {
 }  // namespace
 
 double interfaceScale(const Session& session) {
-    // In steps, since each scale needs another font texture.
+    // Rounded to steps of 1/8, because each scale needs its own font texture.
     return std::clamp(std::round(session.window.contentScale() * session.state.interfaceScale * 8) / 8, 0.5, 4.0);
 }
 

@@ -13,10 +13,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double clickRadius = 4;     // window units that the mouse may move during a click
+constexpr double clickRadius = 4;     // window units; max movement of the mouse during a click
 constexpr double doubleClick = 0.35;  // s
-constexpr double dividerReach = 7;    // window units around the divider
-constexpr double zoomNotch = 0.88;    // factor on the distance per notch of the wheel
+constexpr double dividerReach = 7;    // window units; distance from the divider at which it can be dragged
+constexpr double zoomNotch = 0.88;    // factor on the pivot distance per wheel notch
 constexpr double rackTime = 0.15;     // s per notch
 
 // Returns focus distance divided by depth in focus at a position of the picture: 1 unless the focus surface is tilted
@@ -74,7 +74,7 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
         case WindowEvent::Type::key:
             pressKey(event, context, state, actions);
             break;
-        case WindowEvent::Type::text:  // taken by text fields
+        case WindowEvent::Type::text:  // text fields handle it
             break;
         case WindowEvent::Type::drop:
             if (!event.paths.empty()) actions.open = event.paths.front();

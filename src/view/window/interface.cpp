@@ -18,7 +18,7 @@ namespace {
 
 void loadFont(double scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    const bool hadTexture = atlas.IsBuilt();  // else the backend makes it in its first frame
+    const bool hadTexture = atlas.IsBuilt();  // false: the backend makes the texture in its first frame
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     atlas.Clear();
     addFont(atlas, scale);
@@ -55,15 +55,15 @@ void ViewInterface::beginFrame(bool dark, double scale, const std::vector<Window
     ImGui::NewFrame();
 }
 
-// Sets ImGui's input by the events. GLFW's own state may be ahead of them.
+// Sets ImGui's input from the events, because GLFW's own state may be ahead of them.
 void ViewInterface::feed(const std::vector<WindowEvent>& events) {
     ImGuiIO& io = ImGui::GetIO();
     GLFWwindow* const window = window_->native();
-    const auto tell = [&](const WindowEvent& event) {  // looks up the letter of the keyboard's layout
+    const auto tell = [&](const WindowEvent& event) {  // maps the key to a letter by the keyboard's layout
         ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
     };
     if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)
-        std::ranges::fill(io.KeysDown, false);  // another window gets the releases
+        std::ranges::fill(io.KeysDown, false);  // another window receives the releases
     for (const WindowEvent& event : std::exchange(tappedKeys_, {})) tell(event);
     std::array<bool, 3> pressed{};
     std::set<int> down;
@@ -87,11 +87,11 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                 if (event.key < 0 || event.repeated) break;
                 if (event.pressed) {
                     tell(event);
-                    io.KeysDownDuration[event.key] = -1;  // a new press, even if no frame saw the release
+                    io.KeysDownDuration[event.key] = -1;  // counts as a new press, even without a release in between
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {
-                    tappedKeys_.push_back(event);  // this frame sees it pressed
+                    tappedKeys_.push_back(event);  // released in the next frame, so that this frame sees the press
                 } else {
                     tell(event);
                 }

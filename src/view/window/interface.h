@@ -1,5 +1,5 @@
 #pragma once
-// Runs Dear ImGui in a Window: feeds events to ImGui and draws its frames.
+// Runs ImGui in a Window: feeds it events and draws its frames.
 
 #include <array>
 #include <vector>
@@ -16,7 +16,7 @@ public:
     ViewInterface(const ViewInterface&) = delete;
     ViewInterface& operator=(const ViewInterface&) = delete;
 
-    // Begins a frame. `scale`: px per unit of the interface. `events`: those that the frame takes (event_pacing.h).
+    // Begins a frame. `scale`: px per unit of the interface. `events`: the events of this frame (event_pacing.h).
     void beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events);
     // Draws the widgets to the window's framebuffer.
     void endFrame();
@@ -26,8 +26,8 @@ private:
 
     Window* window_;
 
-    std::vector<WindowEvent> tappedKeys_;  // released in the frame that pressed them; released in the next one
-    std::array<bool, 3> buttons_{};        // held, according to the events so far
+    std::vector<WindowEvent> tappedKeys_;  // pressed and released in one frame; ImGui gets the release in the next
+    std::array<bool, 3> buttons_{};        // held buttons, according to the events so far
     glm::dvec2 mouse_{0.0};                // window units
     bool focused_ = false;
     double scale_ = 0;

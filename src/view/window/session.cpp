@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double softwareBudget = 50;  // ms, where the CPU draws
+constexpr double softwareBudget = 50;  // ms, frame budget if the CPU draws
 constexpr std::size_t softwareRung = 2;
 constexpr std::size_t shownFrameTimes = 120;
 
@@ -64,7 +64,7 @@ void rememberSettings(Session& session) {
 
 void takeScene(Session& session) {
     if (!takeLoadedScene(session.document, session.state)) return;
-    session.still.reset();  // it refers to the old scene
+    session.still.reset();  // the still refers to the old scene
     session.window.setTitle(session.document.frame->sceneName + " – defocus");
 }
 
@@ -138,7 +138,7 @@ void act(Session& session) {
 void noteLatency(Session& session, bool pictureChanged) {
     if (pictureChanged)
         session.times.latency.shown(Clock::now());
-    else if (!session.state.pull)  // its first step is in the next frame
+    else if (!session.state.pull)  // the pull's first step is in the next frame
         session.times.latency.forget();
 }
 

@@ -15,12 +15,12 @@
 namespace defocus::engine {
 
 struct SessionOptions {
-    Request request;                     // its size is that of the picture
-    std::filesystem::path screenshot;    // of the window at the end; empty: none
-    int frames = 0;                      // closes after as many frames with the scene; 0: runs until it is closed
+    Request request;                     // request; its size is the size of the picture
+    std::filesystem::path screenshot;    // file for a screenshot of the window at the end; empty: none
+    int frames = 0;                      // number of frames with the scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // empty: the embedded shaders
     bool quiet = false;                  // no warnings on stderr
-    std::filesystem::path stats;         // the state as JSON, kept up to date; empty: none
+    std::filesystem::path stats;         // file for the state as JSON, updated continuously; empty: none
 };
 
 // Opens a window and the scene; returns once the window is closed. Throws Error without a display, and, with `frames`,
@@ -37,7 +37,7 @@ struct Session {
     ViewInterface interface;
     ViewInput input;
     ViewState state;
-    ViewActions actions;  // of this frame
+    ViewActions actions;  // actions of this frame
     Document document;
     LivePicture picture;
     std::optional<StillExport> still;
@@ -50,10 +50,10 @@ struct Session {
     double growthTime = 0;  // ms that the frame spent on the still image
 
     const Clock::time_point begin = Clock::now();
-    int framesWithScene = 0;  // without drafts
+    int framesWithScene = 0;  // frames of the complete scene, not of a draft
     std::uint64_t framesDrawn = 0;
     double statsWrittenAt = -1;  // s, as ViewState::now
-    Places places;               // in the latest frame
+    Places places;               // widget positions in the latest frame
 };
 
 // Returns the px per unit of the interface.
@@ -62,13 +62,13 @@ double interfaceScale(const Session& session);
 [[nodiscard]] bool dialogOpen(const Session& session);
 InputContext inputContext(const Session& session);
 
-// Sets ViewState::area and pictureSize by the window's size.
+// Sets ViewState::area and pictureSize from the window's size.
 void layOut(Session& session);
 
 // Returns the events of the next frame. Adds samples to a still picture first; sleeps if there is nothing to do.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
-// Writes the state to SessionOptions::stats, several times a second; `now`: in any case.
+// Writes the state to SessionOptions::stats, several times a second; `now`: immediately.
 void writeStats(Session& session, bool now = false);
 
 }  // namespace defocus::engine
