@@ -48,7 +48,7 @@ defocus::Progress listening(const Listener& listener) {
 
 // ---- images ---------------------------------------------------------------------------------------------------------
 
-using Array = py::array_t<float, py::array::c_style>;
+using Array = py::array_t<float>;
 
 // Returns an array that owns the image's pixels: H×W, or H×W×channels for more than one channel.
 Array arrayOf(defocus::Image&& image) {
@@ -61,13 +61,19 @@ Array arrayOf(defocus::Image&& image) {
     return Array(shape, pixels, keeper);
 }
 
-// Returns a view of the array's pixels, valid while the array exists. Returns an empty view if the array's shape is not
-// that of an image.
+// Returns a view of the array's pixels without a copy; it is valid as long as the array. The package passes arrays with 2
+// or 3 axes whose strides are positive and whose channels are neighbours.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
-    return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
-            array.ndim() == 3 ? static_cast<int>(array.shape(2)) : 1,
-            std::span(array.data(), static_cast<std::size_t>(array.size()))};
+    if (array.size() == 0) return {};
+    const auto height = static_cast<std::size_t>(array.shape(0));
+    const auto width = static_cast<std::size_t>(array.shape(1));
+    const std::size_t channels = array.ndim() == 3 ? static_cast<std::size_t>(array.shape(2)) : 1;
+    const defocus::ImageStrides strides{static_cast<std::size_t>(array.strides(1)) / sizeof(float),
+                                        static_cast<std::size_t>(array.strides(0)) / sizeof(float)};
+    const std::size_t values = (height - 1) * strides.row + (width - 1) * strides.pixel + channels;
+    return {static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels),
+            std::span(array.data(), values), strides};
 }
 
 // ---- scenes and renderers -------------------------------------------------------------------------------------------
@@ -317,7 +323,7 @@ void defineRenderer(py::module_& package) {
              })
         .def("plan_json",
              [](SharedRenderer& self) {
-                 return self.with([](const SceneRenderer& renderer) { return renderer.planJson(); });
+                 return self.with([](const SceneRenderer& renderer) { return defocus::toJson(renderer.plan()); });
              })
         .def(
             "write",
@@ -337,11 +343,11 @@ void defineRenderer(py::module_& package) {
         .def("close", &SharedRenderer::close);
     package.def("plan_json", [](const defocus::Request& request, const Listener& progress) {
         const py::gil_scoped_release unlocked;
-        return defocus::planJson(request, listening(progress));
+        return defocus::toJson(defocus::plan(request, listening(progress)));
     });
     package.def("pyramid_json", [](const defocus::Request& request, const Listener& progress) {
         const py::gil_scoped_release unlocked;
-        return defocus::pyramidJson(request, listening(progress));
+        return defocus::toJson(defocus::pyramids(request, listening(progress)));
     });
 }
 

@@ -40,26 +40,44 @@ private:
     }
 };
 
-// Read-only view of pixels that are stored elsewhere, in the same layout as an Image. It must not outlive the pixels.
+// Distances between neighbouring pixels of an ImageView, counted in floats.
+struct ImageStrides {
+    std::size_t pixel = 0;  // to the next pixel of the row
+    std::size_t row = 0;    // to the same pixel of the next row
+    bool operator==(const ImageStrides&) const = default;
+};
+
+// Read-only view of pixels that are stored elsewhere. The channels of a pixel are neighbours; strides give the positions
+// of pixels. The view must not outlive the pixels.
 struct ImageView {
     int width = 0;
     int height = 0;
     int channels = 0;
-    std::span<const float> pixels;
+    std::span<const float> pixels;  // begins with the top left pixel
+    ImageStrides strides;
 
     ImageView() = default;
+    // Views packed pixels in the layout of an Image.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
-        : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values) {}
+        : ImageView(viewWidth, viewHeight, viewChannels, values, packedStrides(viewWidth, viewChannels)) {}
+    // Views a part of a larger image, or pixels with padding.
+    ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values, ImageStrides between)
+        : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values), strides(between) {}
     // NOLINTNEXTLINE(google-explicit-constructor): implicit, so that functions that only read pixels accept an Image
     ImageView(const Image& image)
         : ImageView(image.width, image.height, image.channels, std::span<const float>(image.pixels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
+    // Returns whether the pixels follow each other without gaps.
+    [[nodiscard]] bool isPacked() const { return strides == packedStrides(width, channels); }
     // Returns a pointer to the first channel of a pixel, like Image::at.
     [[nodiscard]] const float* at(int x, int y) const {
-        return pixels.data() +
-               (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-                   static_cast<std::size_t>(channels);
+        return pixels.data() + static_cast<std::size_t>(y) * strides.row + static_cast<std::size_t>(x) * strides.pixel;
+    }
+
+private:
+    static ImageStrides packedStrides(int width, int channels) {
+        return {static_cast<std::size_t>(channels), static_cast<std::size_t>(width) * static_cast<std::size_t>(channels)};
     }
 };
 
@@ -112,7 +130,7 @@ struct Difference {
 };
 
 // Compares two linear images of the same size. RGBA is composited over black; grey is expanded to RGB. Throws Error if
-// the sizes differ or if a view's pixel count doesn't match its size.
+// the sizes differ or if a view reaches beyond its pixels.
 DEFOCUS_API Difference compareImages(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus

@@ -15,6 +15,7 @@
 
 #include "defocus/export.h"
 #include "defocus/image.h"
+#include "defocus/plan.h"
 #include "defocus/progress.h"
 #include "defocus/request.h"
 #include "defocus/scene.h"
@@ -80,9 +81,8 @@ public:
 
     // Returns the auxiliary images of the latest frame. Throws Error if the frame is drawn in tiles.
     [[nodiscard]] Aovs aovs();
-    // Returns the plan of the latest frame as JSON, as `defocus plan --json` prints it. The plan lists the blur, level
-    // and samples of each object, and everything that is left out, with the reason.
-    [[nodiscard]] std::string planJson() const;
+    // Returns the plan of the latest frame: blur, level and samples of each object, and everything that is left out.
+    [[nodiscard]] Plan plan() const;
     // Writes an image of this frame with its metadata. PNG and JPEG use the request's tone mapping and exposure.
     // Metered exposure is measured on the first image written and kept for later ones.
     void write(const std::filesystem::path& path, const ImageView& image) const;
@@ -99,13 +99,6 @@ private:
 
 // Returns the image of a request. SceneRenderer does the same step by step.
 DEFOCUS_API Image render(const Request& request, const Progress& progress = {});
-
-// Returns the plan of a request as JSON. Needs no GPU and renders nothing.
-DEFOCUS_API std::string planJson(const Request& request, const Progress& progress = {});
-
-// Returns the levels of detail of each mesh in a request's scene as JSON. Each level has its triangle count, mean edge
-// length and error, in the mesh's units.
-DEFOCUS_API std::string pyramidJson(const Request& request, const Progress& progress = {});
 
 // Sets one setting of a request from text, for bindings and files. `name` is a name in docs/settings.md, such as
 // "fStop" or "blurThreshold"; `text` has the command line's syntax. Throws UsageError naming the setting.

@@ -286,7 +286,7 @@ def _listener(progress: Optional[Progress]) -> Optional[Progress]:
 
 
 def _pixels(image: Any) -> numpy.ndarray:
-    """Returns the image as a C-contiguous float32 array; without a copy if it already is one."""
+    """Returns float32 pixels that C++ can read in place, and copies only if it must."""
     if isinstance(image, (str, os.PathLike)):
         return read_image(image)
     array = numpy.asarray(image)
@@ -294,6 +294,9 @@ def _pixels(image: Any) -> numpy.ndarray:
         raise UsageError(f"an image holds linear floats, not {array.dtype}; divide by the range and decode first")
     if array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] not in (1, 3, 4)):
         raise UsageError(f"an image is H×W or H×W×channels with 1, 3 or 4 of them, not {'×'.join(map(str, array.shape))}")
+    in_place = array.dtype == numpy.float32 and all(0 < step and step % 4 == 0 for step in array.strides)
+    if in_place and (array.ndim == 2 or array.shape[2] == 1 or array.strides[2] == 4):
+        return array
     return numpy.ascontiguousarray(array, dtype=numpy.float32)
 
 

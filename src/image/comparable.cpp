@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "image/packed_pixels.h"
 
 namespace defocus::engine {
 
@@ -25,8 +26,8 @@ ComparablePair comparablePair(const ImageView& reference, const ImageView& test)
              test.width, test.height);
     if (reference.empty()) fail("images without pixels cannot be compared");
     for (const ImageView& image : {reference, test})
-        if (image.pixels.size() != std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels))
-            fail("an image of {}x{} with {} channels cannot have {} values", image.width, image.height, image.channels,
+        if (!coversItsPixels(image))
+            fail("an image of {}x{} with {} channels reaches beyond its {} values", image.width, image.height, image.channels,
                  image.pixels.size());
 
     const int width = reference.width;

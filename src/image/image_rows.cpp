@@ -27,7 +27,7 @@ namespace {
 constexpr int rowsAtOnce = 64;  // encoded per call; multiple of EXR's 16-row blocks
 
 ImageView rowsOf(const ImageView& image, int first, int count) {
-    const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    const std::size_t row = image.strides.row;
     ImageView rows = image;
     rows.height = count;
     rows.pixels = image.pixels.subspan(static_cast<std::size_t>(first) * row, static_cast<std::size_t>(count) * row);

@@ -13,6 +13,7 @@
 #include "image/image_encoding.h"
 #include "image/image_io.h"
 #include "image/oiio_names.h"
+#include "image/packed_pixels.h"
 
 namespace defocus::engine {
 
@@ -90,5 +91,5 @@ void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer
 }  // namespace defocus::engine
 
 void defocus::writeImage(const std::filesystem::path& path, const ImageView& image, const WriteOptions& options) {
-    engine::writeImage(path, image, engine::Metadata(), options);
+    engine::writeImage(path, engine::PackedPixels(image).view(), engine::Metadata(), options);
 }

@@ -15,85 +15,96 @@ constexpr double degree = std::numbers::pi / 180;
 
 // Infinity is not a valid input; a default of infinity is shown as "none".
 const LensField fields[] = {
-    {"focalLength", "--focal-length", "MM", 1e-2, 1e6, &Lens::focalLength, &LensSettings::focalLength,
-     "Focal length, which sets the field of view. Default: from the camera's field of view", "50", LensFeature::camera,
-     true},
-    {"fStop", "--fstop", "N", 1e-3, 1e6, &Lens::fStop, &LensSettings::fStop,
+    {"focalLength", "--focal-length", LensSection::lens, "MM", 1e-2, 1e6, &Lens::focalLength,
+     &LensSettings::focalLength, "Focal length, which sets the field of view. Default: from the camera's field of view",
+     "50", LensFeature::camera, true},
+    {"fStop", "--fstop", LensSection::lens, "N", 1e-3, 1e6, &Lens::fStop, &LensSettings::fStop,
      "f-number. Default: the camera's own, else 2.8", "1.4", LensFeature::fStop, true},
-    {"focusDistance", "--focus-distance", "M", 1e-6, 1e12, &Lens::focusDistance, std::monostate(),
+    {"focusDistance", "--focus-distance", LensSection::focus, "M", 1e-6, 1e12, &Lens::focusDistance, std::monostate(),
      "Distance of the focus plane along the view axis. Default without any focus option: the camera's own, else the "
      "median depth of the surfaces in the image's middle",
      "2.5", LensFeature::blur, true},
-    {"horizontalAperture", "--horizontal-aperture", "MM", 1e-2, 1e6, &Lens::horizontalAperture,
+    {"horizontalAperture", "--horizontal-aperture", LensSection::lens, "MM", 1e-2, 1e6, &Lens::horizontalAperture,
      &LensSettings::horizontalAperture, "Width of the sensor. Default: the camera's own, else 36", "36",
      LensFeature::camera},
-    {"dofEnabled", "--dof", "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled,
+    {"dofEnabled", "--dof", LensSection::lens, "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled,
      "Depth of field; --no-dof renders as a pinhole camera", "false", LensFeature::camera},
-    {"blurScale", "--blur-scale", "R", 0, 1e3, &Lens::blurScale, &LensSettings::blurScale,
+    {"blurScale", "--blur-scale", LensSection::lens, "R", 0, 1e3, &Lens::blurScale, &LensSettings::blurScale,
      "Scale of the blur; 1 is physical", "2", LensFeature::blur, true},
-    {"focusBreathing", "--focus-breathing", "", 0, 1, &Lens::focusBreathing, &LensSettings::focusBreathing,
-     "Thin lens whose field of view narrows as the focus comes nearer", "true", LensFeature::camera},
-    {"exposureTime", "--exposure-time", "S", 0, 1e6, &Lens::exposureTime, &LensSettings::exposureTime,
+    {"focusBreathing", "--focus-breathing", LensSection::lens, "", 0, 1, &Lens::focusBreathing,
+     &LensSettings::focusBreathing, "Thin lens whose field of view narrows as the focus comes nearer", "true",
+     LensFeature::camera},
+    {"exposureTime", "--exposure-time", LensSection::lens, "S", 0, 1e6, &Lens::exposureTime,
+     &LensSettings::exposureTime,
      "Exposure time of PNG, JPEG and video, as 0.008 or 1/125, with the f-number and --iso; radiance is in cd/m2. 0: "
      "as without it, see --exposure. Motion blur has --shutter",
      "0.02", LensFeature::camera},
-    {"iso", "--iso", "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
+    {"iso", "--iso", LensSection::lens, "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
      "Sensitivity for --exposure-time. Default: the camera's own, else 100", "400", LensFeature::camera},
-    {"bladeCount", "--blades", "N", 0, 64, &Lens::bladeCount, &LensSettings::bladeCount,
+    {"bladeCount", "--blades", LensSection::aperture, "N", 0, 64, &Lens::bladeCount, &LensSettings::bladeCount,
      "Number of aperture blades: 3 to 64, or 0 for a disk", "7", LensFeature::shape, false,
      R"({"anyOf": [{"enum": [0]}, {"type": "integer", "minimum": 3, "maximum": 64}]})"},
-    {"bladeRotation", "--blade-rotation", "DEG", -1e6, 1e6, &Lens::bladeRotation, &LensSettings::bladeRotation,
+    {"bladeRotation", "--blade-rotation", LensSection::aperture, "DEG", -1e6, 1e6, &Lens::bladeRotation,
+     &LensSettings::bladeRotation,
      "Rotation of the blades. At 0 a corner points to the right, where Blender has the middle of an edge: add 180/N "
      "for "
      "Blender's picture; files by Blender are converted",
      "15", LensFeature::shape},
-    {"bladeCurvature", "--blade-curvature", "R", 0, 1, &Lens::bladeCurvature, &LensSettings::bladeCurvature,
-     "Curvature of the blades, from 0 (straight) to 1 (a circle)", "0.5", LensFeature::shape},
-    {"anamorphicRatio", "--anamorphic-ratio", "R", 1e-2, 1e2, &Lens::anamorphicRatio, &LensSettings::anamorphicRatio,
-     "Height over width of the aperture; above 1, blurred points are tall ovals", "2", LensFeature::blur},
-    {"obstruction", "--obstruction", "R", 0, 0.999, &Lens::obstruction, &LensSettings::obstruction,
-     "Inner over outer diameter of the ring-shaped aperture of a mirror lens", "0.3", LensFeature::shape},
-    {"sphericalAberration", "--spherical-aberration", "R", -1, 1, &Lens::sphericalAberration,
+    {"bladeCurvature", "--blade-curvature", LensSection::aperture, "R", 0, 1, &Lens::bladeCurvature,
+     &LensSettings::bladeCurvature, "Curvature of the blades, from 0 (straight) to 1 (a circle)", "0.5",
+     LensFeature::shape},
+    {"anamorphicRatio", "--anamorphic-ratio", LensSection::aperture, "R", 1e-2, 1e2, &Lens::anamorphicRatio,
+     &LensSettings::anamorphicRatio, "Height over width of the aperture; above 1, blurred points are tall ovals", "2",
+     LensFeature::blur},
+    {"obstruction", "--obstruction", LensSection::aperture, "R", 0, 0.999, &Lens::obstruction,
+     &LensSettings::obstruction, "Inner over outer diameter of the ring-shaped aperture of a mirror lens", "0.3",
+     LensFeature::shape},
+    {"sphericalAberration", "--spherical-aberration", LensSection::aperture, "R", -1, 1, &Lens::sphericalAberration,
      &LensSettings::sphericalAberration,
      "Brightness across blurred points: above 0 brighter at the rim (soap bubbles), below 0 in the middle (creamy)",
      "0.5", LensFeature::shape},
-    {"catEye", "--cat-eye", "R", 0, 1, &Lens::catEye, &LensSettings::catEye,
+    {"catEye", "--cat-eye", LensSection::aperture, "R", 0, 1, &Lens::catEye, &LensSettings::catEye,
      "Vignetting by the barrel, which narrows blurred points towards the corners: the fraction of the aperture's "
      "radius "
      "hidden in the corners",
      "0.5", LensFeature::lensPoint},
-    {"axialChromaticAberration", "--axial-chromatic-aberration", "D", -100, 100, &Lens::axialChromaticAberration,
-     &LensSettings::axialChromaticAberration,
+    {"axialChromaticAberration", "--axial-chromatic-aberration", LensSection::aperture, "D", -100, 100,
+     &Lens::axialChromaticAberration, &LensSettings::axialChromaticAberration,
      "Axial chromatic aberration, with colour fringes: dioptres by which red focuses farther away than blue", "0.2",
      LensFeature::lensPoint},
-    {"astigmatism", "--astigmatism", "MM", -100, 100, &Lens::astigmatism, &LensSettings::astigmatism,
+    {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
+     &LensSettings::astigmatism,
      "Astigmatism: length of the radial line that a point in focus becomes at the left and right edges, on the sensor. "
      "Below 0: the line appears on the other side of the focus",
      "0.2", LensFeature::lensPoint},
-    {"coma", "--coma", "MM", -100, 100, &Lens::coma, &LensSettings::coma,
+    {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
      "Coma: length of a point's tail at the left and right edges, on the sensor; above 0 the tail points outwards",
      "0.2", LensFeature::lensPoint},
-    {"foregroundLimit", "--foreground-limit", "PX", 0, 1e6, &Lens::foregroundLimit, &LensSettings::foregroundLimit,
-     "Maximum blur in front of the focus plane", "20"},
-    {"backgroundLimit", "--background-limit", "PX", 0, 1e6, &Lens::backgroundLimit, &LensSettings::backgroundLimit,
-     "Maximum blur behind the focus plane", "40"},
-    {"focusRangeFront", "--focus-range-front", "M", 0, 1e12, &Lens::focusRangeFront, &LensSettings::focusRangeFront,
+    {"foregroundLimit", "--foreground-limit", LensSection::lens, "PX", 0, 1e6, &Lens::foregroundLimit,
+     &LensSettings::foregroundLimit, "Maximum blur in front of the focus plane", "20"},
+    {"backgroundLimit", "--background-limit", LensSection::lens, "PX", 0, 1e6, &Lens::backgroundLimit,
+     &LensSettings::backgroundLimit, "Maximum blur behind the focus plane", "40"},
+    {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
+     &LensSettings::focusRangeFront,
      "Depth in front of the focus distance that stays sharp; the blur grows from its end", "0.5"},
-    {"focusRangeBehind", "--focus-range-behind", "M", 0, 1e12, &Lens::focusRangeBehind, &LensSettings::focusRangeBehind,
-     "Depth behind the focus distance that stays sharp; the blur grows from its end", "1"},
-    {"focusRangeRefocuses", "--focus-range-refocuses", "", 0, 1, &Lens::focusRangeRefocuses,
+    {"focusRangeBehind", "--focus-range-behind", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeBehind,
+     &LensSettings::focusRangeBehind, "Depth behind the focus distance that stays sharp; the blur grows from its end",
+     "1"},
+    {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
      "Behind the focus range, blur as if the lens were focused at the range's far end. Off: the blur grows from there "
      "to its value at infinity without a range",
      "true"},
-    {"focusTilt", "--focus-tilt", "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
+    {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis; above 0 its top is nearer", "10"},
-    {"focusSwing", "--focus-swing", "DEG", -89.9, 89.9, &Lens::focusSwing, &LensSettings::focusSwing,
-     "Swing of the focus plane about the vertical axis; above 0 its right side is nearer", "10"},
-    {"fieldCurvature", "--field-curvature", "R", -1e3, 1e3, &Lens::fieldCurvature, &LensSettings::fieldCurvature,
+    {"focusSwing", "--focus-swing", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusSwing,
+     &LensSettings::focusSwing, "Swing of the focus plane about the vertical axis; above 0 its right side is nearer",
+     "10"},
+    {"fieldCurvature", "--field-curvature", LensSection::focus, "R", -1e3, 1e3, &Lens::fieldCurvature,
+     &LensSettings::fieldCurvature,
      "Field curvature: at the left and right edges the focus surface lies at the focus distance over 1 + R", "0.2"},
-    {"radialBlurGain", "--radial-blur-gain", "R", 0, 1e3, &Lens::radialBlurGain, &LensSettings::radialBlurGain,
-     "Blur gain away from the image's centre: 1 + R at the left and right edges", "1"},
+    {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
+     &LensSettings::radialBlurGain, "Blur gain away from the image's centre: 1 + R at the left and right edges", "1"},
 };
 
 bool isAngle(const LensField& field) {
@@ -115,6 +126,14 @@ const LensField* lensFieldNamed(std::string_view name) {
 double lensFieldValue(const Lens& lens, const LensField& field) {
     const double value = std::visit([&](auto member) { return static_cast<double>(lens.*member); }, field.member);
     return isAngle(field) ? value / degree : value;
+}
+
+bool overridden(const Lens& lens, const LensField& field) {
+    const std::string_view name = field.name;
+    if (name == "iso") return !(lens.exposureTime > 0);
+    if (name == "bladeRotation") return lens.bladeCount == 0 && !lens.apertureImage;
+    if (name == "bladeCurvature") return lens.bladeCount == 0 || lens.apertureImage;
+    return field.feature == LensFeature::shape && lens.apertureImage;
 }
 
 void setLensField(Lens& lens, const LensField& field, double value) {

@@ -25,9 +25,13 @@ enum class LensFeature {
     lensPoint,  // blur that depends on the colour or on the position in the image
 };
 
+// Group of lens values in forms.
+enum class LensSection { focus, lens, aperture };
+
 struct LensField {
     const char* name;    // name in glTF extras and shot files: "bladeRotation"
     const char* option;  // on the command line: "--blade-rotation"
+    LensSection section;
     // "MM", "M", "DEG", "PX", "D" (dioptres), "N" (a count), "R" (a ratio), "S", or "" (a boolean).
     const char* unit;
     double min = 0;  // range of the value, in `unit`
@@ -51,6 +55,9 @@ const LensField* lensFieldNamed(std::string_view name);
 
 // Returns the value in the field's unit: degrees where a Lens holds radians, 0 or 1 for booleans.
 double lensFieldValue(const Lens& lens, const LensField& field);
+
+// Returns whether other values of the lens override a field, such as an aperture image the number of blades.
+bool overridden(const Lens& lens, const LensField& field);
 
 // Sets the field. Throws Error if the value is out of range, or fractional for an integer field. checkLens checks
 // constraints between fields.

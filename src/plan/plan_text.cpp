@@ -4,49 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "lens/lens_fields.h"
 #include "plan/lens_cells/lens_cells.h"
 
 namespace defocus::engine {
 
 namespace {
-
-using nlohmann::json;
-
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-json drawJson(const LevelDraw& draw) {
-    return {{"level", draw.level},
-            {"triangles", draw.triangleCount},
-            {"firstSample", draw.firstSample},
-            {"sampleCount", draw.sampleCount}};
-}
-
-json objectJson(const ObjectPlan& object, const LensCells& cells) {
-    json draws = json::array();
-    for (const LevelDraw& draw : {object.coarse, object.fine})
-        if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
-    json result = {{"name", object.name},
-                   {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
-                   {"coc",
-                    {{"nearest", number(object.coc.nearest)},
-                     {"farthest", number(object.coc.farthest)},
-                     {"smallest", number(object.coc.smallest)},
-                     {"largest", number(object.coc.largest)}}},
-                   {"projectedEdge", number(object.projectedEdge)},
-                   {"lambda", object.lambda},
-                   {"blended", object.blended},
-                   {"transmits", object.transmits},
-                   {"moves", !object.motion.empty()},
-                   {"draws", std::move(draws)},
-                   {"pixelRate", pixelRate(cells, object.coc.smallest)}};
-    if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
-    return result;
-}
 
 // Describes one draw. `shared` is the share of the boundary sample that the other level draws.
 std::string drawText(const LevelDraw& draw, double shared) {
@@ -97,31 +60,6 @@ double shownCoc(double coc) {
     return std::abs(coc) < 0.005 ? 0 : coc;
 }
 
-// Returns the camera's position (m) and its right, up and back directions.
-json cameraJson(const View& view) {
-    const auto column = [&](int c) {
-        const glm::dvec4& v = view.worldFromCamera[c];
-        return json::array({v.x, v.y, v.z});
-    };
-    return {{"position", column(3)}, {"right", column(0)}, {"up", column(1)}, {"back", column(2)}};
-}
-
-json lensJson(const FramePlan& plan) {
-    json lens;
-    for (const LensField& field : lensFields()) lens[field.name] = number(lensFieldValue(plan.view.lens, field));
-    lens["apertureImage"] = plan.view.lens.apertureImage != nullptr;
-    lens["apertureDiameter"] = plan.apertureDiameter;
-    lens["used"] = plan.usesLens;
-    return lens;
-}
-
-json shadowsJson(const ShadowPlan& shadows) {
-    json maps = json::array();
-    for (const ShadowMap& map : shadows.maps)
-        maps.push_back({{"light", map.light}, {"face", map.face}, {"lightSize", map.lightSize}});
-    return {{"maps", std::move(maps)}, {"size", shadows.size}, {"pointsPerSample", shadows.points}};
-}
-
 }  // namespace
 
 std::string planTable(const FramePlan& plan) {
@@ -155,41 +93,6 @@ std::string planTable(const FramePlan& plan) {
     if (!plan.leftOut.empty()) text += "\nleft out\n";
     for (const LeftOut& entry : plan.leftOut) text += fmt::format("  {}: {}\n", entry.what, entry.reason);
     return text;
-}
-
-std::string planJson(const FramePlan& plan) {
-    const LensCells cells = lensCells(plan);
-    json objects = json::array();
-    for (const ObjectPlan& object : plan.objects) objects.push_back(objectJson(object, cells));
-    json leftOut = json::array();
-    for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
-    const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
-                           {"transparent", plan.needsAlpha},
-                           {"camera", cameraJson(plan.view)},
-                           {"lens", lensJson(plan)},
-                           {"samples", plan.samples.size()},
-                           {"sequence", sequenceName(plan.settings.sequence)},
-                           {"seed", plan.settings.seed},
-                           {"cocTolerance", plan.settings.cocTolerance},
-                           {"shutter", {{"moments", momentCount(plan)}, {"movingObjects", movingCount(plan)}}},
-                           {"lod",
-                            {{"mode", lodModeName(plan.settings.lod)},
-                             {"metric", lodMetricName(plan.settings.metric)},
-                             {"coc", plan.settings.lodCoc == LodCoc::centre ? "centre" : "smallest"},
-                             {"vertices", levelVerticesName(plan.settings.levelVertices)},
-                             {"blurThreshold", plan.thresholds.blur},
-                             {"sizeThreshold", plan.thresholds.size},
-                             {"lightThreshold", plan.thresholds.light}}},
-                           {"shadows", shadowsJson(plan.shadows)},
-                           {"lensCells", {{"blur", cells.blur}, {"reason", cells.reason}}},
-                           {"objects", std::move(objects)},
-                           {"leftOut", std::move(leftOut)},
-                           {"triangles",
-                            {{"drawn", plan.trianglesDrawn},
-                             {"facingAway", plan.trianglesFacingAway},
-                             {"outside", plan.trianglesOutside},
-                             {"fullDetail", plan.trianglesAtFullDetail}}}};
-    return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace defocus::engine

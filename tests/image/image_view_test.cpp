@@ -59,5 +59,28 @@ TEST(ImageView, ofTooFewPixelsIsRefused) {
     EXPECT_NE(messageOf<Error>([&] { compareImages(full, ImageView(9, 5, 1, pixels)); }), "");
 }
 
+// A crop of RGBA without its alpha has gaps between pixels and between rows.
+TEST(ImageView, stridesSelectAPartOfAnImage) {
+    const ScratchFolder folder;
+    const Image full = gradient(4);
+    Image crop(4, 3, 3);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 4; ++x) std::copy_n(full.at(x + 2, y + 1), 3, crop.at(x, y));
+    const std::span<const float> begin = std::span(full.pixels).subspan(4 * (9 + 2));
+    const ImageView view(4, 3, 3, begin, {4, 9 * 4});
+    EXPECT_FALSE(view.isPacked());
+    EXPECT_EQ(compareImages(crop, view).maxError, 0);
+    for (const char* name : {"a.exr", "a.png"}) {
+        writeImage(folder / name, crop);
+        const Image wanted = readImage(folder / name);
+        writeImage(folder / name, view);
+        EXPECT_EQ(readImage(folder / name).pixels, wanted.pixels) << name;
+    }
+    const ImageView tooTall(4, 5, 3, begin, {4, 9 * 4});
+    EXPECT_NE(messageOf<Error>([&] { writeImage(folder / "b.exr", tooTall); }), "");
+    EXPECT_NE(messageOf<Error>([&] { compareImages(Image(4, 5, 3), tooTall); }), "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
+}
+
 }  // namespace
 }  // namespace defocus::engine

@@ -11,8 +11,8 @@
 #include "cli/commands/bench_report.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "eval/stability/text.h"
 #include "gl/context.h"
+#include "stability/text.h"
 
 namespace defocus::engine {
 

@@ -342,11 +342,10 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "sensor of 36 x 27 mm)")
         ->group(group);
     // Leave out the shape and the aberrations of the aperture: the report depends on its diameter only.
-    addSettings(command, options.seen,
-                settingsOf({SettingGroup::camera, SettingGroup::lens},
-                           {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
-                            "obstruction", "sphericalAberration", "catEye", "axialChromaticAberration", "astigmatism",
-                            "coma", "apertureImage"}));
+    std::vector<std::string> unused = {"camera", "nodeBlur", "apertureImage"};
+    for (const LensField& field : lensFields())
+        if (field.section == LensSection::aperture) unused.emplace_back(field.name);
+    addSettings(command, options.seen, settingsOf({SettingGroup::camera, SettingGroup::lens}, unused));
     addSettings(command, options.seen, {"units", "time", "clip", "loop"});
     for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
              return each != camera && std::find(before.begin(), before.end(), each) == before.end();

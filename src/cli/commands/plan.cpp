@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/options/request_options.h"
+#include "frame/report/plan_report.h"
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/prepared_frame.h"
 #include "plan/frame_plan.h"
@@ -30,7 +31,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
         settings.sampleCount = samplesForBlur(plan);
         plan = planFrame(frame.world, frame.view, settings);
     }
-    fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
+    fmt::print("{}", arguments.json ? toJson(reportedPlan(plan)) : planTable(plan));
     printCacheUse(frame, global);
     WarningPrinter warnings(global);
     warnings.print(requestWarnings(arguments.request, frame));

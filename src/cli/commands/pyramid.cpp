@@ -26,6 +26,7 @@
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/suggestion.h"
+#include "frame/report/plan_report.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/image_io.h"
@@ -228,45 +229,18 @@ void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshR
 
 // ---- output -------------------------------------------------------------------------------------
 
-struct EndText {
-    const char* name;
-    const char* reason;
-};
-
-EndText endText(const Pyramid& pyramid) {
-    switch (pyramid.end) {
-        case PyramidEnd::minTriangles:
-            return {"minTriangles", "this is as small as levels get"};
-        case PyramidEnd::smallSaving:
-            return {"smallSaving", "it would save less than a quarter of the triangles"};
-        case PyramidEnd::topology:
-            return {"topology", "handles, cuts and borders need the triangles that are left"};
-        case PyramidEnd::largestParts:
-            return {"largestParts", "it would be at the cost of the largest parts"};
-        case PyramidEnd::noSurface:
-            return {"noSurface", "no triangle has corners apart from each other"};
-        case PyramidEnd::maxLevels:
-            return {"maxLevels", "there are as many as a pyramid may have"};
-    }
-    fail("unknown end of a pyramid");
-}
-
 Json distancesJson(const Distances& distances) {
     return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};
 }
 
-Json levelJson(const PyramidLevel& level, const LevelReport& report) {
-    Json json = {{"triangles", level.triangleCount},
-                 {"vertices", level.vertexCount},
-                 {"meanEdge", level.meanEdge},
-                 {"error", level.error}};
+// Adds the measured distances and the file of a level to its JSON.
+void addReport(Json& json, const LevelReport& report) {
     if (report.measured) {
         json["measured"] = distancesJson(report.measured->both);
         json["measured"]["fromLevel0"] = distancesJson(report.measured->forward);
         json["measured"]["toLevel0"] = distancesJson(report.measured->backward);
     }
     if (!report.file.empty()) json["file"] = report.file.string();
-    return json;
 }
 
 Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std::vector<MeshReport>& reports) {
@@ -274,16 +248,10 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
     if (!arguments.noMeasure) json["points"] = arguments.points;
     json["meshes"] = Json::array();
     for (const MeshReport& report : reports) {
-        Json mesh = {{"name", scene.meshes[report.mesh].name},
-                     {"index", report.mesh},
-                     {"buildSeconds", report.seconds ? Json(*report.seconds) : Json()},
-                     {"diagonal", glm::length(report.pyramid.bounds.size())},
-                     {"repairedFaces", report.pyramid.repairedFaces},
-                     {"end", endText(report.pyramid).name},
-                     {"levels", Json::array()}};
+        Json mesh = jsonOf(reportedPyramid(report.pyramid, scene.meshes[report.mesh].name, report.mesh));
+        mesh["buildSeconds"] = report.seconds ? Json(*report.seconds) : Json();
         if (!report.turntable.empty()) mesh["turntable"] = report.turntable.string();
-        for (std::size_t l = 0; l < report.levels.size(); ++l)
-            mesh["levels"].push_back(levelJson(report.pyramid.levels[l], report.levels[l]));
+        for (std::size_t l = 0; l < report.levels.size(); ++l) addReport(mesh["levels"][l], report.levels[l]);
         json["meshes"].push_back(std::move(mesh));
     }
     return json;
@@ -324,7 +292,7 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
             fmt::print("; {} face{} repaired", grouped(pyramid.repairedFaces), pyramid.repairedFaces == 1 ? "" : "s");
         fmt::print("\n");
         if (report.levels.size() > 1) printLevels(report);
-        fmt::print("  no further level: {}\n", endText(pyramid).reason);
+        fmt::print("  no further level: {}\n", endReason(pyramid.end));
     }
 }
 
@@ -360,7 +328,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     if (context) drawTurntables(loaded, reports, arguments.turntable, stems, global, progress);
 
     if (arguments.json) {
-        fmt::print("{}\n", reportJson(arguments, scene, reports).dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}", documentText(reportJson(arguments, scene, reports)));
     } else {
         printReport(scene, reports);
         if (!arguments.exportFolder.empty())

@@ -2,41 +2,27 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/number_text.h"
 #include "defocus/renderer.h"
 #include "defocus/scene.h"
+#include "frame/report/plan_report.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/prepared_frame.h"
 #include "frame/setup/scene_scale.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
-#include "plan/plan_text.h"
 #include "scene/gltf/gltf.h"
 
 namespace defocus {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 template <typename Things>
 std::vector<std::string> namesOf(const Things& things) {
     std::vector<std::string> names;
     for (const auto& thing : things) names.push_back(thing.name);
     return names;
-}
-
-Json levelsJson(const engine::Pyramid& pyramid) {
-    Json levels = Json::array();
-    for (const engine::PyramidLevel& level : pyramid.levels)
-        levels.push_back({{"triangles", level.triangleCount},
-                          {"vertices", level.vertexCount},
-                          {"meanEdge", level.meanEdge},
-                          {"error", level.error}});
-    return levels;
 }
 
 }  // namespace
@@ -75,25 +61,25 @@ Image render(const Request& request, const Progress& progress) {
     return SceneRenderer(request, progress).render(progress);
 }
 
-std::string planJson(const Request& request, const Progress& progress) {
+Plan plan(const Request& request, const Progress& progress) {
     engine::checkRequest(request);
     const engine::PreparedFrame frame = engine::prepareFrame(request, progress);
-    return engine::planJson(engine::planFrame(frame.world, frame.view, frame.settings));
+    return engine::reportedPlan(engine::planFrame(frame.world, frame.view, frame.settings));
 }
 
-std::string pyramidJson(const Request& request, const Progress& progress) {
+std::vector<Pyramid> pyramids(const Request& request, const Progress& progress) {
     engine::checkRequest(request);
     const engine::Scene scene = engine::loadScene(request, progress);
     engine::PyramidOptions options;
     options.vertices = request.levelVertices;
     const engine::Finishes finishes(scene);
     options.finishes = &finishes;
-    const std::vector<engine::Pyramid> pyramids =
+    const std::vector<engine::Pyramid> built =
         engine::cachedPyramids(scene.meshes, engine::pyramidFolder(request), options, progress).pyramids;
-    Json json = {{"meshes", Json::array()}};
-    for (std::size_t i = 0; i < pyramids.size(); ++i)
-        json["meshes"].push_back({{"name", scene.meshes[i].name}, {"index", i}, {"levels", levelsJson(pyramids[i])}});
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::vector<Pyramid> reported;
+    for (std::size_t i = 0; i < built.size(); ++i)
+        reported.push_back(engine::reportedPyramid(built[i], scene.meshes[i].name, i));
+    return reported;
 }
 
 void setSetting(Request& request, const std::string& name, const std::string& text) {

@@ -6,7 +6,8 @@
 #include "core/progress.h"
 #include "defocus/renderer.h"
 #include "frame/driver/scene_driver.h"
-#include "plan/plan_text.h"
+#include "frame/report/plan_report.h"
+#include "image/packed_pixels.h"
 
 namespace defocus {
 
@@ -74,12 +75,12 @@ Aovs SceneRenderer::aovs() {
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
 }
 
-std::string SceneRenderer::planJson() const {
-    return engine::planJson(state_->driver().plan());
+Plan SceneRenderer::plan() const {
+    return engine::reportedPlan(state_->driver().plan());
 }
 
 void SceneRenderer::write(const std::filesystem::path& path, const ImageView& image) const {
-    state_->write(path, image);
+    state_->write(path, engine::PackedPixels(image).view());
 }
 
 std::vector<std::string> SceneRenderer::warnings() const {

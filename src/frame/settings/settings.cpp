@@ -33,6 +33,12 @@ const Setting* settingNamed(std::string_view name) {
     return found == settings().end() ? nullptr : &*found;
 }
 
+bool dependsOnScene(const Setting& setting) {
+    if (setting.group == SettingGroup::camera) return setting.name != "size";
+    return setting.group == SettingGroup::lens || setting.name == "time" || setting.name == "clip" ||
+           setting.name == "hide";
+}
+
 void setByName(Request& request, std::string_view name, const std::string& text) {
     if (const Setting* setting = settingNamed(name)) {
         try {

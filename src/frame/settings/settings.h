@@ -80,6 +80,10 @@ void addSetting(Setting setting);
 // Returns the setting of that name; null for an unknown name.
 const Setting* settingNamed(std::string_view name);
 
+// Returns whether a value suits only one scene, such as a camera, a lens or a clip. The window clears these settings when
+// it opens another file.
+bool dependsOnScene(const Setting& setting);
+
 // Sets a value by name. Names of method settings ("far-components" or "farComponents") are allowed too. Throws
 // UsageError for a bad value or an unknown name. For an unknown name, the message suggests the nearest name.
 void setByName(Request& request, std::string_view name, const std::string& text);

@@ -15,12 +15,8 @@ namespace defocus::engine {
 namespace {
 
 Request withoutScene(Request options) {
-    for (const Setting& setting : settings()) {
-        const bool isCamera = setting.group == SettingGroup::camera && setting.name != "size";
-        const bool isLens = setting.group == SettingGroup::lens;
-        if (isCamera || isLens || setting.name == "time" || setting.name == "clip" || setting.name == "hide")
-            setting.clear(options);
-    }
+    for (const Setting& setting : settings())
+        if (dependsOnScene(setting)) setting.clear(options);
     return options;
 }
 

@@ -13,22 +13,9 @@ namespace defocus::engine {
 
 namespace {
 
-enum class LensSection { focus, lens, aperture };
-
-LensSection sectionOf(std::string_view name) {
-    static constexpr std::string_view focus[] = {"focusDistance",       "focusRangeFront", "focusRangeBehind",
-                                                 "focusRangeRefocuses", "focusTilt",       "focusSwing",
-                                                 "fieldCurvature"};
-    static constexpr std::string_view aperture[] = {
-        "bladeCount",          "bladeRotation", "bladeCurvature",           "anamorphicRatio", "obstruction",
-        "sphericalAberration", "catEye",        "axialChromaticAberration", "astigmatism",     "coma"};
-    if (std::ranges::find(focus, name) != std::end(focus)) return LensSection::focus;
-    return std::ranges::find(aperture, name) != std::end(aperture) ? LensSection::aperture : LensSection::lens;
-}
-
 void fieldRows(ViewState& state, LensSection section) {
     for (const LensField& field : lensFields()) {
-        if (sectionOf(field.name) != section) continue;
+        if (field.section != section) continue;
         const bool changed = lensFieldRow(state.lens, field);
         if (changed && field.name == std::string_view("focusDistance")) state.pull.reset();
     }

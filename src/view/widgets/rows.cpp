@@ -91,15 +91,6 @@ bool valueIsSet(const std::string& name, std::string& text, const std::string& f
     return !text.empty();
 }
 
-// Returns whether other fields disable a field.
-bool hasNoEffect(const Lens& lens, std::string_view name) {
-    if (name == "iso") return !(lens.exposureTime > 0);
-    if (name == "bladeRotation") return lens.bladeCount == 0 && !lens.apertureImage;
-    if (name == "bladeCurvature") return lens.bladeCount == 0 || lens.apertureImage;
-    const bool shapesAperture = name == "bladeCount" || name == "obstruction" || name == "sphericalAberration";
-    return shapesAperture && lens.apertureImage;
-}
-
 }  // namespace
 
 bool settingRow(Request& request, const std::string& name, const std::string& first) {
@@ -134,7 +125,7 @@ bool lensFieldRow(Lens& lens, const LensField& field) {
     const std::string first = isTime ? "0.008" : std::isinf(unset) ? "16" : "";
     Request request;
     if (first.empty() || value != unset) giveLensValue(request, field, std::clamp(value, field.min, field.max));
-    ImGui::BeginDisabled(hasNoEffect(lens, field.name));
+    ImGui::BeginDisabled(overridden(lens, field));
     const bool changed = settingRow(request, field.name, first);
     ImGui::EndDisabled();
     if (!changed) return false;

@@ -66,28 +66,63 @@ TEST_F(Library, settingsByNameAreThoseOfTheStruct) {
     EXPECT_TRUE(outside.starts_with("samples: ")) << outside;
 }
 
-TEST_F(Library, planListsEachObjectAndPyramidEachLevel) {
-    const json plan = json::parse(planJson(request_));
-    EXPECT_EQ(plan.at("objects").size(), 2u);
+TEST_F(Library, planListsEachObject) {
+    const Plan planned = plan(request_);
+    ASSERT_EQ(planned.objects.size(), 2u);
+    EXPECT_GT(planned.trianglesDrawn, 0u);
+    EXPECT_LE(planned.objects[0].nearestDepth, planned.objects[1].nearestDepth);
+    const json document = json::parse(toJson(planned));
+    EXPECT_EQ(document.at("objects").size(), 2u);
+    EXPECT_EQ(document.at("samples"), planned.samples);
+    EXPECT_EQ(document.at("objects")[0].at("lambda"), planned.objects[0].lambda);
+    EXPECT_FALSE(document.at("objects")[0].contains("boundaryShare"));
+    EXPECT_EQ(document.at("lens").at("fStop"), planned.lens.fStop);
+}
+
+TEST_F(Library, planOfContinuousLevelsHasBoundaryShares) {
+    request_.scene.clear();
+    request_.fishCount = 2;
+    request_.trianglesPerFish = 2000;
+    request_.lod = LodMode::continuous;
+    request_.lens.fStop = 0.5;
+    const Plan planned = plan(request_);
+    const json document = json::parse(toJson(planned));
+    EXPECT_EQ(document.at("lod").at("mode"), "continuous");
+    bool anyShared = false;
+    for (std::size_t i = 0; i < planned.objects.size(); ++i) {
+        const PlannedObject& object = planned.objects[i];
+        const json& written = document.at("objects")[i];
+        ASSERT_EQ(written.contains("boundaryShare"), object.boundaryShare.has_value());
+        if (!object.boundaryShare) continue;
+        anyShared = true;
+        EXPECT_EQ(written.at("boundaryShare"), *object.boundaryShare);
+    }
+    EXPECT_TRUE(anyShared);
+}
+
+TEST_F(Library, pyramidsListEachLevel) {
     request_.scene.clear();
     request_.fishCount = 2;
     request_.trianglesPerFish = 600;
-    const json meshes = json::parse(pyramidJson(request_)).at("meshes");
-    ASSERT_EQ(meshes.size(), 2u);
-    for (const json& mesh : meshes) {
-        const json& levels = mesh.at("levels");
-        ASSERT_GT(levels.size(), 1u);
-        EXPECT_EQ(levels[0].at("error"), 0);
-        for (std::size_t l = 1; l < levels.size(); ++l) {
-            EXPECT_LT(levels[l].at("triangles"), levels[l - 1].at("triangles"));
-            EXPECT_GT(levels[l].at("meanEdge"), levels[l - 1].at("meanEdge"));
+    const std::vector<defocus::Pyramid> built = pyramids(request_);
+    ASSERT_EQ(built.size(), 2u);
+    for (const defocus::Pyramid& pyramid : built) {
+        ASSERT_GT(pyramid.levels.size(), 1u);
+        EXPECT_EQ(pyramid.levels[0].error, 0);
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+            EXPECT_LT(pyramid.levels[l].triangles, pyramid.levels[l - 1].triangles);
+            EXPECT_GT(pyramid.levels[l].meanEdge, pyramid.levels[l - 1].meanEdge);
         }
     }
+    const json meshes = json::parse(toJson(built)).at("meshes");
+    ASSERT_EQ(meshes.size(), 2u);
+    EXPECT_EQ(meshes[1].at("levels").size(), built[1].levels.size());
+    EXPECT_EQ(meshes[1].at("levels")[1].at("triangles"), built[1].levels[1].triangles);
 }
 
 TEST_F(Library, progressMayCancelAPlan) {
     struct Cancelled {};
-    EXPECT_THROW(planJson(request_, [](auto...) { throw Cancelled(); }), Cancelled);
+    EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
 // A request with an invalid member that no text could set. The error message begins with the member's name.
@@ -142,7 +177,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
     for (const BadValue& value : values) {
         Request request = request_;
         value.set(request);
-        const std::string message = messageOf<UsageError>([&] { planJson(request); });
+        const std::string message = messageOf<UsageError>([&] { plan(request); });
         EXPECT_TRUE(message.starts_with(value.name)) << value.name << ": " << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
@@ -215,7 +250,7 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         const std::size_t changes = 1 + generator() % 4;
         for (std::size_t k = 0; k < changes; ++k) setters[generator() % setters.size()](request);
         try {
-            const json plan = json::parse(planJson(request));
+            const json planned = json::parse(toJson(plan(request)));
             EXPECT_TRUE(plan.at("triangles").is_object() || plan.at("triangles").is_number());
             ++planned;
         } catch (const Error& error) {

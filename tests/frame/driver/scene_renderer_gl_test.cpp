@@ -178,7 +178,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     EXPECT_THROW(static_cast<void>(renderer.image()), Error);
     EXPECT_THROW(renderer.advance(), Error);
     EXPECT_THROW(static_cast<void>(renderer.aovs()), Error);
-    EXPECT_THROW(static_cast<void>(renderer.planJson()), Error);
+    EXPECT_THROW(static_cast<void>(renderer.plan()), Error);
     renderer.start();
     EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample has been rendered
     const Image full = renderer.render();
@@ -231,8 +231,8 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     EXPECT_EQ(*aovs.level.at(2, 45), -1);
     EXPECT_LT(*aovs.coc.at(32, 11), 0);
     EXPECT_GT(*aovs.coc.at(2, 45), 0);
-    EXPECT_EQ(nlohmann::json::parse(renderer.planJson()).at("objects").size(), 2u);
-    EXPECT_EQ(renderer.planJson(), planJson(request));
+    EXPECT_EQ(renderer.plan().objects.size(), 2u);
+    EXPECT_EQ(toJson(renderer.plan()), toJson(plan(request)));
 
     renderer.write(folder_ / "a.exr", image);
     Metadata metadata;

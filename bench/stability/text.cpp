@@ -1,4 +1,4 @@
-#include "eval/stability/text.h"
+#include "stability/text.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "eval/stability/stability.h"
 #include "lod/pyramid/pyramid.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

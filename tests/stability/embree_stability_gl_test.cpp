@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "embree/embree_renderer.h"
-#include "eval/stability/lens_honesty.h"
-#include "eval/stability/stability.h"
 #include "gl/context.h"
+#include "stability/lens_honesty.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 namespace {

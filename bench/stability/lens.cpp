@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
 #include "image/metrics.h"
 #include "image/moments.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

@@ -1,4 +1,4 @@
-#include "eval/stability/stability.h"
+#include "stability/stability.h"
 
 #include <algorithm>
 #include <cmath>

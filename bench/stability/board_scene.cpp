@@ -1,4 +1,4 @@
-#include "eval/stability/board_scene.h"
+#include "stability/board_scene.h"
 
 #include <cmath>
 #include <glm/common.hpp>

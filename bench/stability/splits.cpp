@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
 #include "lod/pyramid/level_selection.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

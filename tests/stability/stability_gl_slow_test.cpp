@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "eval/stability/lens_honesty.h"
-#include "eval/stability/stability.h"
-#include "eval/stability/text.h"
 #include "gl/context.h"
 #include "render/methods.h"
+#include "stability/lens_honesty.h"
+#include "stability/stability.h"
+#include "stability/text.h"
 
 namespace defocus::engine {
 namespace {

@@ -5,9 +5,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
 #include "lens/lens_samples.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

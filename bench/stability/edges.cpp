@@ -7,8 +7,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "eval/bench_subject.h"
-#include "eval/stability/lens_honesty.h"
-#include "eval/stability/stability.h"
+#include "stability/lens_honesty.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

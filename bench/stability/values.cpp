@@ -7,8 +7,8 @@
 #include <limits>
 #include <memory>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

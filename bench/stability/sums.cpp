@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

@@ -1,4 +1,4 @@
-#include "eval/stability/lens_honesty.h"
+#include "stability/lens_honesty.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "eval/stability/board_scene.h"
 #include "image/moments.h"
+#include "stability/board_scene.h"
 
 namespace defocus::engine {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "eval/stability/board_scene.h"
-#include "eval/stability/stability.h"
 #include "image/metrics.h"
 #include "image/moments.h"
+#include "stability/board_scene.h"
+#include "stability/stability.h"
 
 namespace defocus::engine {
 

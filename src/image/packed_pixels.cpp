@@ -1,0 +1,27 @@
+#include "image/packed_pixels.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace defocus::engine {
+
+bool coversItsPixels(const ImageView& view) {
+    if (view.width < 1 || view.height < 1 || view.channels < 1) return false;
+    const std::size_t last = static_cast<std::size_t>(view.height - 1) * view.strides.row +
+                             static_cast<std::size_t>(view.width - 1) * view.strides.pixel;
+    return last + static_cast<std::size_t>(view.channels) <= view.pixels.size();
+}
+
+PackedPixels::PackedPixels(const ImageView& view) : view_(view) {
+    if (view.isPacked()) return;
+    if (!coversItsPixels(view))
+        fail("an image of {}x{} with {} channels and strides of {} and {} reaches beyond its {} values", view.width,
+             view.height, view.channels, view.strides.pixel, view.strides.row, view.pixels.size());
+    copy_ = Image(view.width, view.height, view.channels);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) std::copy_n(view.at(x, y), view.channels, copy_.at(x, y));
+    view_ = copy_;
+}
+
+}  // namespace defocus::engine
