@@ -24,6 +24,12 @@ struct GlobalOptions {
 // Adds all commands with their options. `global` must outlive the program.
 void addCommands(CLI::App& program, GlobalOptions& global);
 
+// Returns a command, followed by all commands below it.
+std::vector<const CLI::App*> allCommands(const CLI::App& command);
+
+// Returns the names of a command, each after a space, such as " bench speedup"; empty for the program.
+std::string pathOf(const CLI::App& command);
+
 // Returns a progress display on stderr: a bar on a terminal, plain lines in a file or pipe, nothing with --quiet. Work
 // that ends within a second shows nothing.
 Progress terminalProgress(const GlobalOptions& global);

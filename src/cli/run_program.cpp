@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -77,10 +78,7 @@ void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
 }
 
 std::string helpHint(const CLI::App& program) {
-    std::string names;
-    for (const CLI::App* app = &chosenCommand(program); app != &program; app = app->get_parent())
-        names.insert(0, ' ' + app->get_name());
-    return fmt::format("see defocus{} --help", names);
+    return fmt::format("see defocus{} --help", pathOf(chosenCommand(program)));
 }
 
 bool isOption(const std::string& word) {
@@ -179,6 +177,18 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     program.footer(
         "defocus COMMAND --help explains a command, and --help-all tells all of it.\n\nExample:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");
+}
+
+std::vector<const CLI::App*> allCommands(const CLI::App& command) {
+    std::vector<const CLI::App*> all = {&command};
+    for (const CLI::App* below : command.get_subcommands(nullptr))
+        std::ranges::copy(allCommands(*below), std::back_inserter(all));
+    return all;
+}
+
+std::string pathOf(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return parent == nullptr ? "" : pathOf(*parent) + ' ' + command.get_name();
 }
 
 int runProgram(int argc, char** argv) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "frame/settings/settings.h"
+#include "cli/options/request_options.h"
 #include "image/image_io.h"
 #include "render/methods.h"
 #include "scene/gltf/builder.h"
@@ -276,22 +276,6 @@ inline std::vector<const CLI::Option*> optionsOffered(const std::string& command
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
     std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });
     return options;
-}
-
-// Returns the row of the table of settings for an option; null if the option has none.
-inline const Setting* settingOf(const CLI::Option& option) {
-    for (const Setting& setting : settings())
-        if (setting.option == nameOf(option) && setting.help == option.get_description()) return &setting;
-    return nullptr;
-}
-
-// Returns the method's setting for an option; null if the option is none.
-inline const MethodSetting* methodSettingOf(const CLI::Option& option) {
-    for (const Method& method : methods())
-        for (const MethodSetting& setting : method.settings)
-            if (nameOf(option) == "--" + setting.name && option.get_description() == setting.description)
-                return &setting;
-    return nullptr;
 }
 
 // Rows of one group of the table that a command offers.

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options/program_outline.h"
+#include "cli/options/option_text.h"
 
 namespace defocus::engine {
 

@@ -36,6 +36,18 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
         ->default_str(fmt::format("{:g}", target));
 }
 
+bool isEveryday(const CLI::Option& option) {
+    return option.get_configurable() || option.get_name().starts_with("--help");  // CLI11 unsets it for help options
+}
+
+std::vector<std::string> namesOf(const CLI::Option& option) {
+    if (option.get_positional()) return {option.get_name()};
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
 std::vector<std::string> partsOf(const std::string& text) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {

@@ -27,6 +27,12 @@ inline CLI::Option* advanced(CLI::Option* option) {
     return option->configurable(false);
 }
 
+// Returns whether --help shows the option.
+bool isEveryday(const CLI::Option& option);
+
+// Returns all names of an option, such as "-o" and "--output", or the word of a positional argument.
+std::vector<std::string> namesOf(const CLI::Option& option);
+
 // Returns a check without a name in --help, where the description already names the allowed values.
 inline CLI::Validator unnamed(const CLI::Validator& check) {
     return check.description("");

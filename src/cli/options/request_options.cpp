@@ -98,4 +98,18 @@ void addMethodSettings(CLI::App& command, Request& request) {
         }
 }
 
+const Setting* settingOf(const CLI::Option& option) {
+    for (const Setting& setting : settings())
+        if (setting.option == option.get_name() && setting.help == option.get_description()) return &setting;
+    return nullptr;
+}
+
+const MethodSetting* methodSettingOf(const CLI::Option& option) {
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            if (option.get_name() == "--" + setting.name && option.get_description() == setting.description)
+                return &setting;
+    return nullptr;
+}
+
 }  // namespace defocus::engine

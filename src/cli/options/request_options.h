@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/settings/settings.h"
+#include "render/methods.h"
 
 namespace defocus::engine {
 
@@ -22,6 +23,12 @@ void addMethodSettings(CLI::App& command, Request& request);
 
 // Adds the options for developers of the program. They must be added last, so that --help ends with them.
 void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without = {});
+
+// Returns the setting that an option sets; null for an option of the command's own, even one of the same name.
+const Setting* settingOf(const CLI::Option& option);
+
+// Returns the method's setting that an option sets; null if it sets none.
+const MethodSetting* methodSettingOf(const CLI::Option& option);
 
 // Groups of the settings of a frame, without the display of PNG and JPEG and without developer settings.
 inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,

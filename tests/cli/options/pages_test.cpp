@@ -1,9 +1,9 @@
 // Completions and the manual page contain every command and option of --help; the shells and groff accept them.
 
-#include <set>
+#include <fmt/ranges.h>
 
 #include "cli/option_cases.h"
-#include "cli/options/program_outline.h"
+#include "cli/options/option_text.h"
 #include "cli/program.h"
 
 namespace defocus::engine {
@@ -59,17 +59,48 @@ TEST_F(Pages, bashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(offered("defocus render --aov depth,c"), Words({"depth,coc"}));
     EXPECT_EQ(offered("defocus render --method circ"), Words({"circular"}));
     EXPECT_EQ(offered("defocus render --fstop ''"), Words()) << "a number";
+    EXPECT_EQ(offered("defocus render --shader-dir folder --fst"), Words({"--fstop"}));
     EXPECT_EQ(offered("defocus completions z"), Words({"zsh"}));
     std::ofstream(folder() / "scene.glb") << "";
     EXPECT_EQ(offered("defocus render sce"), Words({"scene.glb"}));
     EXPECT_EQ(offered("defocus render --stats sce"), Words({"scene.glb"}));
+    EXPECT_EQ(offered("defocus render --cache-dir sce"), Words()) << "a folder";
+    EXPECT_EQ(offered("defocus cache list sce"), Words()) << "takes no file";
     EXPECT_EQ(offered("defocus info --fst"), Words({"--fstop"}));
     EXPECT_EQ(offered("defocus merge --fst"), Words()) << "not an option of this command";
 }
 
-TEST_F(Pages, zshTakesItsScript) {
+TEST_F(Pages, zshCompletesCommandsOptionsAndValues) {
     if (!isInstalled("zsh")) GTEST_SKIP() << "zsh isn't installed";
     EXPECT_EQ(said("zsh -n zsh"), "");
+    std::ofstream(folder() / "scene.glb") << "";
+    // Types each argument and a tab into an interactive shell, whose key ^T then prints the line.
+    std::ofstream(folder() / "type") << R"(zmodload zsh/zpty
+zpty shell zsh -f -i
+zpty -w shell 'autoload -U compinit; compinit -D -u; source ./zsh
+    print-line() { print -r -- $BUFFER >>lines; BUFFER= }
+    zle -N print-line; bindkey "^T" print-line; print -n >lines'
+until [[ -e lines ]]; do sleep 0.05; done
+for line in "$@"; do zpty -w -n shell "$line"$'\t\C-t'; done
+until (($(wc -l <lines) == $#)); do sleep 0.05; done
+cat lines
+)";
+    const auto completed = [&](const std::vector<std::string>& lines) {
+        return said(fmt::format("timeout 60 zsh -f ./type '{}'", fmt::join(lines, "' '")));
+    };
+    EXPECT_EQ(completed({"defocus re", "defocus bench spe", "defocus render --fst", "defocus --quiet render --fst",
+                         "defocus render --lod o", "defocus render --lod=o", "defocus render --aov depth,c",
+                         "defocus render --stats=sce", "defocus render sce", "defocus merge --fst"}),
+              "defocus render \n"
+              "defocus bench speedup \n"
+              "defocus render --fstop \n"
+              "defocus --quiet render --fstop \n"
+              "defocus render --lod off \n"
+              "defocus render --lod=off \n"
+              "defocus render --aov depth,coc \n"
+              "defocus render --stats=scene.glb \n"
+              "defocus render scene.glb \n"
+              "defocus merge --fst\n");
 }
 
 TEST_F(Pages, fishCompletesCommandsOptionsAndValues) {
@@ -82,33 +113,42 @@ TEST_F(Pages, fishCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(complete("defocus bench spe"), "speedup\n");
     EXPECT_EQ(complete("defocus render --fst"), "--fstop\n");
     EXPECT_EQ(complete("defocus render --lod o"), "off\n");
+    EXPECT_EQ(complete("defocus render --lod=o"), "--lod=off\n");
+    EXPECT_EQ(complete("defocus render --aov depth,c"), "depth,coc\n");
+    EXPECT_EQ(complete("defocus render --fstop "), "") << "a number";
+    std::ofstream(folder() / "scene.glb") << "";
+    EXPECT_EQ(complete("defocus render sce"), "scene.glb\n");
+    EXPECT_EQ(complete("defocus render --stats=sce"), "--stats=scene.glb\n");
     EXPECT_EQ(complete("defocus merge --fst"), "");
 }
 
 TEST_F(Pages, groffTakesTheManualPage) {
     if (!isInstalled("groff")) GTEST_SKIP() << "groff isn't installed";
-    EXPECT_EQ(said("groff -man -Tutf8 -P -cbou -ww defocus.1 >shown"), "");
+    EXPECT_EQ(said("groff -k -man -Tutf8 -P -cbou -ww defocus.1 >shown"), "");
     EXPECT_NE(textOf(folder() / "shown").find("EXIT STATUS"), std::string::npos);
 }
 
 TEST_F(Pages, allKnowEveryOption) {
-    const CommandOutline program = outlineOf(commandNamed(""));
-    const std::string bash = textOf(folder() / "bash");
-    const std::string zsh = textOf(folder() / "zsh");
-    const std::string fish = textOf(folder() / "fish");
+    const auto candidates = [&](const char* shell) {
+        const std::string script = textOf(folder() / shell);
+        const std::size_t begin = script.find("    printf");
+        return script.substr(begin, script.find("    }' ") - begin);
+    };
+    EXPECT_TRUE(candidates("zsh") == candidates("bash"));
+    EXPECT_TRUE(candidates("fish") == candidates("bash"));
     std::string manual = textOf(folder() / "defocus.1");
-    for (std::size_t at = 0; (at = manual.find("\\-", at)) != std::string::npos;) manual.erase(at, 1);
+    std::erase(manual, '\\');
     std::size_t options = 0;
-    for (const CommandOutline* command : allCommands(program))
-        for (const OptionOutline& option : command->options)
-            for (const std::string& name : option.names) {
-                if (option.positional || !name.starts_with("--")) continue;
-                EXPECT_NE(bash.find(name), std::string::npos) << name;
-                EXPECT_NE(zsh.find(name), std::string::npos) << name;
-                EXPECT_NE(fish.find("-l " + name.substr(2)), std::string::npos) << name;
-                EXPECT_NE(manual.find(name + "\\fR"), std::string::npos) << name;
+    for (const CLI::App* command : allCommands(commandNamed(""))) {
+        const Words names = offered("defocus" + pathOf(*command) + " -");
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& name : namesOf(*option)) {
+                if (option->get_positional()) continue;
+                EXPECT_NE(std::ranges::find(names, name), names.end()) << pathOf(*command) << ' ' << name;
+                EXPECT_TRUE(std::regex_search(manual, std::regex(name + "(fR|, )"))) << name;
                 ++options;
             }
+    }
     EXPECT_GT(options, 500u);
 }
 
