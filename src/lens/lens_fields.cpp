@@ -38,9 +38,9 @@ const LensField fields[] = {
      &LensSettings::exposureTime,
      "Exposure time of PNG, JPEG and video, as 0.008 or 1/125, with the f-number and --iso; radiance is in cd/m2. 0: "
      "as without it, see --exposure. Motion blur has --shutter",
-     "0.02", LensFeature::camera},
+     "0.02", LensFeature::exposure},
     {"iso", "--iso", LensSection::lens, "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
-     "Sensitivity for --exposure-time. Default: the camera's own, else 100", "400", LensFeature::camera},
+     "Sensitivity for --exposure-time. Default: the camera's own, else 100", "400", LensFeature::exposure},
     {"bladeCount", "--blades", LensSection::aperture, "N", 0, 64, &Lens::bladeCount, &LensSettings::bladeCount,
      "Number of aperture blades: 3 to 64, or 0 for a disk", "7", LensFeature::shape, false,
      R"({"anyOf": [{"enum": [0]}, {"type": "integer", "minimum": 3, "maximum": 64}]})"},

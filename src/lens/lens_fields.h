@@ -18,7 +18,8 @@ namespace defocus::engine {
 
 // Aspect of the image that a lens value affects. It decides whether the value has an effect in a frame.
 enum class LensFeature {
-    camera,     // field of view, focus breathing, exposure
+    camera,     // field of view, focus breathing
+    exposure,   // only the brightness of PNG, JPEG and video
     fStop,      // blur and exposure
     blur,       // the size of the blur
     shape,      // the shape of the aperture

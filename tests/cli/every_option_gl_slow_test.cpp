@@ -1,6 +1,7 @@
-// Every setting that a command offers has an effect: the command prints, draws or measures something else with it. A
-// setting without a case fails the test, and so does one without an effect. every_own_option_gl_slow_test.cpp covers
-// the options that belong to single commands; tests/view covers the window.
+// Every setting that a command offers has the effect that the table of settings names: on the linear image, only on PNG
+// and JPEG, or only on time and memory. Commands without an image print or measure something else with it. A setting
+// without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single commands;
+// tests/view covers the window.
 
 #include <functional>
 
@@ -12,19 +13,27 @@ namespace {
 using nlohmann::json;
 using Folder = std::filesystem::path;
 
-// A command, and the function that extracts its observable output.
-struct Watched {
-    CommandLine line;
-    std::function<std::string(const Folder& folder, const Outcome& outcome)> seen;
+// The observable results of a command.
+struct Results {
+    std::string pixels;   // the linear image; empty for commands that draw none
+    std::string display;  // the PNG
+    std::string other;    // text, rows or statistics without times
+    bool operator==(const Results&) const = default;
 };
 
-std::string said(const Folder&, const Outcome& outcome) {
-    return outcome.out;
+// A command, and the function that reads its results.
+struct Watched {
+    CommandLine line;
+    std::function<Results(const Folder& folder, const Outcome& outcome)> results;
+};
+
+Results printed(const Folder&, const Outcome& outcome) {
+    return {{}, {}, outcome.out};
 }
 
 // Output of pyramid without the times of the levels.
-std::string saidOfPyramids(const Folder&, const Outcome& outcome) {
-    return withoutTimes(json::parse(outcome.out)).dump();
+Results printedPyramids(const Folder&, const Outcome& outcome) {
+    return {{}, {}, withoutTimes(json::parse(outcome.out)).dump()};
 }
 
 // Returns "limited " for the memory limit of option_cases.h. Any other limit depends on the machine's free memory.
@@ -32,43 +41,43 @@ std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
 
-std::string seenOfRender(const Folder& folder, const Outcome&) {
+Results rendered(const Folder& folder, const Outcome&) {
     const json stats = jsonIn(folder / "stats.json");
-    std::string text = pixelsIn(folder / "a.exr") + pixelsIn(folder / "a.png") + seenOfLimit(stats.at("memoryLimit"));
+    std::string text = seenOfLimit(stats.at("memoryLimit"));
     for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
         text += stats.at(key).dump() + " ";
-    return text;
+    return {pixelsIn(folder / "a.exr"), pixelsIn(folder / "a.png"), text};
 }
 
-std::string seenOfCapture(const Folder& folder, const Outcome&) {
+Results captured(const Folder& folder, const Outcome&) {
     json times = jsonIn(folder / "timings.jsonl");
     const std::string limit = seenOfLimit(times.at("memoryLimit"));
     times.erase("memoryLimit");
-    return pixelsIn(folder / "0.exr") + pixelsIn(folder / "0.png") + limit + withoutTimes(times).dump();
+    return {pixelsIn(folder / "0.exr"), pixelsIn(folder / "0.png"), limit + withoutTimes(times).dump()};
 }
 
-std::string rowsOf(const Folder& folder, const char* file, const Words& lists) {
+Results rowsOf(const Folder& folder, const char* file, const Words& lists) {
     const json result = jsonIn(folder / "result" / file);
     std::string text;
     for (const std::string& list : lists) text += withoutTimes(result.at(list)).dump();
-    return text;
+    return {{}, {}, text};
 }
 
 const std::vector<Watched>& watched() {
     static const std::vector<Watched> commands = {
-        {{.name = "plan", .command = {"plan"}, .rest = {"--json"}}, said},
+        {{.name = "plan", .command = {"plan"}, .rest = {"--json"}}, printed},
         {{.name = "render",
           .command = {"render"},
           .rest = {"--samples", "4", "-o", "a.exr", "-o", "a.png", "--stats", "stats.json"}},
-         seenOfRender},
+         rendered},
         {{.name = "capture",
           .command = {"capture"},
           .ball = {"ball.json"},
           .fish = {"fish.json"},
           .rest = {"--samples", "4", "-o", "#.exr", "-o", "#.png"}},
-         seenOfCapture},
-        {{.name = "info", .command = {"info", "--camera=Near"}, .rest = {"--json"}}, said},
-        {{.name = "pyramid", .command = {"pyramid"}, .size = "", .rest = {"--no-measure", "--json"}}, saidOfPyramids},
+         captured},
+        {{.name = "info", .command = {"info", "--camera=Near"}, .rest = {"--json"}}, printed},
+        {{.name = "pyramid", .command = {"pyramid"}, .size = "", .rest = {"--no-measure", "--json"}}, printedPyramids},
         {{.name = "bench speedup",
           .command = {"bench", "speedup"},
           .rest = {"--counts", "16", "--runs", "1", "--reference-samples", "2", "-o", "result", "--allow-changed"}},
@@ -90,31 +99,50 @@ const std::vector<Watched>& watched() {
 
 class EveryOption : public OptionTest {
 protected:
-    // Each line runs once, however many options are compared with it.
-    const std::string& seenOf(const Watched& command, const Words& line) {
-        const auto known = seen_.find(line);
-        return known != seen_.end() ? known->second : seen_.emplace(line, seenAnew(command, line)).first->second;
+    // Runs each line once, however many options are compared with it.
+    const Results& resultsOf(const Watched& command, const Words& line) {
+        const auto known = results_.find(line);
+        return known != results_.end() ? known->second
+                                       : results_.emplace(line, newResults(command, line)).first->second;
     }
 
-    std::string seenAnew(const Watched& command, const Words& line) const {
+    Results newResults(const Watched& command, const Words& line) const {
         for (const char* made : {"kept", "result"}) std::filesystem::remove_all(folder() / made);
         std::filesystem::remove_all(cacheFolder());
         const Outcome outcome = run(line);
         EXPECT_EQ(outcome.exitCode, 0) << shownLine(line) << "\n" << outcome.err;
-        if (outcome.exitCode != 0) return outcome.err;
-        return command.seen(folder(), outcome) + (std::filesystem::exists(cacheFolder()) ? "cache " : "") +
-               (std::filesystem::exists(folder() / "kept") ? "kept " : "");
+        if (outcome.exitCode != 0) return {{}, {}, outcome.err};
+        Results results = command.results(folder(), outcome);
+        if (std::filesystem::exists(cacheFolder())) results.other += "cache ";
+        if (std::filesystem::exists(folder() / "kept")) results.other += "kept ";
+        return results;
     }
 
-    void expectActs(const Watched& command, const std::string& name, const OptionCase& tried) {
+    void expectEffect(const Watched& command, const std::string& name, const OptionCase& tried, SettingEffect effect) {
         const Words line = lineOfCase(command.line, name, tried, true);
-        const std::string& without = seenOf(command, lineOfCase(command.line, name, tried, false));
-        EXPECT_TRUE(without != seenOf(command, line)) << name << " changes nothing in " << shownLine(line);
+        const Results& without = resultsOf(command, lineOfCase(command.line, name, tried, false));
+        const Results& with = resultsOf(command, line);
+        const std::string where = name + " in " + shownLine(line);
+        if (without.pixels.empty()) {
+            EXPECT_TRUE(with != without) << where;
+            return;
+        }
+        EXPECT_EQ(with.pixels != without.pixels, effect == SettingEffect::pixels) << where;
+        if (effect != SettingEffect::pixels)
+            EXPECT_EQ(with.display != without.display, effect == SettingEffect::display) << where;
+        if (effect == SettingEffect::run) EXPECT_TRUE(with.other != without.other) << where;
     }
 
 private:
-    std::map<Words, std::string> seen_;
+    std::map<Words, Results> results_;
 };
+
+// Returns the effect of the case. The table counts two settings as `run` because other settings record their effect: a
+// preset sets other settings, and a time limit draws fewer samples.
+SettingEffect effectOf(const Setting& setting) {
+    const bool drawsOtherwise = setting.name == "preset" || setting.name == "timeLimit";
+    return drawsOtherwise ? SettingEffect::pixels : setting.effect;
+}
 
 struct Asked {
     const Watched* command;
@@ -136,12 +164,12 @@ std::vector<Asked> settingsAsked() {
 
 class EverySetting : public EveryOption, public testing::WithParamInterface<Asked> {};
 
-TEST_P(EverySetting, acts) {
+TEST_P(EverySetting, hasItsEffect) {
     const auto& [command, group] = GetParam();
     for (const Setting* setting : settingsOffered(command->line.name, group)) {
         // The time limit ends a film between two frames (capture_gl_test.cpp); this shot has one frame.
         if (setting->name == "timeLimit" && command->line.name == "capture") continue;
-        expectActs(*command, setting->name, settingCases().at(setting->name));
+        expectEffect(*command, setting->name, settingCases().at(setting->name), effectOf(*setting));
     }
 }
 
@@ -158,9 +186,9 @@ std::vector<const Watched*> watchedThat(const std::function<bool(const Watched&)
 
 class EveryMethodSetting : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
-TEST_P(EveryMethodSetting, acts) {
+TEST_P(EveryMethodSetting, changesThePixels) {
     for (const std::string& name : methodSettingsOffered(GetParam()->line.name))
-        expectActs(*GetParam(), name, methodSettingCases().at(name));
+        expectEffect(*GetParam(), name, methodSettingCases().at(name), SettingEffect::pixels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([](const Watched& command) {
@@ -171,9 +199,9 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([
 class EveryCommand : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
 // Without repeatable output, a difference would prove nothing.
-TEST_P(EveryCommand, saysTheSameAgain) {
+TEST_P(EveryCommand, repeatsItsResults) {
     const Words line = lineOfCase(GetParam()->line, "", {}, false);
-    EXPECT_TRUE(seenAnew(*GetParam(), line) == seenAnew(*GetParam(), line)) << GetParam()->line.name;
+    EXPECT_TRUE(newResults(*GetParam(), line) == newResults(*GetParam(), line)) << GetParam()->line.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::ValuesIn(watchedThat([](const Watched&) { return true; })),

@@ -224,6 +224,7 @@ std::string unitOf(std::string_view metavar) {
 Setting::Unused unusedLensField(LensFeature feature) {
     switch (feature) {
         case LensFeature::camera:
+        case LensFeature::exposure:
             return {};
         case LensFeature::fStop:
             return withoutBlurOrExposure;
@@ -252,6 +253,7 @@ Row lensRow(const LensField& field) {
                   .keyed()
                   .lensField()
                   .json(field.schema)
+                  .effect(field.feature == LensFeature::exposure ? SettingEffect::display : SettingEffect::pixels)
                   .unused(unusedLensField(field.feature));
     if (field.name == std::string_view("focusDistance"))
         return std::move(row).values(setFocusDistance, focusDistanceText, clearFocus<FocusDistance>);

@@ -250,8 +250,8 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         const std::size_t changes = 1 + generator() % 4;
         for (std::size_t k = 0; k < changes; ++k) setters[generator() % setters.size()](request);
         try {
-            const json planned = json::parse(toJson(plan(request)));
-            EXPECT_TRUE(plan.at("triangles").is_object() || plan.at("triangles").is_number());
+            const json document = json::parse(toJson(plan(request)));
+            EXPECT_TRUE(document.at("triangles").is_object());
             ++planned;
         } catch (const Error& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
