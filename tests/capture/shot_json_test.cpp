@@ -27,6 +27,32 @@ TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
     EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
 }
 
+// The file holds every member that version 0.1 could write, except those that exclude each other.
+TEST(ShotJson, shotsOfVersion01StillLoad) {
+    const std::filesystem::path source = DEFOCUS_SOURCE_DIR;
+    const Shot shot = loadShot(source / "tests/data/shots/version-0.1.json");
+    Request request;
+    applyShot(shot, request);
+    EXPECT_EQ(shot.range.last, 71);
+    EXPECT_EQ(shot.frameRate, 25);
+    EXPECT_EQ(request.units, 1);
+    EXPECT_EQ(request.background, Background(Color{0.1f, 0.2f, 0.3f}));
+    EXPECT_EQ(request.clip, "Walk");
+    EXPECT_EQ(request.shutterPosition, ShutterPosition::start);
+    EXPECT_EQ(request.motionSegments, MotionSegments(4u));
+    EXPECT_EQ(request.camera, CameraChoice(NamedCamera{"Near"}));
+    EXPECT_TRUE(shot.focus);
+    EXPECT_EQ(request.lens.bladeCount, 7);
+    EXPECT_EQ(request.samples, 128u);
+    EXPECT_EQ(request.targetError, 0.003);
+    EXPECT_EQ(request.sequence, Sequence::scrambledHalton);
+    EXPECT_EQ(request.lod, LodMode::continuous);
+    EXPECT_EQ(request.levelVertices, LevelVertices::surviving);
+    EXPECT_EQ(request.method, "multirate");
+    EXPECT_EQ(request.exposure, Exposure(MeteredExposure{}));
+    for (const char* name : {"shots/fish-pull.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
+}
+
 // The order is irrelevant: members of a JSON object are unordered.
 TEST(ShotJson, whatIsGivenBesideAPresetWins) {
     for (const char* text :

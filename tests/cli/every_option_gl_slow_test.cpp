@@ -128,9 +128,9 @@ protected:
             return;
         }
         EXPECT_EQ(with.pixels != without.pixels, effect == SettingEffect::pixels) << where;
-        if (effect != SettingEffect::pixels)
-            EXPECT_EQ(with.display != without.display, effect == SettingEffect::display) << where;
-        if (effect == SettingEffect::run) EXPECT_TRUE(with.other != without.other) << where;
+        if (effect == SettingEffect::pixels) return;
+        EXPECT_EQ(with.display != without.display, effect == SettingEffect::display) << where;
+        EXPECT_TRUE(with != without) << where;
     }
 
 private:
