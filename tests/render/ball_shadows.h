@@ -11,6 +11,7 @@
 
 #include "embree/embree_renderer.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "render/methods.h"
 #include "small_world.h"
@@ -19,6 +20,8 @@ namespace defocus::engine {
 
 class TruthOfShadows : public testing::Test {
 protected:
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+
     static std::unique_ptr<SmallWorld> ballBeforeAWall() {
         auto small = std::make_unique<SmallWorld>();
         Material matt;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -17,6 +18,7 @@ class Mirror : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     static constexpr double ballDepth = 200;  // m: so far that reflected light leaves in one direction
     static constexpr double ballRadius = 1;

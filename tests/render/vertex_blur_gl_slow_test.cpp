@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "gl_conduct.h"
 #include "render/vertex_blurs.h"
 
 namespace defocus::engine {
@@ -15,6 +16,7 @@ void openShutter(SmallWorld& small) {
 }
 
 TEST_F(VertexBlurs, replacesTheLenss) {
+    SKIP_ON_SECOND_DRIVER();
     for (const float millimetres : {6.0f, -9.0f}) {
         for (const double depth : {focus, 0.9, 5.0}) {
             const auto small = blurredSquare(depth, {0, millimetres, millimetres});
@@ -29,6 +31,7 @@ TEST_F(VertexBlurs, replacesTheLenss) {
 }
 
 TEST_F(VertexBlurs, addsToTheLenss) {
+    SKIP_ON_SECOND_DRIVER();
     for (const double depth : {0.9, 5.0})
         for (const float millimetres : {5.0f, -5.0f}) {
             const auto small = blurredSquare(depth, {1, millimetres, millimetres});
@@ -42,6 +45,7 @@ TEST_F(VertexBlurs, addsToTheLenss) {
 // C(t) is linear between the opening and the closing of the shutter (Munkberg et al. 2012), so the mean squared
 // diameter is (c₀² + c₀c₁ + c₁²)/3.
 TEST_F(VertexBlurs, changesWhileTheShutterIsOpen) {
+    SKIP_ON_SECOND_DRIVER();
     const double opening = 2, closing = -10;
     const auto small = blurredSquare(focus, {0, static_cast<float>(opening), static_cast<float>(closing)});
     const double pixels = perMillimetre(*small);
@@ -75,6 +79,7 @@ Image floorImage(const SmallWorld& small, double tolerance, Refinement expected)
 }
 
 TEST_F(VertexBlurs, largeTrianglesLookLikeSmallOnes) {
+    SKIP_ON_SECOND_DRIVER();
     const std::function<VertexBlur(double)> blurs[] = {
         [](double far) {
             return VertexBlur{0, static_cast<float>(12 * far), static_cast<float>(12 * far)};

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/aov/work.h"
@@ -20,6 +21,7 @@ class Visibility : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     static RenderSettings settingsFor(LodMode lod, bool keepAll) {
         RenderSettings settings;

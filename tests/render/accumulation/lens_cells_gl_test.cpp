@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bokeh.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
@@ -283,6 +284,7 @@ double largestBesideOutlines(const Image& reference, const Image& image, const I
 // A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a half transparent sharp fence. Away
 // from sharp outlines, multirate exceeds the accumulation's error by no more than 2/255 in any pixel.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
+    SKIP_ON_SECOND_DRIVER();
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
     FenceColors glass = colors;
     glass.fence.a = 0.5f;
@@ -311,6 +313,7 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
 // The lens opens in small steps, from a blur below every class to a blur of three classes. No step changes the image by
 // more than twice its neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();
     std::vector<double> changes;
     Image before;
@@ -333,6 +336,7 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
 // The blur of the cells vanishes with the sample count. The error is never above the accumulation's, far below it with
 // few samples, and shrinks with many.
 TEST_F(LensCellImages, convergesToTheReference) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();
     const Image reference = convergedImage(*small);
     std::vector<double> errors;

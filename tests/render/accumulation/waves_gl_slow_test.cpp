@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gl_conduct.h"
 #include "likeness.h"
 #include "render/accumulation/accumulated.h"
 #include "render/accumulation/lens_cell_renders.h"
@@ -32,6 +33,7 @@ TEST_F(Accumulation, waveSizeChangesNoBit) {
 
 // The compensated sum of layers agrees with a sum in double precision of the same layers.
 TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "gl_conduct.h"
 #include "render/layered/layered_images.h"
 
 namespace defocus::engine {
@@ -18,6 +19,7 @@ TEST_F(Layered, slopingAndRoundSurfacesAreAsTheAccumulationHasThem) {
 }
 
 TEST_F(Layered, everyLensShapeAndControlIsTheAccumulations) {
+    SKIP_ON_SECOND_DRIVER();
     const std::vector<std::pair<const char*, std::function<void(Lens&)>>> controls = {
         {"blades", [](Lens& lens) { lens.bladeCount = 3; }},
         {"cat's eye", [](Lens& lens) { lens.catEye = 1; }},

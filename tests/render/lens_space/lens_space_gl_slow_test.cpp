@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "gl_conduct.h"
 #include "render/lens_space/lens_space_images.h"
 
 namespace defocus::engine {
@@ -10,6 +11,7 @@ namespace {
 
 // Blurred triangles, hundreds of them on each line, form the same white square as two large triangles.
 TEST_P(LensSpace, seesTensOfThousandsOfBlurredTrianglesInATileAsTheirSquare) {
+    SKIP_ON_SECOND_DRIVER();
     const auto blurred = [](std::uint32_t side) {
         auto small = gridInATile(side);
         small->view.lens.dofEnabled = true;

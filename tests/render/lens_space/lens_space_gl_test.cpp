@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gl_conduct.h"
 #include "likeness.h"
 #include "posed_world.h"
 #include "render/lens_space/lens_space_images.h"
@@ -41,12 +42,14 @@ std::unique_ptr<SmallWorld> groundUnderCamera() {
 }
 
 TEST_P(LensSpace, convergesToTheAccumulation) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = twoSpheres();
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
 TEST_P(LensSpace, withoutAnApertureIsThePinholeImage) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = twoSpheres();
     small->view.lens.dofEnabled = false;
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
@@ -97,6 +100,7 @@ TEST_P(LensSpace, shadesVerticesOrSurfaces) {
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = twoSpheres();
     small->view.lens.bladeCount = 5;
     small->view.lens.bladeRotation = 0.3;
@@ -164,6 +168,7 @@ using Models = LensSpace;
 
 // Textures, normal maps and skins look as in the accumulation.
 TEST_P(Models, lookAsInTheAccumulation) {
+    SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
     small->view.lens.fStop = 1.4;
     small->view.lens.blurScale = 400;

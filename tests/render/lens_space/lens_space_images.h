@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -120,6 +121,7 @@ class LensSpaceAlone : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
     static inline std::unique_ptr<GlContext> context_;
 };
 
