@@ -151,10 +151,14 @@ std::pair<std::string, bool> outputOf(const std::string& command) {
     return {output, pclose(pipe) == 0};
 }
 
+const char* expectedDriver() {
+    return std::getenv("DEFOCUS_EXPECTED_DRIVER");
+}
+
 class Conduct : public testing::Environment {
 public:
     void SetUp() override {
-        const char* const driver = std::getenv("DEFOCUS_EXPECTED_DRIVER");
+        const char* const driver = expectedDriver();
         if (driver == nullptr) return;
         std::string found = "no OpenGL";
         try {
@@ -193,6 +197,10 @@ public:
 [[maybe_unused]] const testing::Environment* const conduct = testing::AddGlobalTestEnvironment(new Conduct);
 
 }  // namespace
+
+bool onSecondDriver() {
+    return expectedDriver() != nullptr;
+}
 
 ExpectedGlMessages::ExpectedGlMessages() {
     const std::scoped_lock lock(mutex);

@@ -1,6 +1,8 @@
 #pragma once
 // gl_conduct.cpp watches the OpenGL calls of tests with "_gl" in their names.
 
+#include <gtest/gtest.h>
+
 namespace defocus::engine {
 
 // During the lifetime of this object, driver messages are expected and shaders may be invalid.
@@ -12,4 +14,12 @@ public:
     ExpectedGlMessages& operator=(const ExpectedGlMessages&) = delete;
 };
 
+// Returns whether the tests run on the second OpenGL implementation (zink; DEFOCUS_EXPECTED_DRIVER is set).
+bool onSecondDriver();
+
 }  // namespace defocus::engine
+
+// Skips a long test on the second OpenGL implementation. In SetUp, skips all tests of a fixture.
+#define SKIP_ON_SECOND_DRIVER()              \
+    if (::defocus::engine::onSecondDriver()) \
+    GTEST_SKIP() << "takes hundreds of samples; shorter tests use the same driver features"

@@ -10,6 +10,7 @@
 #include "frame/own_context.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/boxes.h"
 #include "models.h"
 #include "render/frame_run.h"
@@ -22,6 +23,7 @@ constexpr int boxSize = 32;  // px
 class BlurredLevels : public testing::TestWithParam<std::string> {
 protected:
     void SetUp() override {
+        SKIP_ON_SECOND_DRIVER();
         try {
             context_ = createHeadlessContext();
         } catch (const Error& error) {

@@ -15,6 +15,7 @@
 #include "frame/own_context.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "models.h"
 #include "render/frame_run.h"
@@ -41,6 +42,7 @@ StoppedFrame stoppedFrame(const PreparedFrame& frame, Renderer& renderer, const 
 class EstimatedError : public testing::TestWithParam<std::string> {
 protected:
     void SetUp() override {
+        SKIP_ON_SECOND_DRIVER();
         try {
             context_ = createHeadlessContext();
         } catch (const Error& error) {

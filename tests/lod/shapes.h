@@ -216,4 +216,22 @@ inline double surfaceArea(const std::vector<glm::vec3>& positions, const std::ve
     return area;
 }
 
+// Returns the position of part `i`: points spread evenly over the unit square (Roberts 2018).
+inline glm::vec3 scatteredPlace(std::uint32_t i) {
+    return {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * i, 1.0)),
+            static_cast<float>(std::fmod(0.5 + 0.5698402909980532 * i, 1.0)), 0};
+}
+
+// A square sheet of thickness 0.004: front, back and rim share smooth normals, as in scans and sculpted fins.
+inline Mesh thinSheet(std::uint32_t cells) {
+    Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t around = i % (2 * cells + 2);
+        const bool front = around <= cells;
+        const double x = front ? around : 2.0 * cells + 1 - around;
+        return glm::dvec3(x / cells, static_cast<double>(j) / cells, front ? 0.002 : -0.002);
+    });
+    mesh.vertices.normals = smoothNormals(mesh.vertices.positions, mesh.primitives[0].indices);
+    return mesh;
+}
+
 }  // namespace defocus::engine

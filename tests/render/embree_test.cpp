@@ -6,30 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "aperture_shapes.h"
-#include "bokeh.h"
 #include "core/error.h"
-#include "embree/aperture_mask.h"
-#include "embree/embree_renderer.h"
 #include "embree/lens_rays.h"
 #include "likeness.h"
 #include "render/methods.h"
+#include "render/traced.h"
 
 namespace defocus::engine {
 namespace {
-
-FramePlan planOf(const View& view, std::uint32_t samples) {
-    FramePlan plan;
-    plan.view = view;
-    plan.settings.sampleCount = samples;
-    return plan;
-}
-
-Image traced(const Scene& scene, const View& view, std::uint32_t samples,
-             const Environment& environment = blackBackground(), EmbreeSampling sampling = EmbreeSampling::perPixel) {
-    const World world = flatWorld(scene, environment);
-    return renderedImage(*makeEmbreeRenderer(world, sampling), planOf(view, samples));
-}
 
 Rectangle quadAt(const View& view, double depth) {
     return {view.width / 2.0 - 1.5, view.height / 2.0 - 1.5, view.width / 2.0 + 1.5, view.height / 2.0 + 1.5, depth};
@@ -186,23 +170,6 @@ TEST(EmbreeBokehShape, AnamorphicRatioMakesTallOvals) {
     const double radius = blurDiameter(view, 6) / 2;
     EXPECT_NEAR(2 * std::sqrt(moments.variance.y - 10.0 / 12), radius, 0.1);
     EXPECT_NEAR(2 * std::sqrt(moments.variance.x - 10.0 / 12), radius / 2, 0.1);
-}
-
-// Apertures that are sampled by rejection, or given by an image, show their density of light. The tolerance covers the
-// noise of the 18,000 rays that hit the square.
-TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
-    View view = bokehView(36, 36);
-    view.lens.fStop = 0.03;  // a blur of 28 px just fits the image together with the square
-    std::vector<std::pair<std::string, Lens>> lenses = {{"image", view.lens}};
-    lenses.front().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
-    for (const ApertureShape& shape : apertureShapes)
-        if (ApertureMask::isNeeded(shape.lens())) lenses.emplace_back(shape.name, shape.lens(view.lens));
-    for (const auto& [name, lens] : lenses) {
-        view.lens = lens;
-        const Image image = traced(rectangleScene(view, {{15, 15, 21, 21, 6}}, glm::vec3(100)), view, 512);
-        EXPECT_LT(misplacedLight(image, expectedBokeh(view, 6, 6, 3600, lightOf(lens))), 0.06) << name;
-        EXPECT_NEAR(momentsOf(image).energy, 3600, 3600 * 0.03) << name;
-    }
 }
 
 // Returns the share of a disk of radius 1 that lies left of the chord at `x`.

@@ -5,6 +5,7 @@
 
 #include "bokeh.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -14,6 +15,7 @@ class LensColour : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
     static std::unique_ptr<GlContext> context_;
 };
 std::unique_ptr<GlContext> LensColour::context_;

@@ -3,9 +3,12 @@
 // equations give for each pixel. The equations are evaluated in double precision, with half vectors and angles as
 // written in glTF.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 #include <vector>
 

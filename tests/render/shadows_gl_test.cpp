@@ -1,117 +1,17 @@
 // Shadows of edges under a disk of light, against closed forms.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
+#include <vector>
 
-#include "gl/context.h"
 #include "image/metrics.h"
 #include "plan/visible/shadows.h"
-#include "render/methods.h"
-#include "small_world.h"
+#include "render/shadowed.h"
 
 namespace defocus::engine {
 namespace {
-
-constexpr double receiverDepth = 4;  // m in front of the camera, as all depths here
-constexpr double tanHalfWidth = 36.0 / (2 * 50);
-
-Material matt() {
-    Material material;
-    material.metallicFactor = 0;
-    material.specularFactor = 0;
-    material.doubleSided = true;
-    return material;
-}
-
-// A white wall that fills the image of a pinhole camera at the origin, without a light.
-std::unique_ptr<SmallWorld> wall() {
-    auto small = std::make_unique<SmallWorld>();
-    small->scene.materials.push_back(matt());
-    small->scene.meshes.push_back(quad(0));
-    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, -receiverDepth}), glm::dvec3(3)));
-    small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
-    small->view.width = 96;
-    small->view.height = 72;
-    small->view.lens.dofEnabled = false;
-    return small;
-}
-
-void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
-    PlacedLight sun;
-    sun.light.intensity = 1;
-    sun.light.angularDiameter = static_cast<float>(diameter);
-    sun.direction = -glm::normalize(toLight);
-    small.world.lights.push_back(sun);
-}
-
-// Adds a board parallel to the wall, `height` m in front of it, 4 m wide from x = `left`.
-void addEdge(SmallWorld& small, double left, double height) {
-    place(small, 0,
-          glm::scale(glm::translate(glm::dmat4(1), {left + 2, 0, height - receiverDepth}), glm::dvec3(2, 6, 1)));
-}
-
-RenderSettings settingsFor(std::uint32_t samples, Shadows shadows) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.shadows = shadows;
-    return settings;
-}
-
-Image shadowImage(const SmallWorld& small, const RenderSettings& settings, const std::string& method = "accumulation",
-                  std::uint32_t wave = 0) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    options.wave = wave;
-    const MethodUse use = parseMethodUse(method);
-    options.settings = use.settings;
-    const auto renderer = use.method->make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
-}
-
-// Returns the x on the wall that the column's centre shows.
-double wallX(const View& view, int column) {
-    return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
-}
-
-// Returns, for each column of the image's middle row, the light relative to the light without shadows.
-std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
-                              const std::string& method = "accumulation") {
-    RenderSettings without = settings;
-    without.shadows = Shadows::off;
-    const Image shadowed = shadowImage(small, settings, method);
-    const Image lit = shadowImage(small, without, method);
-    std::vector<double> shares;
-    for (int x = 0; x < shadowed.width; ++x)
-        shares.push_back(static_cast<double>(shadowed.at(x, shadowed.height / 2)[0]) / lit.at(x, lit.height / 2)[0]);
-    return shares;
-}
-
-// Returns the share of the unit disk left of x = a.
-double diskShare(double a) {
-    a = std::clamp(a, -1.0, 1.0);
-    return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
-}
-
-// The sun stands 45° to the right; t is the tangent of half its diameter. A point of its disk at a·t from its centre
-// casts the edge, d in front of the wall, to left − d·(1 + t·a)/(1 − t·a).
-double litShareBehindEdge(double x, double left, double d, double t) {
-    const double q = (left - x) / d;
-    return diskShare((q - 1) / ((q + 1) * t));
-}
-
-class Shadowed : public testing::Test {
-protected:
-    std::unique_ptr<GlContext> context = createHeadlessContext();
-};
 
 TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
     for (const double height : {0.5, 1.0}) {
@@ -261,16 +161,6 @@ TEST_F(Shadowed, surroundingsAreHiddenByHalf) {
     EXPECT_GT(seen, 10);
 }
 
-TEST_F(Shadowed, sameBitsForEveryWave) {
-    const auto small = fiveSpheres();
-    small->view.width = 64;
-    small->view.height = 48;
-    const RenderSettings settings = settingsFor(70, Shadows::on);
-    const Image one = shadowImage(*small, settings, "accumulation", 1);
-    for (const std::uint32_t wave : {5u, 64u})
-        EXPECT_EQ(shadowImage(*small, settings, "accumulation", wave).pixels, one.pixels) << wave;
-}
-
 TEST_F(Shadowed, withoutLightTheImageKeepsItsBits) {
     const auto small = fiveSpheres();
     small->world.lights.clear();
@@ -288,29 +178,6 @@ TEST_F(Shadowed, coarseCastersThrowTheSameShadows) {
     EXPECT_TRUE(
         std::ranges::any_of(plan.shadows.casters, [](const ObjectPlan& caster) { return caster.fine.level > 0; }));
     EXPECT_GT(compareImages(full, shadowImage(*small, settings)).psnr, 38);
-}
-
-TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
-    const auto small = fiveSpheres();
-    small->view.width = 80;
-    small->view.height = 60;
-    const RenderSettings settings = settingsFor(64, Shadows::on);
-    const Image accumulated = shadowImage(*small, settings);
-    EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // groups use other points on the lights
-    const auto edge = wall();
-    addSun(*edge, {1, 0, 1}, glm::radians(20.0));
-    addEdge(*edge, 1, 1);
-    finish(*edge);
-    const std::vector<double> shares = litShares(*edge, settingsFor(64, Shadows::on), "scheuermann");
-    double max = 0;
-    for (int x = 0; x < edge->view.width; ++x) {
-        const double place = wallX(edge->view, x);
-        if (std::abs(place) > 0.7) continue;
-        max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
-                                     litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
-    }
-    EXPECT_LT(max, 0.12);  // noise of 16 points on the sun for each of 4 pinholes
 }
 
 }  // namespace

@@ -1,30 +1,9 @@
 // KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, by the accumulation.
 
-#include <gtest/gtest.h>
-
-#include "image/metrics.h"
-#include "render/lit_wall.h"
+#include "render/glass_wall.h"
 
 namespace defocus::engine {
 namespace {
-
-using Transmission = LitWall;
-
-Material glass(float roughness = 0) {
-    Material result;
-    result.metallicFactor = 0;
-    result.roughnessFactor = roughness;
-    result.transmissionFactor = 1;
-    return result;
-}
-
-// Returns glass that reflects nothing.
-Material clear(const glm::vec3& tint = glm::vec3(1)) {
-    Material result = glass();
-    result.baseColorFactor = glm::vec4(tint, 1);
-    result.specularFactor = 0;
-    return result;
-}
 
 void light(SmallWorld& small) {
     small.world.environment.zenith = glm::vec3(1);
@@ -69,18 +48,6 @@ TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
                 const glm::dvec3 expected = glm::pow(color, glm::dvec3(thickness * scale / 0.5));
                 EXPECT_LT(farthestFrom(wallImage(*small), expected), 1e-5) << thickness << ' ' << scale;
             }
-}
-
-// Adds a copy of the wall's quad with another material, `depth` m in front of the camera.
-void addWall(SmallWorld& small, double depth, const Material& material, double scale = 1) {
-    small.scene.materials.push_back(material);
-    Mesh mesh = quad(static_cast<int>(small.scene.materials.size()) - 1);
-    mesh.vertices.colors = {
-        {0, 0.25f, 1, 1}, {1, 0.25f, 1, 1}, {1, 0.75f, 1, 1}, {0, 0.75f, 1, 1}};  // red grows along x
-    small.scene.meshes.push_back(std::move(mesh));
-    place(small, static_cast<int>(small.scene.meshes.size()) - 1,
-          glm::scale(glm::translate(small.view.worldFromCamera, glm::dvec3(0, 0, -depth)), glm::dvec3(scale)));
-    finish(small);
 }
 
 // A pixel on a volume shows the background at the point where the refracted ray leaves the volume.
@@ -139,35 +106,6 @@ TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     finish(*small);
     EXPECT_LT(farthestFrom(wallImage(*small), glm::dvec3(std::pow(0.9, 9))), 1e-5)
         << "the eight nearest panes and one of the others";
-}
-
-Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const MethodUse use = parseMethodUse(method);
-    options.settings = use.settings;
-    return imageOf(*use.method->make(small.world, options), planFrame(small.world, small.view, settings));
-}
-
-// A pane without effect in front of all spheres leaves the image unchanged through a lens: each sample shows its own
-// background.
-TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
-    const auto without = fiveSpheres();
-    const auto with = fiveSpheres();
-    addWall(*with, 0.6, clear(), 2);
-    with->scene.meshes.back().vertices.colors.clear();
-    finish(*with);
-    const Image expected = drawnBy("accumulation", *without, 64);
-    const Image image = drawnBy("accumulation", *with, 64);
-    double max = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                max = std::max<double>(max, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
-    EXPECT_LT(max, 2e-5);
 }
 
 TEST_F(Transmission, theBackgroundsCoverageIsKept) {

@@ -8,6 +8,7 @@
 #include "bokeh.h"
 #include "embree/embree_renderer.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "models.h"
@@ -84,15 +85,18 @@ void expectTruth(const std::string& name, Scene scene) {
 }
 
 TEST(Truth, FishSchoolEqualsTheRayTracer) {
+    SKIP_ON_SECOND_DRIVER();
     expectTruth("fish", fishSchool({.trianglesPerFish = 15'000}));
 }
 
 TEST(Truth, FlightHelmetEqualsTheRayTracer) {
+    SKIP_ON_SECOND_DRIVER();
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet.gltf");
     expectTruth("FlightHelmet", loadGltf(path));
 }
 
 TEST(Truth, SkullEqualsTheRayTracer) {
+    SKIP_ON_SECOND_DRIVER();
     DEFOCUS_MODEL_OR_SKIP(path, "skull.glb");
     expectTruth("skull", loadGltf(path));
 }
@@ -106,6 +110,7 @@ struct BokehCase {
 class TruthBokeh : public testing::TestWithParam<BokehCase> {};
 
 TEST_P(TruthBokeh, SmallQuadHasTheRadiusOfTheFormulaAndTheEnergyOfThePinholeImage) {
+    SKIP_ON_SECOND_DRIVER();
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     View view = bokehView(128, 128);
     view.lens.bladeCount = GetParam().bladeCount;
@@ -132,6 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, TruthBokeh,
                          [](const auto& test) { return test.param.name; });
 
 TEST(TruthBokehShape, TriangleHasTheOrientationOfTheRayTracer) {
+    SKIP_ON_SECOND_DRIVER();
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     View view = bokehView(128, 128);
     view.lens.bladeCount = 3;

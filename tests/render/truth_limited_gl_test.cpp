@@ -5,6 +5,7 @@
 
 #include "embree/embree_renderer.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "lens/circle_of_confusion.h"
 #include "render/methods.h"
@@ -38,6 +39,7 @@ Image traced(const TruthScene& baked, const RenderSettings& settings, EmbreeSamp
 }
 
 TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
+    SKIP_ON_SECOND_DRIVER();
     const auto context = createHeadlessContext();
     const auto baked = nearSchool();
     RenderSettings settings = fullDetailSettings(128);

@@ -5,6 +5,7 @@
 #include "baked_scene.h"
 #include "embree/embree_renderer.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
@@ -26,6 +27,7 @@ Image rendered(const SmallWorld& small, Renderer& renderer) {
 class PosedTruth : public testing::TestWithParam<PosedModel> {};
 
 TEST_P(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
+    SKIP_ON_SECOND_DRIVER();
     const auto& [file, clip] = GetParam();
     DEFOCUS_MODEL_OR_SKIP(path, file);
     const auto context = createHeadlessContext();

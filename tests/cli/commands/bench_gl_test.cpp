@@ -1,51 +1,14 @@
 // defocus bench convergence, end to end: its files, resuming after a kill, and the report.
 
-#include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
-#include <sstream>
 
-#include "cli/gl_program.h"
-#include "cli/two_quads.h"
+#include "cli/commands/bench_convergence.h"
 
 namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-class BenchConvergence : public GlProgramTest {
-protected:
-    void SetUp() override {
-        GlProgramTest::SetUp();
-        writeTwoQuads(folder() / "quads.gltf");
-    }
-
-    Outcome bench(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(),
-                         {"--quiet", "bench", "convergence", "quads.gltf", "--size", "64x48", "--fstop", "1",
-                          "--counts", "2,8", "--methods", "accumulation", "--threshold-factors", "1", "--runs", "2",
-                          "--reference-samples", "16", "--allow-changed"});
-        return run(arguments);
-    }
-
-    // Rows of a CSV file by their first `keys` columns; each key occurs once.
-    std::map<std::string, std::vector<std::string>> rowsOf(const std::string& file, std::size_t first,
-                                                           std::size_t keys) const {
-        std::istringstream text(textOf(folder() / file));
-        std::map<std::string, std::vector<std::string>> rows;
-        std::string line;
-        for (std::getline(text, line); std::getline(text, line);) {
-            std::vector<std::string> cells;
-            std::istringstream values(line);
-            for (std::string cell; std::getline(values, cell, ',');) cells.push_back(cell);
-            std::string key;
-            for (std::size_t i = first; i < first + keys; ++i) key += cells.at(i) + ' ';
-            EXPECT_TRUE(rows.emplace(key, cells).second) << key << " occurs twice in " << file;
-        }
-        return rows;
-    }
-};
 
 TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
@@ -136,17 +99,6 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
 }
 
-// Expects a self-contained page. It loads nothing from other hosts, its links lead into the page or to the data beside
-// it, and every picture has alternative text.
-void expectWholePage(const std::string& page) {
-    const std::regex outside(
-        "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
-    const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
-    std::smatch found;
-    EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();
-    EXPECT_FALSE(std::regex_search(page, found, picture)) << found.str();
-}
-
 TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     const Outcome outcome = bench({"-o", "out", "--report", "page"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
@@ -169,29 +121,6 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     const std::string strips = textOf(folder() / "page/index.html");
     EXPECT_NE(strips.find("of &lt;colour&gt;"), std::string::npos);
     EXPECT_GT(strips.size(), page.size());
-}
-
-// The report is one page for all benches that wrote into the folder: two that run here, and two committed results.
-TEST_F(BenchConvergence, reportHasASectionForEachBench) {
-    fs::create_directory(folder() / "page");
-    for (const char* name : {"scaling", "stability"})
-        fs::copy(fs::path(DEFOCUS_SOURCE_DIR) / "bench/results" / (std::string("llvmpipe-") + name + ".json"),
-                 folder() / "page" / (std::string(name) + ".json"));
-    ASSERT_EQ(run({"--quiet", "bench", "speedup", "quads.gltf", "--counts", "2,4", "--size", "32x24", "--runs", "1",
-                   "--report", "page", "--allow-changed"})
-                  .exitCode,
-              0);
-    const Outcome outcome = run({"--quiet", "bench", "popping", "quads.gltf", "--counts", "2", "--size", "32x24",
-                                 "--frames", "3", "--report", "page", "--allow-changed"});
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    for (const char* file : {"speedup.csv", "speedup.json", "popping.csv", "popping.json"})
-        EXPECT_TRUE(fs::exists(folder() / "page" / file)) << file;
-    if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
-    const std::string page = textOf(folder() / "page/index.html");
-    expectWholePage(page);
-    for (const char* section : {"Speed-up", "Popping", "Scaling", "Stiff and extreme cases", "Blur against the lens"})
-        EXPECT_NE(page.find(std::string(">") + section + "</h"), std::string::npos) << section;
-    EXPECT_NE(page.find("defocus --quiet bench speedup quads.gltf --counts 2,4"), std::string::npos);
 }
 
 class BenchSpeedup : public GlProgramTest {

@@ -12,6 +12,7 @@
 #include "eval/convergence/crops.h"
 #include "eval/convergence/rows.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "scratch_folder.h"
 #include "small_world.h"
 
@@ -60,6 +61,7 @@ protected:
     }
 
     void SetUp() override {
+        SKIP_ON_SECOND_DRIVER();
         options_.sampleCounts = {4, 16, 64};
         options_.runs = 1;
         options_.methods = {parseMethodUse("accumulation")};

@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "frame/driver/reference_image.h"
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/image_io.h"
 #include "scratch_folder.h"
 #include "small_world.h"
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 class ConvergenceReference : public testing::Test {
 protected:
     void SetUp() override {
+        SKIP_ON_SECOND_DRIVER();
         small_->view.width = 64;
         small_->view.height = 48;
     }

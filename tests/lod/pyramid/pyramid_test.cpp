@@ -103,38 +103,6 @@ TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
     }
 }
 
-// A square sheet of thickness 0.004: front, back and rim share smooth normals, as in scans and sculpted fins.
-Mesh thinSheet(std::uint32_t cells) {
-    Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
-        const std::uint32_t around = i % (2 * cells + 2);
-        const bool front = around <= cells;
-        const double x = front ? around : 2.0 * cells + 1 - around;
-        return glm::dvec3(x / cells, static_cast<double>(j) / cells, front ? 0.002 : -0.002);
-    });
-    mesh.vertices.normals = smoothNormals(mesh.vertices.positions, mesh.primitives[0].indices);
-    return mesh;
-}
-
-TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
-    for (std::uint32_t cells = 44; cells <= 84; cells += 2) {
-        const Pyramid pyramid = buildPyramid(thinSheet(cells));
-        ASSERT_LE(pyramid.levels.back().triangleCount, 256u);
-        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
-            const PyramidLevel& level = pyramid.levels[l];
-            const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-            for (std::size_t i = 0; i < indices.size(); i += 3) {
-                const glm::vec3& a = level.positions[indices[i]];
-                const glm::vec3 cross =
-                    glm::cross(level.positions[indices[i + 1]] - a, level.positions[indices[i + 2]] - a);
-                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // skips the rim
-                glm::vec3 mean(0);
-                for (std::size_t k = 0; k < 3; ++k) mean += level.normals[indices[i + k]] / 3.0f;
-                EXPECT_GT(glm::dot(mean, glm::normalize(cross)), 0.6f) << cells << " cells, level " << l;
-            }
-        }
-    }
-}
-
 // The rim has almost no area, but forms the entire outline.
 TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
     const Pyramid pyramid = buildPyramid(thinSheet(64));

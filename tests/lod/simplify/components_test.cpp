@@ -15,12 +15,6 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the position of part `i`: points spread evenly over the unit square (Roberts 2018).
-glm::vec3 scatteredPlace(std::uint32_t i) {
-    return {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * i, 1.0)),
-            static_cast<float>(std::fmod(0.5 + 0.5698402909980532 * i, 1.0)), 0};
-}
-
 using SizeOf = std::function<float(std::uint32_t)>;
 
 // Returns tetrahedra with edges of √2 · size.
@@ -174,32 +168,6 @@ TEST(Components, CollapsesComeFirst) {
             EXPECT_EQ(parts.size(), 40u) << "level " << l;
         }
     EXPECT_LE(pyramid.levels.back().triangleCount, 64u);
-}
-
-Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
-    Mesh mesh;
-    addPart(mesh, sphere(192, 96), 1, {});
-    for (std::uint32_t i = 0; i < count; ++i)
-        addPart(mesh, slab(holes + i % 3, 3), size * (1 + 0.1f * static_cast<float>(i % 4)),
-                glm::vec3(1.5f) + 2 * size * static_cast<float>(count) * scatteredPlace(i));
-    return mesh;
-}
-
-// The slabs' handles need many triangles, which must not be taken from the ball.
-TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
-    struct Scene {
-        std::uint32_t count, holes;
-        float size;
-    };
-    for (const Scene& scene : {Scene{1, 30, 0.2f}, {3, 18, 0.2f}, {12, 5, 0.1f}, {40, 3, 0.05f}}) {
-        SCOPED_TRACE(testing::Message() << scene.count << " slabs of " << scene.holes << " holes or more");
-        const Mesh mesh = ballAndSlabs(scene.count, scene.holes, scene.size);
-        const Pyramid pyramid = buildPyramid(mesh);
-        expectPyramidInvariants(mesh, pyramid);
-        ASSERT_TRUE(isClosed(pyramid.levels[0].positions, levelIndices(pyramid, 0)));
-        expectMainPartLasts(mesh, pyramid);
-        EXPECT_LE(pyramid.levels.back().triangleCount, 64u);
-    }
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,37 +5,13 @@
 #include <limits>
 
 #include "core/error.h"
-#include "gl/context.h"
 #include "image/metrics.h"
 #include "likeness.h"
+#include "render/accumulation/accumulated.h"
 #include "render/aov/aov.h"
-#include "render/methods.h"
-#include "render/rendered.h"
-#include "small_world.h"
 
 namespace defocus::engine {
 namespace {
-
-class Accumulation : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Accumulation::context_;
-
-RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = lod;
-    settings.thresholds = {0.5, 2};
-    return settings;
-}
-
-Image rendered(const SmallWorld& small, const RenderSettings& settings, const RendererOptions& options = {}) {
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
-    return imageOf(*renderer, planFrame(small.world, small.view, settings));
-}
 
 // A green quad that fills the frame at `depth`, in front of a uniform red background.
 std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
@@ -52,25 +26,6 @@ std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
     small->view.lens.focusDistance = 2;
     finish(*small);
     return small;
-}
-
-TEST_F(Accumulation, waveSizeChangesNoBit) {
-    const auto small = fiveSpheres();
-    small->view.width = 80;
-    small->view.height = 60;
-    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
-        Image first;
-        for (const std::uint32_t k : {1u, 3u, 64u}) {
-            RendererOptions options;
-            options.wave = k;
-            options.layerFormat = format;
-            const Image image = rendered(*small, settingsFor(70), options);
-            if (first.empty())
-                first = image;
-            else
-                EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
-        }
-    }
 }
 
 TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
@@ -160,30 +115,6 @@ TEST_F(Accumulation, halfFloatLayersErrNoMoreThanStated) {
     const Image image = rendered(*small, settingsFor(64), options);
     const double expected[3] = {0.1, 0.7, 1.0 / 3};
     for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(image.at(48, 32)[c], expected[c], 0x1p-11 * expected[c]);
-}
-
-// The compensated sum of layers agrees with a sum in double precision of the same layers.
-TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
-    const auto small = fiveSpheres();
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const std::uint32_t n = 150;
-    std::vector<double> sum;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        RenderSettings one = settingsFor(1, LodMode::off);
-        one.firstSample = i;
-        one.keepAll = true;
-        const Image layer = rendered(*small, one, options);
-        sum.resize(layer.pixels.size());
-        for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += double(layer.pixels[p]);
-    }
-    RenderSettings all = settingsFor(n, LodMode::off);
-    all.keepAll = true;
-    const Image image = rendered(*small, all, options);
-    double worst = 0;
-    for (std::size_t p = 0; p < sum.size(); ++p)
-        if (sum[p] > 1e-3) worst = std::max(worst, std::abs(image.pixels[p] * double(n) / sum[p] - 1));
-    EXPECT_LT(worst, 1e-6);
 }
 
 TEST_F(Accumulation, transparentBackgroundIsPremultipliedCoverage) {

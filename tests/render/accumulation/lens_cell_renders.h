@@ -1,11 +1,15 @@
 #pragma once
 // Renders of the tests of method "multirate".
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
+#include "gl/context.h"
+#include "plan/lens_cells/lens_cells.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -51,5 +55,26 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
         }
     return largest;
 }
+
+// Images blurred as lens cells.
+class LensCellImages : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static LensCells lensCellsOf(const SmallWorld& small, const RenderSettings& settings) {
+        return lensCells(planFrame(small.world, small.view, settings));
+    }
+
+    // Spheres in front of and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
+    static std::unique_ptr<SmallWorld> blurredSpheres() {
+        auto small = fiveSpheres();
+        small->view.lens.fStop = 0.25;
+        return small;
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
 
 }  // namespace defocus::engine

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gl/context.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "render/accumulation/lens_cell_renders.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 // Surfaces that are not opaque, and views through a limited lens, look right beside shared objects.
 TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
+    SKIP_ON_SECOND_DRIVER();
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const auto check = [](const SmallWorld& small, const char* what) {
         const RenderSettings settings = ratedSettings(256);

@@ -1,45 +1,14 @@
 // Samples split over an image's pixels (LodMode::continuous): the choice of pixels, their number, and the error.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "gl/context.h"
 #include "likeness.h"
-#include "render/methods.h"
-#include "render/rendered.h"
-#include "small_world.h"
+#include "render/accumulation/accumulated.h"
 
 namespace defocus::engine {
 namespace {
-
-class ScreenDoor : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> ScreenDoor::context_;
-
-RenderSettings continuousFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::continuous;
-    settings.thresholds = {0.5, 2};
-    return settings;
-}
-
-Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
-    if (options.layerFormat == LayerFormat::automatic) options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
-    return imageOf(*renderer, plan);
-}
-
-int sharingObjects(const FramePlan& plan) {
-    return static_cast<int>(std::count_if(plan.objects.begin(), plan.objects.end(),
-                                          [](const ObjectPlan& object) { return boundarySample(object).has_value(); }));
-}
 
 // Gives the only object `coarseCount` samples at level `level` + 1, the others at `level`, and splits the boundary
 // sample.
@@ -60,24 +29,6 @@ std::unique_ptr<SmallWorld> oneSphere() {
     small->world.pose.objects[0].worldFromObject =
         glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1.5)), glm::dvec3(0.35));
     return small;
-}
-
-TEST_F(ScreenDoor, waveSizeChangesNoBit) {
-    const auto small = fiveSpheres();
-    small->view.width = 80;
-    small->view.height = 60;
-    const FramePlan plan = planFrame(small->world, small->view, continuousFor(70));
-    ASSERT_GE(sharingObjects(plan), 2);
-    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
-        RendererOptions options;
-        options.layerFormat = format;
-        options.wave = 1;
-        const Image first = renderedPlan(*small, plan, options);
-        for (const std::uint32_t k : {3u, 64u}) {
-            options.wave = k;
-            EXPECT_TRUE(sameBits(first, renderedPlan(*small, plan, options))) << "K = " << k;
-        }
-    }
 }
 
 // With one split boundary sample, each pixel equals that of the split with n coarse samples or that with n + 1.

@@ -1,112 +1,13 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
 
-#include "gl/context.h"
-#include "gl/read_back.h"
-#include "likeness.h"
-#include "render/circular/circular_kernel.h"
-#include "render/circular/complex_blur.h"
+#include "render/circular/blurred_blocks.h"
 
 namespace defocus::engine {
 namespace {
-
-class ComplexBlurs : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> ComplexBlurs::context_;
-
-constexpr int width = 96;
-constexpr int height = 80;
-
-GlTexture textureOf(const Image& image, TextureFormat format) {
-    GlTexture texture({.format = format, .width = image.width, .height = image.height});
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    Image bottomUp = image;
-    const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-    for (int y = 0; y < image.height; ++y) std::copy_n(image.at(0, image.height - 1 - y), row, bottomUp.at(0, y));
-    texture.upload(0, image.width, image.height, bottomUp.pixels.data());
-    return texture;
-}
-
-Image filled(int channels, float value) {
-    Image image(width, height, channels);
-    std::fill(image.pixels.begin(), image.pixels.end(), value);
-    return image;
-}
-
-Image blurred(const ComplexBlurInfo& info, const Image& field, const Image& radius) {
-    ComplexBlur blur(info);
-    blur.blur(textureOf(field, TextureFormat::rgba32f), textureOf(radius, TextureFormat::r32f));
-    return readBack(blur.result(), 4);
-}
-
-ComplexBlurInfo infoOf(int components, ComplexStorage storage = ComplexStorage::half) {
-    return {.width = width, .height = height, .components = components, .storage = storage, .shaderFolder = {}};
-}
-
-// Blocks of colour between 0 and 1, weight 1: edges in every direction.
-Image blocks() {
-    Image image(width, height, 4);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            float* pixel = image.at(x, y);
-            pixel[0] = static_cast<float>((x / 9 + y / 7) % 2);
-            pixel[1] = static_cast<float>(x / 16 * 37 % 11) / 10.0f;
-            pixel[2] = x + y > 80 ? 0.9f : 0.05f;
-            pixel[3] = 1;
-        }
-    return image;
-}
-
-// Top left quarter of an image: keeps the test of every pixel under wide kernels fast.
-Image partOf(const Image& image) {
-    Image part(width / 2, height / 2, image.channels);
-    const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels);
-    for (int y = 0; y < part.height; ++y) std::copy_n(image.at(0, y), row, part.at(0, y));
-    return part;
-}
-
-// Two separable passes give the same image as the direct sum over the kernel.
-TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
-    for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
-        for (int components = 1; components <= circularKernelLimit; ++components)
-            for (const float radius : {0.3f, 1.0f, 2.7f, 9.0f}) {
-                ComplexBlurInfo info = infoOf(components);
-                info.width /= 2;
-                info.height /= 2;
-                info.taps = taps;
-                const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
-                info.direct = true;
-                const Image full = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
-                EXPECT_LT(largestDifference(passes, full), 1e-3)
-                    << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
-            }
-}
-
-TEST_F(ComplexBlurs, twoPassesGiveTheWholeOval) {
-    for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
-        for (const int components : {1, 2, circularKernelLimit})
-            for (const auto& [across, upwards] : {std::pair(0.5, 1.0), std::pair(1.0, 0.7)}) {
-                ComplexBlurInfo info = infoOf(components);
-                info.width /= 2;
-                info.height /= 2;
-                info.across = across;
-                info.upwards = upwards;
-                info.taps = taps;
-                const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, 9)));
-                info.direct = true;
-                EXPECT_LT(largestDifference(passes, blurred(info, partOf(blocks()), partOf(filled(1, 9)))), 1e-3)
-                    << components << " components, " << across << ", taps " << static_cast<int>(taps);
-            }
-}
 
 // Along an axis, the variance of a uniform ellipse is a quarter of its squared half-axis.
 TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {

@@ -1,56 +1,20 @@
 // Lens rays through depth layers against formulas and against the accumulation.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
-#include "render/methods.h"
-#include "render/rendered.h"
-#include "small_world.h"
+#include "render/layered/layered_images.h"
 
 namespace defocus::engine {
 namespace {
-
-class Layered : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Layered::context_;
-
-RenderSettings samplesOf(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.lod = LodMode::off;
-    settings.sampleCount = samples;
-    settings.keepAll = true;  // samples the lens even where nothing is blurred
-    return settings;
-}
-
-Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples = 256, RendererOptions options = {}) {
-    const MethodUse use = parseMethodUse(method);
-    options.settings = use.settings;
-    const auto renderer = use.method->make(small.world, options);
-    return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
-}
 
 double maxBetween(const Image& a, const Image& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
     return largest;
-}
-
-double errorBetween(const Image& a, const Image& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        sum += std::pow(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]), 2);
-    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
 // An unlit pane that faces the camera. The area is in px from the image's top left corner.
@@ -167,14 +131,6 @@ TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     EXPECT_LT(sixteen, 0.5 * four);
 }
 
-TEST_F(Layered, slopingAndRoundSurfacesAreAsTheAccumulationHasThem) {
-    const auto small = fiveSpheres();
-    const double error = errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation"));
-    EXPECT_LT(error, 0.012);
-    small->view.lens.fStop = 0.25;
-    EXPECT_LT(errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.012);
-}
-
 TEST_F(Layered, whatLetsLightThroughShowsWhatLiesBehind) {
     const auto small = panes({{{20, 10, 60, 50, 1.2}, {0.5f, 0.1f, 0.1f, 0.5f}},
                               {{40, 20, 80, 60, 3}, {0.1f, 0.6f, 0.1f, 0.25f}},
@@ -189,30 +145,6 @@ TEST_F(Layered, aTransparentBackgroundKeepsCoverage) {
     const Image image = seenBy(*small, "layered");
     EXPECT_LT(errorBetween(image, seenBy(*small, "accumulation")), 0.015);
     EXPECT_EQ(image.at(159, 0)[3], 0);
-}
-
-TEST_F(Layered, everyLensShapeAndControlIsTheAccumulations) {
-    const std::vector<std::pair<const char*, std::function<void(Lens&)>>> controls = {
-        {"blades", [](Lens& lens) { lens.bladeCount = 3; }},
-        {"cat's eye", [](Lens& lens) { lens.catEye = 1; }},
-        {"anamorphic", [](Lens& lens) { lens.anamorphicRatio = 2; }},
-        {"foreground limit", [](Lens& lens) { lens.foregroundLimit = 3; }},
-        {"focus range", [](Lens& lens) { lens.focusRangeFront = 0.8; }},
-        {"tilt", [](Lens& lens) { lens.focusTilt = 0.8; }},
-        {"field curvature", [](Lens& lens) { lens.fieldCurvature = 0.3; }},
-        {"axial chromatic aberration", [](Lens& lens) { lens.axialChromaticAberration = 0.3; }},
-    };
-    for (const auto& [name, set] : controls) {
-        const auto small = fiveSpheres();
-        small->view.lens.fStop = 0.5;
-        const Image plain = seenBy(*small, "accumulation", 64);
-        set(small->view.lens);
-        const Image expected = seenBy(*small, "accumulation", 64);
-        const double changed = errorBetween(plain, expected);
-        const double error = errorBetween(seenBy(*small, "layered", 64), expected);
-        EXPECT_LT(error, 0.02) << name;
-        EXPECT_LT(error, 0.8 * changed) << name;
-    }
 }
 
 RendererOptions wavesOf(std::uint32_t samples) {

@@ -7,6 +7,7 @@
 
 #include "gl/context.h"
 #include "gl/read_back.h"
+#include "gl_conduct.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
@@ -23,6 +24,7 @@ protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override {
+        SKIP_ON_SECOND_DRIVER();
         small_ = fiveSpheres();
         small_->view.width = 64;
         small_->view.height = 48;

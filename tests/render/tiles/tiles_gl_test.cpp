@@ -1,93 +1,12 @@
-// Frames drawn tile by tile have the bits of a frame drawn in one piece, for all tilings, levels, motions and blur
-// controls.
-
-#include <gtest/gtest.h>
+// Frames drawn tile by tile have the bits of a frame drawn in one piece, for all tilings, motions and blur controls.
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "gl/context.h"
-#include "likeness.h"
-#include "plan/visible/tiles.h"
-#include "render/methods.h"
-#include "render/rendered.h"
-#include "small_world.h"
+#include "render/tiles/tiled_image.h"
 
 namespace defocus::engine {
 namespace {
-
-class Tiles : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Tiles::context_;
-
-PixelRectangle wholeOf(const FramePlan& plan) {
-    return {0, 0, plan.view.width, plan.view.height};
-}
-
-// Assembles the image from tiles, each with its own start; NaN where there is no tile.
-Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
-    Image image(plan.view.width, plan.view.height, 4);
-    std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());
-    for (const Tile& tile : tiles) {
-        const Image part = imageOf(renderer, tileOf(plan, tile));
-        if (part.width != tile.area.width || part.height != tile.area.height) {
-            ADD_FAILURE() << part.width << " x " << part.height;
-            return image;
-        }
-        for (int y = 0; y < part.height; ++y)
-            std::copy_n(part.at(0, y), 4 * part.width, image.at(tile.area.left, tile.area.top + y));
-    }
-    return image;
-}
-
-// Tiles of uneven sizes in one cell.
-std::vector<Tile> unevenTiles(const FramePlan& plan) {
-    const int columns[] = {0, 37, 101, plan.view.width};
-    const int rows[] = {0, 13, 64, plan.view.height};
-    std::vector<Tile> tiles;
-    for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x)
-            tiles.push_back({{columns[x], rows[y], columns[x + 1] - columns[x], rows[y + 1] - rows[y]}, wholeOf(plan)});
-    return tiles;
-}
-
-void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
-    RendererOptions options;
-    const auto full = methodNamed("accumulation").make(small.world, options);
-    options.wave = 3;
-    const auto parts = methodNamed("accumulation").make(small.world, options);
-    const Image expected = imageOf(*full, plan);
-    const Image found = joined(*parts, plan, unevenTiles(plan));
-    std::size_t others = 0, first = found.pixels.size();
-    for (std::size_t i = found.pixels.size(); i-- > 0;)
-        if (!(found.pixels[i] == expected.pixels[i])) ++others, first = i;
-    if (others == 0) return;
-    const auto width = static_cast<std::size_t>(4 * expected.width);
-    ADD_FAILURE() << what << ": " << others << " values, the first at " << first % width / 4 << ", " << first / width
-                  << ", channel " << first % 4 << ": " << found.pixels[first] << " instead of "
-                  << expected.pixels[first] << ", by at most " << largestDifference(found, expected);
-}
-
-FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
-                   std::uint32_t samples = 20) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = mode;
-    settings.thresholds = {0.5, 2};
-    return planFrame(small.world, view, settings);
-}
-
-TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
-    const auto small = fiveSpheres();
-    for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
-        // 70 samples: two blocks
-        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
-}
 
 TEST_F(Tiles, haveTheBitsOfOnePieceWithControlsOfTheBlur) {
     const auto small = fiveSpheres();
@@ -138,19 +57,6 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const FramePlan plan = planFrame(small->world, small->view, settings);
     ASSERT_FALSE(plan.shadows.maps.empty());
     expectTheBitsOfOnePiece(*small, plan, "shadows");
-}
-
-// A transmitting object shows other pixels of the image, which may lie outside the tile.
-TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
-    const auto small = fiveSpheres();
-    Material glass;
-    glass.transmissionFactor = 1;
-    glass.thicknessFactor = 1;
-    glass.roughnessFactor = 0.3f;
-    small->scene.materials.front() = glass;
-    const FramePlan plan = planWith(*small, small->view);
-    ASSERT_TRUE(plan.usesTransmission);
-    expectTheBitsOfOnePiece(*small, plan, "glass");
 }
 
 // In an image of several cells, the only difference is that each cell rounds window coordinates in its own way.

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "gl_conduct.h"
 #include "render/lit_wall.h"
 
 namespace defocus::engine {
 namespace {
 
-using Furnace = LitWall;
+class Furnace : public LitWall {
+protected:
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+};
 
 // A wall whose normal has about this cosine to the view axis, large enough to fill the frame.
 std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {

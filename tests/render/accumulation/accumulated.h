@@ -1,0 +1,62 @@
+#pragma once
+// Images by method "accumulation".
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class Accumulation : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        settings.lod = lod;
+        settings.thresholds = {0.5, 2};
+        return settings;
+    }
+
+    static Image rendered(const SmallWorld& small, const RenderSettings& settings,
+                          const RendererOptions& options = {}) {
+        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        return imageOf(*renderer, planFrame(small.world, small.view, settings));
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+// Images whose samples are split over pixels (LodMode::continuous).
+class ScreenDoor : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static RenderSettings continuousFor(std::uint32_t samples) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        settings.lod = LodMode::continuous;
+        settings.thresholds = {0.5, 2};
+        return settings;
+    }
+
+    static Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
+        if (options.layerFormat == LayerFormat::automatic) options.layerFormat = LayerFormat::rgba32f;
+        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        return imageOf(*renderer, plan);
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,83 @@
+#pragma once
+// Soft shadows on the GPU against the ray tracer's shadow rays: a matt ball before a wall, under one light and through
+// a wide lens.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <string>
+
+#include "embree/embree_renderer.h"
+#include "gl/context.h"
+#include "gl_conduct.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class TruthOfShadows : public testing::Test {
+protected:
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+
+    static std::unique_ptr<SmallWorld> ballBeforeAWall() {
+        auto small = std::make_unique<SmallWorld>();
+        Material matt;
+        matt.metallicFactor = 0;
+        matt.specularFactor = 0;
+        small->scene.materials.push_back(matt);
+        small->scene.meshes.push_back(quad(0));
+        small->scene.meshes.push_back(bumpySphere(96, 64, 0));
+        small->scene.meshes.back().vertices.colors.clear();
+        place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, -5}), glm::dvec3(4)));
+        place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), {0.5, 0.2, -3.5}), glm::dvec3(0.5)));
+        PlacedLight sun;
+        sun.light.intensity = 3;
+        sun.light.angularDiameter = 0.15f;
+        sun.direction = glm::normalize(glm::dvec3(-0.6, -0.3, -1));
+        small->world.lights.push_back(sun);
+        small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+        small->view.width = 256;
+        small->view.height = 192;
+        small->view.lens.fStop = 0.4;
+        small->view.lens.focusDistance = 5;
+        small->world.pyramids = {fullDetail(small->scene.meshes[0]), fullDetail(small->scene.meshes[1])};
+        return small;
+    }
+
+    static Image drawn(const SmallWorld& small, Renderer& renderer, Shadows shadows, std::uint32_t samples) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        settings.lod = LodMode::off;
+        settings.shadows = shadows;
+        renderer.start(planFrame(small.world, small.view, settings));
+        while (renderer.advance()) {
+        }
+        return renderer.image();
+    }
+
+    static double meanRed(const Image& image) {
+        double sum = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
+        return sum / (static_cast<double>(image.width) * image.height);
+    }
+
+    static void expectTheSameShadows(const SmallWorld& small, std::uint32_t samples, double minPsnr) {
+        const auto context = createHeadlessContext();
+        const auto accumulation = methodNamed("accumulation").make(small.world, {});
+        const auto tracer = makeEmbreeRenderer(small.world, EmbreeSampling::planned);
+        const Image open = drawn(small, *tracer, Shadows::off, samples);
+        const Image traced = drawn(small, *tracer, Shadows::on, samples);
+        const Image raster = drawn(small, *accumulation, Shadows::on, samples);
+        EXPECT_LT(meanRed(traced), 0.97 * meanRed(open)) << "there is a shadow";
+        EXPECT_NEAR(meanRed(raster), meanRed(traced), 0.01 * meanRed(traced));
+        const double psnr = compareImages(traced, raster).psnr;
+        testing::Test::RecordProperty("psnr", std::to_string(psnr));
+        EXPECT_GT(psnr, minPsnr) << psnr;
+    }
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,36 @@
+// The ray tracer's bokeh of every aperture with a mask against the aperture's definition.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "aperture_shapes.h"
+#include "embree/aperture_mask.h"
+#include "likeness.h"
+#include "render/traced.h"
+
+namespace defocus::engine {
+namespace {
+
+// Apertures that are sampled by rejection, or given by an image, show their density of light. The tolerance covers the
+// noise of the 18,000 rays that hit the square.
+TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
+    View view = bokehView(36, 36);
+    view.lens.fStop = 0.03;  // a blur of 28 px just fits the image together with the square
+    std::vector<std::pair<std::string, Lens>> lenses = {{"image", view.lens}};
+    lenses.front().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
+    for (const ApertureShape& shape : apertureShapes)
+        if (ApertureMask::isNeeded(shape.lens())) lenses.emplace_back(shape.name, shape.lens(view.lens));
+    for (const auto& [name, lens] : lenses) {
+        view.lens = lens;
+        const Image image = traced(rectangleScene(view, {{15, 15, 21, 21, 6}}, glm::vec3(100)), view, 512);
+        EXPECT_LT(misplacedLight(image, expectedBokeh(view, 6, 6, 3600, lightOf(lens))), 0.06) << name;
+        EXPECT_NEAR(momentsOf(image).energy, 3600, 3600 * 0.03) << name;
+    }
+}
+
+}  // namespace
+}  // namespace defocus::engine

@@ -1,0 +1,46 @@
+#pragma once
+// Images by lens rays through depth layers, and their error.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class Layered : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+inline RenderSettings samplesOf(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.lod = LodMode::off;
+    settings.sampleCount = samples;
+    settings.keepAll = true;  // samples the lens even where nothing is blurred
+    return settings;
+}
+
+inline Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples = 256,
+                    RendererOptions options = {}) {
+    const MethodUse use = parseMethodUse(method);
+    options.settings = use.settings;
+    const auto renderer = use.method->make(small.world, options);
+    return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
+}
+
+inline double errorBetween(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        sum += std::pow(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]), 2);
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+}  // namespace defocus::engine

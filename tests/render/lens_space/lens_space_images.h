@@ -1,0 +1,128 @@
+#pragma once
+// Scenes and images of both lens-space methods.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "gl_conduct.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+inline RenderSettings raySettings(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;  // samples the lens even where nothing is blurred
+    return settings;
+}
+
+inline Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t samples,
+                            RenderStats* stats = nullptr, std::uint32_t wave = 0) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions options;
+    options.settings = use.settings;
+    options.wave = wave;
+    const auto renderer = use.method->make(small.world, options);
+    Image image = imageOf(*renderer, planFrame(small.world, small.view, raySettings(samples)));
+    if (stats != nullptr) *stats = renderer->stats();
+    return image;
+}
+
+inline double psnrAgainst(const Image& reference, const Image& image) {
+    return compareImages(reference, image, CompareOptions{}).psnr;
+}
+
+// Two lit, rippled spheres, in front of and behind the focus, before a gradient sky.
+inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
+    auto small = std::make_unique<SmallWorld>();
+    Material glossy;
+    glossy.metallicFactor = 0;
+    glossy.roughnessFactor = 0.4f;
+    small->scene.materials.push_back(glossy);
+    small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.2, -0.1, -1.4}), glm::dvec3(0.2)));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0.6, 0.4, -5}), glm::dvec3(-0.9, 0.9, 0.9)));
+    PlacedLight sun;
+    sun.light.intensity = 2;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
+    small->world.lights.push_back(sun);
+    small->world.environment = {
+        EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2.2;
+    small->view.width = 72;
+    small->view.height = 56;
+    finish(*small);
+    return small;
+}
+
+inline void expectRefusal(const char* method, const SmallWorld& small, const std::string& part) {
+    try {
+        lensSpaceImage(method, small, 4);
+        FAIL() << method << " took it";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+}
+
+class LensSpace : public testing::TestWithParam<const char*> {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+// A grid of side² squares of two triangles each, over 6 x 6 px within one tile.
+inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
+    auto small = std::make_unique<SmallWorld>();
+    Mesh mesh;
+    mesh.name = "grid";
+    for (std::uint32_t y = 0; y <= side; ++y)
+        for (std::uint32_t x = 0; x <= side; ++x)
+            mesh.vertices.positions.emplace_back(static_cast<float>(x) / side, static_cast<float>(y) / side, 0);
+    mesh.vertices.normals.assign(mesh.vertices.positions.size(), {0, 0, 1});
+    Primitive primitive{0, {}};
+    for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const std::uint32_t i = y * (side + 1) + x;
+            for (const std::uint32_t v : {i, i + 1, i + side + 2, i, i + side + 2, i + side + 1})
+                primitive.indices.push_back(v);
+        }
+    mesh.primitives.push_back(primitive);
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(mesh);
+    small->view.width = small->view.height = 32;
+    small->view.lens.dofEnabled = false;
+    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // m per pixel at a depth of 2 m
+    // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 and of 16 px that begin at
+    // 16.
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
+    small->world.environment.type = EnvironmentType::none;  // alpha is coverage
+    small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
+    return small;
+}
+
+// A grid side with more triangles than Mesa's software driver allows rounds of a loop, 65,536.
+inline constexpr std::uint32_t longerThanLoops = 184;
+
+class LensSpaceAlone : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,118 @@
+#pragma once
+// Shadows of edges under a disk of light: scenes, images and closed forms.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class Shadowed : public testing::Test {
+protected:
+    static constexpr double receiverDepth = 4;  // m in front of the camera, as all depths here
+    static constexpr double tanHalfWidth = 36.0 / (2 * 50);
+
+    static Material matt() {
+        Material material;
+        material.metallicFactor = 0;
+        material.specularFactor = 0;
+        material.doubleSided = true;
+        return material;
+    }
+
+    // A white wall that fills the image of a pinhole camera at the origin, without a light.
+    static std::unique_ptr<SmallWorld> wall() {
+        auto small = std::make_unique<SmallWorld>();
+        small->scene.materials.push_back(matt());
+        small->scene.meshes.push_back(quad(0));
+        place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, -receiverDepth}), glm::dvec3(3)));
+        small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+        small->view.width = 96;
+        small->view.height = 72;
+        small->view.lens.dofEnabled = false;
+        return small;
+    }
+
+    static void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
+        PlacedLight sun;
+        sun.light.intensity = 1;
+        sun.light.angularDiameter = static_cast<float>(diameter);
+        sun.direction = -glm::normalize(toLight);
+        small.world.lights.push_back(sun);
+    }
+
+    // Adds a board parallel to the wall, `height` m in front of it, 4 m wide from x = `left`.
+    static void addEdge(SmallWorld& small, double left, double height) {
+        place(small, 0,
+              glm::scale(glm::translate(glm::dmat4(1), {left + 2, 0, height - receiverDepth}), glm::dvec3(2, 6, 1)));
+    }
+
+    static RenderSettings settingsFor(std::uint32_t samples, Shadows shadows) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        settings.lod = LodMode::off;
+        settings.shadows = shadows;
+        return settings;
+    }
+
+    static Image shadowImage(const SmallWorld& small, const RenderSettings& settings,
+                             const std::string& method = "accumulation", std::uint32_t wave = 0) {
+        RendererOptions options;
+        options.layerFormat = LayerFormat::rgba32f;
+        options.wave = wave;
+        const MethodUse use = parseMethodUse(method);
+        options.settings = use.settings;
+        const auto renderer = use.method->make(small.world, options);
+        renderer->start(planFrame(small.world, small.view, settings));
+        while (renderer->advance()) {
+        }
+        return renderer->image();
+    }
+
+    // Returns the x on the wall that the column's centre shows.
+    static double wallX(const View& view, int column) {
+        return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
+    }
+
+    // Returns, for each column of the image's middle row, the light relative to the light without shadows.
+    static std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
+                                         const std::string& method = "accumulation") {
+        RenderSettings without = settings;
+        without.shadows = Shadows::off;
+        const Image shadowed = shadowImage(small, settings, method);
+        const Image lit = shadowImage(small, without, method);
+        std::vector<double> shares;
+        for (int x = 0; x < shadowed.width; ++x)
+            shares.push_back(static_cast<double>(shadowed.at(x, shadowed.height / 2)[0]) /
+                             lit.at(x, lit.height / 2)[0]);
+        return shares;
+    }
+
+    // Returns the share of the unit disk left of x = a.
+    static double diskShare(double a) {
+        a = std::clamp(a, -1.0, 1.0);
+        return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
+    }
+
+    // The sun stands 45° to the right; t is the tangent of half its diameter. A point of its disk at a·t from its
+    // centre casts the edge, d in front of the wall, to left − d·(1 + t·a)/(1 − t·a).
+    static double litShareBehindEdge(double x, double left, double d, double t) {
+        const double q = (left - x) / d;
+        return diskShare((q - 1) / ((q + 1) * t));
+    }
+
+    std::unique_ptr<GlContext> context = createHeadlessContext();
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,85 @@
+#pragma once
+// Images assembled from uneven tiles, compared with images drawn in one piece.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "gl/context.h"
+#include "likeness.h"
+#include "plan/visible/tiles.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class Tiles : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static PixelRectangle wholeOf(const FramePlan& plan) { return {0, 0, plan.view.width, plan.view.height}; }
+
+    // Assembles the image from tiles, each with its own start; NaN where there is no tile.
+    static Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
+        Image image(plan.view.width, plan.view.height, 4);
+        std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());
+        for (const Tile& tile : tiles) {
+            const Image part = imageOf(renderer, tileOf(plan, tile));
+            if (part.width != tile.area.width || part.height != tile.area.height) {
+                ADD_FAILURE() << part.width << " x " << part.height;
+                return image;
+            }
+            for (int y = 0; y < part.height; ++y)
+                std::copy_n(part.at(0, y), 4 * part.width, image.at(tile.area.left, tile.area.top + y));
+        }
+        return image;
+    }
+
+    // Tiles of uneven sizes in one cell.
+    static std::vector<Tile> unevenTiles(const FramePlan& plan) {
+        const int columns[] = {0, 37, 101, plan.view.width};
+        const int rows[] = {0, 13, 64, plan.view.height};
+        std::vector<Tile> tiles;
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 3; ++x)
+                tiles.push_back(
+                    {{columns[x], rows[y], columns[x + 1] - columns[x], rows[y + 1] - rows[y]}, wholeOf(plan)});
+        return tiles;
+    }
+
+    static void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
+        RendererOptions options;
+        const auto full = methodNamed("accumulation").make(small.world, options);
+        options.wave = 3;
+        const auto parts = methodNamed("accumulation").make(small.world, options);
+        const Image expected = imageOf(*full, plan);
+        const Image found = joined(*parts, plan, unevenTiles(plan));
+        std::size_t others = 0, first = found.pixels.size();
+        for (std::size_t i = found.pixels.size(); i-- > 0;)
+            if (!(found.pixels[i] == expected.pixels[i])) ++others, first = i;
+        if (others == 0) return;
+        const auto width = static_cast<std::size_t>(4 * expected.width);
+        ADD_FAILURE() << what << ": " << others << " values, the first at " << first % width / 4 << ", "
+                      << first / width << ", channel " << first % 4 << ": " << found.pixels[first] << " instead of "
+                      << expected.pixels[first] << ", by at most " << largestDifference(found, expected);
+    }
+
+    static FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
+                              std::uint32_t samples = 20) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        settings.lod = mode;
+        settings.thresholds = {0.5, 2};
+        return planFrame(small.world, view, settings);
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,29 @@
+// Frames drawn tile by tile have the bits of a frame drawn in one piece, at each kind of level and behind glass.
+
+#include "render/tiles/tiled_image.h"
+
+namespace defocus::engine {
+namespace {
+
+TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
+    const auto small = fiveSpheres();
+    for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
+        // 70 samples: two blocks
+        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
+}
+
+// A transmitting object shows other pixels of the image, which may lie outside the tile.
+TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
+    const auto small = fiveSpheres();
+    Material glass;
+    glass.transmissionFactor = 1;
+    glass.thicknessFactor = 1;
+    glass.roughnessFactor = 0.3f;
+    small->scene.materials.front() = glass;
+    const FramePlan plan = planWith(*small, small->view);
+    ASSERT_TRUE(plan.usesTransmission);
+    expectTheBitsOfOnePiece(*small, plan, "glass");
+}
+
+}  // namespace
+}  // namespace defocus::engine

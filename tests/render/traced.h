@@ -1,0 +1,25 @@
+#pragma once
+// Images by the ray tracer of scenes without pyramids.
+
+#include <cstdint>
+
+#include "bokeh.h"
+#include "embree/embree_renderer.h"
+
+namespace defocus::engine {
+
+inline FramePlan planOf(const View& view, std::uint32_t samples) {
+    FramePlan plan;
+    plan.view = view;
+    plan.settings.sampleCount = samples;
+    return plan;
+}
+
+inline Image traced(const Scene& scene, const View& view, std::uint32_t samples,
+                    const Environment& environment = blackBackground(),
+                    EmbreeSampling sampling = EmbreeSampling::perPixel) {
+    const World world = flatWorld(scene, environment);
+    return renderedImage(*makeEmbreeRenderer(world, sampling), planOf(view, samples));
+}
+
+}  // namespace defocus::engine

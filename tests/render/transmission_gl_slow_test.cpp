@@ -1,0 +1,29 @@
+// A pane of glass before a blurred scene.
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/glass_wall.h"
+
+namespace defocus::engine {
+namespace {
+
+// A pane without effect in front of all spheres leaves the image unchanged through a lens: each sample shows its own
+// background.
+TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
+    const auto without = fiveSpheres();
+    const auto with = fiveSpheres();
+    addWall(*with, 0.6, clear(), 2);
+    with->scene.meshes.back().vertices.colors.clear();
+    finish(*with);
+    const Image expected = drawnBy("accumulation", *without, 64);
+    const Image image = drawnBy("accumulation", *with, 64);
+    double max = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) max = std::max<double>(max, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
+    EXPECT_LT(max, 2e-5);
+}
+
+}  // namespace
+}  // namespace defocus::engine

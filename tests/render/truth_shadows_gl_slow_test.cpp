@@ -1,0 +1,27 @@
+// Penumbrae of lamps on the GPU against the ray tracer.
+
+#include "render/ball_shadows.h"
+
+namespace defocus::engine {
+namespace {
+
+// The ray tracer's lamp disks face each lit point, the rasterizer's face the middle of the scene. Their points differ,
+// but their means are alike. The map of a lamp without a cone has wider texels.
+TEST_F(TruthOfShadows, lampsThrowTheSamePenumbrae) {
+    for (const LightType type : {LightType::point, LightType::spot}) {
+        const auto small = ballBeforeAWall();
+        PlacedLight lamp;
+        lamp.light.type = type;
+        lamp.light.intensity = 20;
+        lamp.light.radius = 0.15f;
+        lamp.light.innerConeAngle = 0.5f;
+        lamp.light.outerConeAngle = 0.7f;
+        lamp.position = {2, 1, -1.5};
+        lamp.direction = glm::normalize(glm::dvec3(0, 0, -4.5) - lamp.position);
+        small->world.lights = {lamp};
+        expectTheSameShadows(*small, 256, type == LightType::spot ? 35 : 29.5);
+    }
+}
+
+}  // namespace
+}  // namespace defocus::engine

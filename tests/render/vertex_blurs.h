@@ -1,0 +1,107 @@
+#pragma once
+// Surfaces with blur from vertex attributes, and the closed form of a small square's image.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "bokeh.h"
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class VertexBlurs : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static constexpr double blurredSide = 4;  // px, side of the blurred square
+    static constexpr double focus = 2;        // m
+    static constexpr int blurSamples = 256;
+
+    // A white square in the middle of a black image. All its vertices have the blur `blur`.
+    static std::unique_ptr<SmallWorld> blurredSquare(double depth, const VertexBlur& blur) {
+        auto small = std::make_unique<SmallWorld>();
+        small->view = bokehView(120, 90);
+        small->view.lens.fStop = 1;
+        small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+        Mesh mesh = quad(0);
+        mesh.vertices.blurs.assign(4, blur);
+        mesh.blurBounds = boundsOf(mesh.vertices.blurs);
+        small->scene.meshes.push_back(mesh);
+        const double half = blurredSide / 2 * 2 * tanHalf(small->view) * depth / small->view.width;
+        place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -depth)), glm::dvec3(half)));
+        small->world.environment = blackBackground();
+        finish(*small);
+        return small;
+    }
+
+    static Image renderedBlur(const SmallWorld& small, const char* method = "accumulation",
+                              std::uint32_t count = blurSamples) {
+        RenderSettings settings;
+        settings.sampleCount = count;
+        settings.lod = LodMode::off;
+        return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
+    }
+
+    // px per millimetre on the sensor
+    static double perMillimetre(const SmallWorld& small) {
+        return small.view.width / small.view.lens.horizontalAperture;
+    }
+
+    // Variance in px² of a disk whose mean squared diameter is `squared`, with the square and the pixel.
+    static double varianceOf(double squared) { return squared / 16 + blurredSide * blurredSide / 12 + 1.0 / 12; }
+
+    // Variance of the sharp square, whose edges lie between pixels.
+    static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
+
+    // Expects energy, centre and variance for methods that rasterize points or lines. Post-process methods blur with
+    // other kernels.
+    static void expectVariance(const SmallWorld& small, double expected, const char* method, double relative = 0.02) {
+        const Moments moments = momentsOf(renderedBlur(small, method));
+        EXPECT_NEAR(moments.energy, blurredSide * blurredSide, 0.02 * blurredSide * blurredSide) << method;
+        EXPECT_NEAR(moments.mean.x, small.view.width / 2.0, 0.2) << method;
+        EXPECT_NEAR(moments.variance.x, expected, relative * expected) << method;
+        EXPECT_NEAR(moments.variance.y, expected, relative * expected) << method;
+    }
+
+    // A slanted floor whose blur grows from one end to the other: two divided triangles look like many small ones.
+    static std::unique_ptr<SmallWorld> slantedFloor(int cells, const std::function<VertexBlur(double)>& blur) {
+        auto small = std::make_unique<SmallWorld>();
+        small->view = bokehView(120, 90);
+        small->view.lens.fStop = 0.5;
+        Material white = unlitMaterial(glm::vec4(1));
+        white.doubleSided = true;
+        small->scene.materials.push_back(white);
+        Mesh mesh;
+        Primitive primitive{0, {}};
+        for (int y = 0; y <= cells; ++y)
+            for (int x = 0; x <= cells; ++x) {
+                const double far = double(y) / cells;
+                mesh.vertices.positions.emplace_back((double(x) / cells - 0.5) * 0.4, -0.2 + 0.3 * far, -(1 + 3 * far));
+                mesh.vertices.normals.emplace_back(0, 1, 0);
+                mesh.vertices.blurs.push_back(blur(far));
+                if (x == cells || y == cells) continue;
+                const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
+                const auto next = first + static_cast<std::uint32_t>(cells) + 1;
+                primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
+            }
+        mesh.primitives.push_back(primitive);
+        mesh.blurBounds = boundsOf(mesh.vertices.blurs);
+        small->scene.meshes.push_back(mesh);
+        place(*small, 0, glm::dmat4(1));
+        small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
+        small->world.environment = blackBackground();
+        return small;
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace defocus::engine

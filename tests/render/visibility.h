@@ -1,0 +1,81 @@
+#pragma once
+// Images with and without the culling of clusters.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "gl/context.h"
+#include "gl_conduct.h"
+#include "models.h"
+#include "posed_world.h"
+#include "render/aov/work.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+
+class Visibility : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+
+    static RenderSettings settingsFor(LodMode lod, bool keepAll) {
+        RenderSettings settings;
+        settings.sampleCount = 24;
+        settings.lod = lod;
+        settings.thresholds = {0.5, 2};
+        settings.keepAll = keepAll;
+        return settings;
+    }
+
+    static Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
+        RendererOptions options;
+        options.wave = wave;
+        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        renderer->start(plan);
+        while (renderer->advance()) {
+        }
+        EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
+        return renderer->image();
+    }
+
+    // Returns the plan with all of its triangles drawn.
+    static FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
+        plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
+        for (ObjectPlan& object : plan.objects) {
+            object.visible.clear();
+            for (LevelDraw* draw : {&object.coarse, &object.fine})
+                draw->triangleCount =
+                    small.world.pyramids[static_cast<std::size_t>(object.mesh)].levels[draw->level].triangleCount;
+        }
+        return plan;
+    }
+
+    // Expects the same image with and without culling. Returns the culled share of the triangles.
+    static double expectSameImage(const SmallWorld& small, LodMode lod) {
+        const FramePlan seen = planFrame(small.world, small.view, settingsFor(lod, false));
+        const FramePlan all = drawnWhole(small, seen);
+        EXPECT_TRUE(rendered(small, all, 0).pixels == rendered(small, seen, 5).pixels);
+        EXPECT_TRUE(renderWork(small.world, all).pixels == renderWork(small.world, seen).pixels);
+        return static_cast<double>(seen.trianglesFacingAway + seen.trianglesOutside) /
+               static_cast<double>(all.trianglesDrawn);
+    }
+
+    static double expectSameImages(const std::filesystem::path& path) {
+        const auto small = posedWorld(path, 0, 0);
+        small->view.lens.fStop = 0.5;
+        return std::max(expectSameImage(*small, LodMode::off), expectSameImage(*small, LodMode::fractional));
+    }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+// Scanned and modelled surfaces with needles, folds and holes.
+class VisibilityOf : public Visibility, public testing::WithParamInterface<const char*> {};
+
+}  // namespace defocus::engine

@@ -1,0 +1,126 @@
+#pragma once
+// The window with two squares, and actions of a user on it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/two_quads.h"
+#include "view/view_program.h"
+
+namespace defocus::engine {
+
+// A window beside its panel. The panel begins at x = 400 px.
+class SessionWindow : public ViewProgram {
+protected:
+    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    void openTwoQuads(std::vector<std::string> more = {}) {
+        writeTwoQuads(folder() / "quads.gltf");
+        more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
+        start(more);
+        ASSERT_TRUE(showsScene("quads.gltf")) << textOf("stderr");
+    }
+    bool focusesAt(double distance) const {
+        return reaches([&](const nlohmann::json& s) {
+            return s.at("focusDistance").is_number() && std::abs(s.at("focusDistance").get<double>() - distance) < 1e-6;
+        });
+    }
+    double number(const char* name) const { return state().at(name).get<double>(); }
+    // Presses a key that changes the state, which proves that earlier input has been processed. Without animation, the
+    // view has come to rest too.
+    bool comesToRest() const {
+        const bool dark = state().at("dark").get<bool>();
+        key("t");
+        return reaches([&](const nlohmann::json& s) {
+            return s.at("dark") != dark && s.at("moving") == false && s.at("samples") > 130;
+        });
+    }
+    // Opens the export dialog and accepts the proposed name.
+    void exportByHand() const {
+        const auto asks = [](const nlohmann::json& s) { return s.at("dialog") == "export"; };
+        ASSERT_TRUE(insists([&] { key("ctrl+e"); }, asks)) << state();
+        const auto goesOn = [](const nlohmann::json& s) { return s.at("dialog") == ""; };
+        ASSERT_TRUE(insists([&] { key("Return"); }, goesOn)) << state();
+    }
+    // Types a path into the panel's first row and confirms it.
+    void openByHand(const std::string& path) const {
+        ASSERT_TRUE(insists([&] { click(500, 45); }, [](const nlohmann::json& s) { return s.at("typing") == true; }))
+            << state();
+        const auto typed = [&](const nlohmann::json& s) { return s.at("openPath") == path; };
+        const auto type = [&] {
+            key("ctrl+a");
+            act("type --delay 30 " + path);
+        };
+        ASSERT_TRUE(insists(type, typed)) << state();
+        ASSERT_TRUE(insists([&] { key("Return"); }, [](const nlohmann::json& s) { return s.at("typing") == false; }))
+            << state();
+    }
+};
+
+// The same window, without programs of the desktop.
+class ViewTools : public ViewProgram {
+protected:
+    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
+    // The same picture in a window tall enough for most of the panel.
+    void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
+    void openScene(const std::string& size, std::vector<std::string> more) {
+        writeTwoQuads(folder() / "quads.gltf");
+        more.insert(more.begin(), {"quads.gltf", "--size", size});
+        startWithPath((folder() / "bin").string(), more);
+        const auto shown = [](const nlohmann::json& s) {
+            return s.at("scene") == "quads.gltf" && s.at("samples") > 0 && s.at("places").contains("open path");
+        };
+        ASSERT_TRUE(reaches(shown)) << textOf("stderr");
+    }
+    // Starts the window with a PATH that has only the desktop programs that the test creates.
+    void startWithPath(const std::string& path, const std::vector<std::string>& arguments) {
+        const std::string before = std::getenv("PATH");
+        ::setenv("PATH", path.c_str(), 1);
+        start(arguments);
+        ::setenv("PATH", before.c_str(), 1);
+    }
+    // Clicks on a widget, once the state contains its position, until `condition` holds.
+    [[nodiscard]] bool clicks(const std::string& place,
+                              const std::function<bool(const nlohmann::json&)>& condition) const {
+        if (!reaches([&](const nlohmann::json& s) { return s.at("places").contains(place); })) return false;
+        const auto hand = [&] {
+            const nlohmann::json places = state().at("places");
+            if (places.contains(place)) click(places.at(place).at(0), places.at(place).at(1));
+        };
+        return insists(hand, condition);
+    }
+    // Opens a section of the panel.
+    [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
+        return clicks(section, [&](const nlohmann::json& s) { return s.at("places").contains(inside); });
+    }
+    // Collapses the focus and lens sections to make room for those below.
+    [[nodiscard]] bool foldsFocusAndLens() const {
+        return clicks("Focus", [](const nlohmann::json& s) { return s.at("places").contains("aperture ring"); }) &&
+               clicks("Lens", [](const nlohmann::json& s) { return s.at("places").contains("Image"); });
+    }
+    // Presses a key until `condition` holds.
+    [[nodiscard]] bool presses(const std::string& name,
+                               const std::function<bool(const nlohmann::json&)>& condition) const {
+        return insists([&] { key(name); }, condition);
+    }
+    [[nodiscard]] bool asks(const std::string& dialog) const {
+        return reaches([&](const nlohmann::json& s) { return s.at("dialog") == dialog; });
+    }
+    [[nodiscard]] bool typesPath(const std::string& path) const {
+        return insists(
+            [&] {
+                key("ctrl+a");
+                act("type --delay 30 " + path);
+            },
+            [&](const nlohmann::json& s) { return s.at("exportPath") == path; });
+    }
+};
+
+}  // namespace defocus::engine
