@@ -76,7 +76,7 @@ class Keywords(TypedDict, total=False):
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
     preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
-    samples: Optional[int]
+    samples: Optional[Union[int, Literal["auto"]]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
