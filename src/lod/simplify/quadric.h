@@ -124,8 +124,8 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds the quadric of another vertex. `step` and `change` lead from its position and attributes to those of this
-    // vertex.
+    // Adds the quadric of another vertex. `step` and `change` are the differences in position and attributes from the
+    // other vertex to this one.
     void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow<n>& change) {
         const float cost = other.at(step, change);
         const AttributeGradients<n>& g = other.gradients;
