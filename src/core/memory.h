@@ -1,6 +1,6 @@
 #pragma once
 // Memory for large blocks that returns to the system as soon as it is freed. malloc may keep freed blocks instead,
-// which raises the peak memory of consecutive phases.
+// which raises the peak memory of a program with several phases.
 
 #include <cstddef>
 #include <new>
@@ -16,7 +16,7 @@ void giveBackFreedMemory();
 // rasterizers free vertex memory after each draw; getting the pages back from the system can take longer than the draw.
 void keepFreedMemory();
 
-inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes, on most processors; only a hint on others
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes; exact on most processors, a hint on others
 
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);
@@ -24,7 +24,7 @@ void freePages(void* pages, std::size_t bytes) noexcept;
 // Returns the pages that lie entirely inside the range to the system. These pages then read as zero.
 void giveBackPages(void* first, std::size_t bytes) noexcept;
 
-// Allocator that uses pages for large blocks and operator new for small ones.
+// Allocator that uses pages for large blocks and operator new for small blocks.
 template <typename T>
 struct PageAllocator {
     using value_type = T;

@@ -63,7 +63,7 @@ std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool 
 
 namespace {
 
-// Returns the bytes left under the limits of the process's control group and its ancestors, whichever is smallest.
+// Returns the bytes left under the tightest memory limit of the process's control group and its ancestors.
 std::uint64_t leftByControlGroups() {
     std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
     std::ifstream file("/proc/self/cgroup");

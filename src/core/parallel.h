@@ -9,7 +9,7 @@
 namespace defocus::engine {
 
 // Runs body(0) … body(count - 1) on all cores and returns when all are done. Indices start in order, so put the most
-// expensive ones first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits for
+// expensive bodies first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits for
 // the inner loop runs no bodies of the outer loop.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 

@@ -12,7 +12,7 @@ namespace defocus::engine {
 struct Range {
     double min = 0;
     double max = 0;
-    bool aboveMin = false;  // true excludes `min` itself
+    bool aboveMin = false;  // true: `min` itself is excluded
 };
 
 // Parses the complete text as a finite number in `range`. Throws Error, with the range in its message, for other text.
@@ -22,7 +22,7 @@ std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint
 double parseSeconds(const std::string& text);
 // Parses exactly `count` finite numbers in `range`, separated by commas.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range);
-// Returns the index of `text` in `choices`. Throws Error, with all choices in its message, if none is equal.
+// Returns the index of `text` in `choices`. Throws Error, with all choices in its message, if `text` is not a choice.
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices);
 
 // Splits the text at each separator. Parts may be empty, and empty text gives one empty part.

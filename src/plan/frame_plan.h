@@ -65,7 +65,7 @@ struct ObjectPlan {
     bool skinned = false;
     bool deformed = false;      // the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over all moments of the frame
-    double nearestDepth = 0;    // m, of the bounding box; may be behind the near plane
+    double nearestDepth = 0;    // m, of the bounding box; may be less than View::nearPlane
     double farthestDepth = 0;   // m
     CocRange coc;               // px, range over the bounding box
     CocDeviation cocDeviation;  // px, error bounds over the drawn levels

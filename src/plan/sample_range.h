@@ -6,8 +6,8 @@
 
 namespace defocus::engine {
 
-// Returns the plan for samples [first, first + count) of `plan`, which must exist. Sample i of the result is sample
-// first + i of `plan`. Objects that these samples do not draw stay in the result.
+// Returns the plan for samples [first, first + count) of `plan`. `plan` must contain all of them. Sample i of the
+// result is sample first + i of `plan`. Objects that these samples do not draw stay in the result.
 FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t count);
 
 // Returns the number of triangles that samples [first, first + count) of `plan` draw.

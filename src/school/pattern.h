@@ -20,7 +20,7 @@ struct FishBand {  // band around the body
 };
 
 struct FishStripes {      // stripes along the body
-    float count = 0.0f;   // number over the body's height; 0: none
+    float count = 0.0f;   // number of stripes over the body's height; 0: none
     float share = 0.45f;  // painted fraction of the period
     float slant = 0.0f;   // rise towards the tail, in half heights per body length
     float wave = 0.0f;    // waviness, in periods

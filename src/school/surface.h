@@ -20,7 +20,7 @@ struct VertexRow {
 // Triangulates between two rings. As seen from outside with `b` below `a`, vertices run from left to right.
 void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32_t>& indices);
 
-// Connects ring `a` to the single vertex `apex`, which lies below it (`apexBelow`) or above it.
+// Connects ring `a` to the single vertex `apex`, which lies below the ring (`apexBelow`) or above it.
 void capRing(const VertexRow& a, std::uint32_t apex, bool apexBelow, std::vector<std::uint32_t>& indices);
 
 // Turns a sheet of open rows into a closed thin shell. Vertex i of the sheet has its front copy at i and its back copy

@@ -69,7 +69,7 @@ public:
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
     // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over black cells.
-    // For single cells (size 0), it is ignored and the row has the cells' values.
+    // For single cells (size 0), `black` is ignored and the row has the cells' values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];

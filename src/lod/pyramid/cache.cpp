@@ -135,7 +135,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     }
 
     const std::uint64_t triangles = trianglesOf(meshes);
-    // Largest mesh first, so that no core is left with a large mesh at the end.
+    // Process the largest mesh first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

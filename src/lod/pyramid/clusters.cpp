@@ -39,8 +39,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // Index into `around` of the first corner whose triangle may still be unassigned. Only for vertices with more than
-    // maxNeighbours corners.
+    // Index into `around` of the first corner whose triangle may still be unassigned. Entries exist only for vertices
+    // with more than maxNeighbours corners.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat, evenly tessellated surface

@@ -463,7 +463,7 @@ std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
                                    const Progress& progress) {
-    // Largest mesh first, so that no core is left with a large mesh at the end.
+    // Build the largest pyramid first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

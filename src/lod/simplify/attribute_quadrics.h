@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] const AttributeQuadric<n>& operator[](WedgeNumber w) const { return all_[w.value]; }
     [[nodiscard]] float costInPlace(WedgeNumber w) const { return all_[w.value].squares.c; }
-    // Adds the quadric of a face at the wedge.
+    // Adds a face's quadric to the quadric of the wedge `w`.
     void addFace(WedgeNumber w, const AttributeQuadric<n>& face) { all_[w.value].addFaces(face); }
     // Moves the quadric of wedge `from` into the quadric of wedge `to`. `step` and `change` are the differences in
     // position and attributes from `from` to `to`.

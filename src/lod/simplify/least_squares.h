@@ -103,7 +103,7 @@ private:
         return result;
     }
 
-    Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 where the diagonal is 0
+    Numbered<UnknownNumber, float> inverseDiagonal_;  // reciprocal diagonal of the equations; 0 where it is 0
 };
 
 }  // namespace defocus::engine

@@ -22,7 +22,7 @@ constexpr float minAgreement = 0.125f;
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // from the anchor's point on the level to the original vertex
+    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchor's point on the level to the original vertex
     Numbered<LevelVertexNumber, Three> normals;
     Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;

@@ -22,8 +22,9 @@ std::array<glm::dvec3, lightCount> directionsToLights();
 using LightMeans = std::array<double, lightCount>;
 
 // Match normalSpread() and meanCosine() in shaders/include/shading.glsl: light reflected by a distribution of normals.
-// `agreement`, in [0, 1], is the length of their mean vector. `mean` is agreement · cosine if the distribution is
-// symmetric about the mean normal. In that case, the average of the result over all light directions is 1/4.
+// `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is agreement · cosine if the
+// distribution is symmetric about the mean normal. In that case, the average of the result over all light directions is
+// 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);

@@ -101,7 +101,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
-    // Group by the lower position, then sort the few edges of each group by the higher one.
+    // Group by the lower position, then sort the few edges of each group by the higher position.
     Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);

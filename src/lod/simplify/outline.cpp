@@ -21,7 +21,7 @@ constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
-constexpr double maxUnseen = 5e-3;   // relative area difference up to which nothing is moved
+constexpr double maxUnseen = 5e-3;   // relative area difference up to which no vertex is moved
 constexpr int localRounds = 2;       // rounds in which each outline edge follows level 0's outline
 constexpr int maxGlobalRounds = 12;  // rounds that match the covered area in each direction
 // Accepted relative area differences. Levels with many triangles are slow to fit and mostly cover enough area, so that
@@ -30,7 +30,7 @@ constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
 constexpr int maxVainRounds = 4;  // rounds without improvement before the search ends
-constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to other parts
+constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to another part
 constexpr int maxEdgePoints = 24;
 constexpr double stiffness = 0.1;      // damping of moves, relative to the weight of the outline points
 constexpr double maxMoveShare = 0.25;  // max move per round, relative to the mean length of the vertex's edges
@@ -98,7 +98,7 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
 
 // A sample point of a level's outline, seen from one direction.
 struct OutlinePoint {
-    std::uint32_t a = 0, b = 0;  // groups at the ends of its edge
+    std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
     double share = 0;            // interpolation weight of b
     double length = 0;           // length of the outline that the point represents, object units
     glm::dvec2 start{0};         // position in cells
@@ -210,7 +210,7 @@ public:
         return true;
     }
 
-    // Returns the current positions, or the best ones if later rounds were worse.
+    // Returns the current positions, or the best positions if later rounds were worse.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
     // Returns the largest relative area difference at the positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }

@@ -23,7 +23,7 @@ struct Quadric {
     float c = 0;       // value of the sum at the vertex itself
     float weight = 0;  // total weight of the planes
     glm::vec3 b{0};
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the symmetric matrix A
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix A
 
     // Adds a plane through the vertex with the unit normal `normal`.
     void addPlane(const glm::vec3& normal, float planeWeight) {

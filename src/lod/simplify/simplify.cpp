@@ -136,7 +136,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Performs the collapse that was judged last.
+// Performs the collapse of `along`, which must be the collapse that was judged last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);
@@ -246,7 +246,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces without any collapsible vertex, such as those of tetrahedra or isolated triangles
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: the component has other faces
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: not all faces are stuck
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {

@@ -299,7 +299,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // vertex with the last searched anchor
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // last vertex with an anchor of its own
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];
         if (!v.isValid()) continue;

@@ -37,7 +37,7 @@ struct Component {
     std::size_t faces = 0;      // number of remaining faces
     // Number of vertices with a good or poor collapse, according to the tests made so far.
     std::size_t harmless = 0;
-    bool spent = false;     // `harmless` has been 0 once
+    bool spent = false;     // true since `harmless` first reached 0
     bool standsIn = false;  // the component replaces removed components
     bool removed = false;
 };

@@ -98,7 +98,8 @@ WeldedVertices weldVertices(const Mesh& mesh) {
 }
 
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions) {
-    // Only vertices that share their position with others are compared; each other vertex is its own leader.
+    // Only vertices that share their position with others are compared; every other vertex is the only member of its
+    // group.
     const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
     VertexGroups groups(normals.size());
     for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;

@@ -16,8 +16,8 @@
 namespace defocus::engine {
 
 inline constexpr int surroundings = -1;  // value of ShadowMap::light for the environment
-// Maximum number of shadow maps per sample. Weaker lights beyond it cast no shadow. If maps are left and there are few
-// samples, each light has several points.
+// Max number of shadow maps per sample. The weakest lights beyond this number cast no shadow. In frames with few
+// samples, spare maps give each light several points.
 inline constexpr std::size_t maxShadowMaps = 8;
 
 // Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
