@@ -1,7 +1,7 @@
 #pragma once
-// The only exception type of defocus, for runtime failures such as files, user input, shaders and drivers. The message
-// is one line: the action, the file or name, and the remedy. Broken invariants are assertions instead; expected misses
-// return std::optional. Only `main` catches exceptions.
+// Error is the only exception type of defocus, for runtime failures of files, user input, shaders and drivers. Its
+// message is one line: the action, the file or name, and the remedy. Broken invariants are assertions instead;
+// functions that may find nothing return std::optional. Only `main` catches exceptions.
 
 #include <fmt/format.h>
 
@@ -18,8 +18,8 @@ template <typename... Args>
     throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Error for a name that the scene lacks, such as a node name. Code that read the name from a file can add the position
-// in the file.
+// Error for a name that is missing from the scene, such as a node name. Code that read the name from a file can catch
+// the error and add the name's position in that file.
 class MissingName : public Error {
 public:
     MissingName(std::string name, const std::string& message) : Error(message), name_(std::move(name)) {}

@@ -32,8 +32,8 @@ FileHandle openFile(const fs::path& path, const char* mode) {
     return {std::fopen(path.c_str(), mode), &std::fclose};
 }
 
-// Locks a new temporary file while it is open, which marks its writer as alive. Returns false if another process
-// removed the file as abandoned before. File systems without locks count as success.
+// Locks a new temporary file until it is closed; the lock tells other processes that its writer is alive. Returns false
+// if another process has already removed the file as abandoned. Returns true on file systems without locks.
 bool isKept(int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
@@ -79,8 +79,8 @@ void writeStream(const fs::path& from, const fs::path& to) {
     if (!written || std::fclose(stream.release()) != 0) fail("{}: cannot be written: {}", to.string(), reason(errno));
 }
 
-// fsync the directory so that the rename survives a crash. Failures are ignored because some file systems do not
-// support it.
+// Flushes the directory to disk, so that a rename inside it survives a crash. Failures are ignored because some file
+// systems do not support fsync on directories.
 void syncFolder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -137,7 +137,7 @@ PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(
         temporary_ = stream_ ? fs::temp_directory_path() / target_.filename() : target_;
         temporary_.replace_filename(
             fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
-        // O_EXCL: a process with the same id on another machine may have created the same name.
+        // O_EXCL fails if the file exists: a process with the same id on another machine may have created it.
         descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno != EEXIST) fail("{}: cannot be written: {}", target_.string(), reason(errno));
         if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));

@@ -1,4 +1,4 @@
-// XXH3 (Collet) is compiled in rather than linked: for long data this is faster than its shared library.
+// Compiles XXH3 (Collet) into this file, which is faster for long inputs than linking the shared library.
 #define XXH_INLINE_ALL
 #include "core/hash.h"
 

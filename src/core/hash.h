@@ -23,8 +23,8 @@ constexpr std::uint32_t lowbias32(std::uint32_t bits) {
 
 inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;
 
-// Returns the XXH3 hash of `bytes`, for cache keys, checksums and hash tables. Pass the previous hash as `seed` to
-// chain several pieces.
+// Returns the XXH3 hash of `bytes`, for cache keys, checksums and hash tables. To hash several blocks, pass the hash of
+// the previous block as `seed`.
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed = hashSeed);
 
 }  // namespace defocus::engine

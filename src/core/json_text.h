@@ -5,7 +5,8 @@
 
 namespace defocus::engine {
 
-// Maximum nesting of accepted JSON; glTF and shots need about ten levels. Bounds the stack depth of recursive code.
+// Maximum nesting depth of accepted JSON, which bounds the recursion depth of parsers. glTF and shot files need about
+// ten levels.
 inline constexpr int deepestJson = 64;
 
 // Returns the maximum nesting depth of arrays and objects; works on invalid JSON too.

@@ -33,12 +33,12 @@ void giveBackFreedMemory() {
 void keepFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, 128 << 20);
-    mallopt(M_MMAP_THRESHOLD, 8 << 20);  // larger blocks are returned to the system when freed
+    mallopt(M_MMAP_THRESHOLD, 8 << 20);  // bytes; larger blocks return to the system when freed
 #endif
 }
 
-// Aligns the block to huge pages: one page fault then replaces hundreds, if the system supports them. The end uses
-// small pages, so that no memory beyond `bytes` is taken.
+// Aligns the block to huge pages: one page fault then replaces hundreds, if the system supports huge pages. The block's
+// end uses small pages, so that less than one small page is wasted.
 void* allocatePages(std::size_t bytes) {
     if (bytes > static_cast<std::size_t>(-1) - 2 * hugePage) throw std::bad_alloc();
     const std::size_t whole = (bytes + pageSize() - 1) / pageSize() * pageSize();

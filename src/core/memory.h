@@ -1,6 +1,6 @@
 #pragma once
 // Memory for large blocks that returns to the system as soon as it is freed. malloc may keep freed blocks instead,
-// which raises the peak memory of consecutive phases.
+// which raises the peak memory of a program with several phases.
 
 #include <cstddef>
 #include <new>
@@ -12,19 +12,19 @@ namespace defocus::engine {
 // megabytes.
 void giveBackFreedMemory();
 
-// Makes malloc keep up to 128 MiB of freed memory for later allocations, in the whole process (glibc only). Software
-// rasterizers free vertex memory after each draw; getting the pages back can take longer than the draw.
+// Makes malloc keep up to 128 MiB of freed memory for later allocations, in all threads (glibc only). Software
+// rasterizers free vertex memory after each draw; getting the pages back from the system can take longer than the draw.
 void keepFreedMemory();
 
-inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // size on most processors; only a hint on others
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes; exact on most processors, a hint on others
 
-// Returns zeroed pages for at least `bytes` bytes. Throws std::bad_alloc.
+// Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);
 void freePages(void* pages, std::size_t bytes) noexcept;
-// Returns the pages that lie entirely inside the range to the system; the range's full pages then read as zero.
+// Returns the pages that lie entirely inside the range to the system. These pages then read as zero.
 void giveBackPages(void* first, std::size_t bytes) noexcept;
 
-// Allocator that uses pages for large blocks and operator new for small ones.
+// Allocator that uses pages for large blocks and operator new for small blocks.
 template <typename T>
 struct PageAllocator {
     using value_type = T;
@@ -53,7 +53,7 @@ struct PageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
 
-// Returns the vector's spare capacity to the system. Values of a large vector are not moved.
+// Returns the vector's spare capacity to the system. The values of vectors of at least fewestBytes are not moved.
 template <typename T>
 void giveBackRoom(LargeVector<T>& values) {
     const std::size_t room = values.capacity() - values.size();

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, double>, 9> units = {{{"B", 1},
                                                                        {"GiB", 0x1p30},
                                                                        {"TiB", 0x1p40}}};
 
-// Returns the number in a file; nullopt if the file is missing or holds other text ("max").
+// Returns the number in a file; nullopt if the file is missing or contains other text, such as "max".
 std::optional<std::uint64_t> numberIn(const std::string& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -63,7 +63,7 @@ std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool 
 
 namespace {
 
-// Returns the minimum of the bytes left in the process's control group and its ancestors.
+// Returns the bytes left under the tightest memory limit of the process's control group and its ancestors.
 std::uint64_t leftByControlGroups() {
     std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
     std::ifstream file("/proc/self/cgroup");

@@ -8,11 +8,12 @@
 
 namespace defocus::engine {
 
-// Returns the bytes still available on the machine and in the process's control group; 0 if unknown.
+// Returns the bytes that the process can still allocate, limited by the machine's available memory and by the process's
+// control groups (cgroups); 0 if unknown.
 std::uint64_t freeMemory();
 
-// Returns the bytes left under the limit of a control group's folder; nullopt without a limit. Inactive file cache does
-// not count as used. `unified` selects the file names of cgroup v2.
+// Returns the bytes left under the memory limit of the control group in `folder`; nullopt without a limit. Inactive
+// file cache counts as free. `unified`: true for cgroup v2, false for v1.
 std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool unified);
 
 // Returns the resident memory of this process in bytes.

@@ -11,7 +11,8 @@ namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept;
 
-// Returns the text with '?' for control characters, which a terminal would interpret; line breaks stay.
+// Returns the text with each control character replaced by '?', because a terminal would interpret it. Line breaks
+// stay.
 std::string printable(std::string_view text);
 
 template <typename... Args>
@@ -19,8 +20,8 @@ void printMessage(fmt::format_string<Args...> format, Args&&... args) {
     writeMessage(printable(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-// Call first in main. Opens /dev/null for each of stdin, stdout and stderr that is closed (2>&-). Otherwise the next
-// opened file would get that descriptor and receive the program's output.
+// Opens /dev/null for each of stdin, stdout and stderr that is closed (2>&-). Otherwise the next opened file would get
+// that descriptor and receive the program's output. main must call this first.
 void claimClosedOutputs();
 
 }  // namespace defocus::engine

@@ -13,10 +13,11 @@
 
 namespace defocus::engine {
 
-// A call with 64 empty bodies takes 1 µs on two cores; starting threads for each call would take 28 µs.
+// TBB's threads keep running between calls: a call with 64 empty bodies takes 1 µs on two cores, instead of 28 µs with
+// new threads.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-    // A shared counter hands out indices in order. TBB's ranges would also start in the middle and could leave the most
-    // expensive bodies for last.
+    // A shared counter gives out the indices in order. TBB's splitting of ranges would also start in the middle and
+    // could run the most expensive bodies last.
     std::atomic<std::size_t> next = 0;
     const auto work = [&](std::size_t) {
         for (std::size_t i = next++; i < count; i = next++) {
@@ -38,7 +39,7 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
 struct Tasks::Arena {
     explicit Arena(std::size_t workers) : arena(static_cast<int>(workers) + 1) {}
 
-    // Runs a task and keeps the first exception for wait(). Later tasks still run.
+    // Runs a task and stores the first exception for wait(). Later tasks still run.
     void run(const std::function<void()>& task) {
         try {
             task();

@@ -1,6 +1,6 @@
 #pragma once
-// Parallel loops and tasks with oneTBB. Nested calls never use more threads than the process may use cores. Results
-// must not depend on the execution order.
+// Parallel loops and tasks with oneTBB. Nested calls never use more threads than there are cores available to the
+// process. Results must not depend on the execution order.
 
 #include <cstddef>
 #include <functional>
@@ -9,20 +9,20 @@
 namespace defocus::engine {
 
 // Runs body(0) … body(count - 1) on all cores and returns when all are done. Indices start in order, so put the most
-// expensive ones first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits there
-// starts no index of the outer loop.
+// expensive bodies first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits for
+// the inner loop runs no bodies of the outer loop.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Tasks that run on other threads while the caller produces more of them.
+// Tasks that run on other threads while the caller adds more tasks.
 class Tasks {
 public:
-    explicit Tasks(std::size_t workers);  // maximum threads, limited by the cores; 0: add() runs tasks itself
+    explicit Tasks(std::size_t workers);  // max threads, clamped to the cores; 0: add() runs each task
     ~Tasks();                             // cancels tasks that have not started
     Tasks(const Tasks&) = delete;
     Tasks& operator=(const Tasks&) = delete;
 
     void add(std::function<void()> task);
-    // Helps to finish all tasks. Rethrows the first exception of a task.
+    // Blocks until all tasks are done; the calling thread runs tasks too. Rethrows the first exception of a task.
     void wait();
 
 private:

@@ -1,5 +1,6 @@
 #pragma once
-// Parses text into values. Invalid text gives a one-line message such as "'0' is not an integer from 1 to 65536".
+// Parses text into values. Invalid text throws Error with a one-line message such as "'0' is not an integer from 1 to
+// 65536".
 
 #include <cstdint>
 #include <string>
@@ -11,20 +12,20 @@ namespace defocus::engine {
 struct Range {
     double min = 0;
     double max = 0;
-    bool aboveMin = false;  // true excludes `min` itself
+    bool aboveMin = false;  // true: `min` itself is excluded
 };
 
-// Parses the complete text as a finite number in `range`. Throws Error that states the range.
+// Parses the complete text as a finite number in `range`. Throws Error, with the range in its message, for other text.
 double parseNumber(const std::string& text, const Range& range);
 std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint64_t max);
 // Parses seconds as a decimal (0.02) or a fraction as in photography (1/48).
 double parseSeconds(const std::string& text);
 // Parses exactly `count` finite numbers in `range`, separated by commas.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range);
-// Returns the index of `text` in `choices`. Throws Error that lists the choices.
+// Returns the index of `text` in `choices`. Throws Error, with all choices in its message, if `text` is not a choice.
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices);
 
-// Splits at each separator. Parts may be empty, and empty text gives one empty part.
+// Splits the text at each separator. Parts may be empty, and empty text gives one empty part.
 std::vector<std::string> splitAt(std::string_view text, char separator);
 
 }  // namespace defocus::engine

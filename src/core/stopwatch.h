@@ -1,5 +1,5 @@
 #pragma once
-// Elapsed wall-clock time for reports.
+// Measures elapsed wall-clock time for reports.
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-// F. J. Damerau, "A technique for computer detection and correction of spelling errors", 1964.
+// Source: F. J. Damerau, "A technique for computer detection and correction of spelling errors", 1964.
 
 #include "core/suggestion.h"
 

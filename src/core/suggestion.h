@@ -14,8 +14,8 @@ namespace defocus::engine {
 // alignment; Damerau 1964). ASCII case is ignored.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
 
-// Returns the index of the first exact match. Otherwise returns the first match that ignores ASCII case, unless several
-// spellings match.
+// Returns the index of the name in `known`. Exact matches come first; otherwise ASCII case is ignored. Returns nullopt
+// without a match, or if several different spellings match.
 std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace defocus::engine

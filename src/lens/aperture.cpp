@@ -16,8 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Min and max number of cells along the longer side of an image. The min keeps the rim of the disk round; the max
-// limits the cost.
+// Min and max number of cells along the longer side of an aperture image. The min keeps the rim of the disk round; the
+// max limits the cost.
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 
@@ -32,7 +32,7 @@ double edgeRadius(const Blade& blade, double angle) {
     return (1 - blade.curvature) * std::cos(blade.halfAngle) / std::cos(angle) + blade.curvature;
 }
 
-// Returns ∫ edgeRadius² from 0 to `angle`.
+// Returns ∫ edgeRadius(φ)² dφ from 0 to `angle`, twice the area of the sector.
 double sectorArea(const Blade& blade, double angle) {
     const double chord = (1 - blade.curvature) * std::cos(blade.halfAngle);
     const double tangent = std::tan(angle);
@@ -40,9 +40,9 @@ double sectorArea(const Blade& blade, double angle) {
            blade.curvature * blade.curvature * angle;
 }
 
-// Returns the angle from the blade's middle that encloses `share` ∈ [−1, 1] of half the blade's area, with its sign.
-// Newton's method starts from the straight blade's angle. It converges in three or four steps, because the integrand
-// varies by at most a factor of 4 (three straight blades).
+// Returns the signed angle from the blade's middle up to which the sector covers the fraction `share` ∈ [−1, 1] of half
+// the blade's area. Newton's method starts from the straight blade's angle. It converges in three or four steps,
+// because the integrand varies by at most a factor of 4 (three straight blades).
 double angleOfShare(const Blade& blade, double share) {
     double angle = std::atan(share * std::tan(blade.halfAngle));
     if (blade.curvature == 0) return angle;
@@ -55,8 +55,9 @@ double angleOfShare(const Blade& blade, double share) {
     return angle;
 }
 
-// Maps the disk to the aperture polygon, preserving relative areas. The angle selects the blade and the fraction of its
-// area. The distance from the centre scales with the distance of the edge. The first corner lies at angle 0.
+// Maps the disk to the aperture polygon, preserving relative areas. The angle of a point selects the blade and a
+// fraction of the blade's area. The radius of the point is multiplied by the radius of the edge. The first corner lies
+// at angle 0.
 glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
     const Blade blade{pi / aperture.bladeCount, aperture.bladeCurvature};
     const double turn = std::atan2(disk.y, disk.x) / (2 * blade.halfAngle);
@@ -69,14 +70,16 @@ glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
 
 // ---- radial light distribution --------------------------------------------------------------------------------------
 
-// Returns the t at which ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² equals `share`, k ∈ [−1, 1].
+// Returns the fraction t of the area that contains the fraction `share` of the light: ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t +
+// kt² = share, k ∈ [−1, 1].
 double aberratedShare(double k, double share) {
     const double linear = 1 - k;
     const double divisor = linear + std::sqrt(std::max(linear * linear + 4 * k * share, 0.0));
     return divisor > 0 ? std::min(2 * share / divisor, 1.0) : 0;
 }
 
-// Moves a point of the disk along its radius to obtain the obstruction and the spherical aberration.
+// Moves a disk point along its radius. Uniformly distributed points then have the density of the ring and of the
+// spherical aberration.
 glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
     const double share = glm::dot(disk, disk);
     const double lit = aberratedShare(aperture.sphericalAberration, share);
@@ -86,7 +89,7 @@ glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
 
 // ---- aperture images ------------------------------------------------------------------------------------------------
 
-// Returns the Rec. 709 luminance, or the value of the only channel.
+// Returns the Rec. 709 luminance of a pixel, or its value in images with fewer than three channels.
 double valueAt(const Image& image, int x, int y) {
     const float* pixel = image.at(x, y);
     for (int c = 0; c < image.channels; ++c)
@@ -97,13 +100,13 @@ double valueAt(const Image& image, int x, int y) {
     return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Maps a cell position to the square [−1, 1]² around the longer side, y up.
+// Maps a cell position to lens coordinates, y up. The image's longer side spans [−1, 1].
 glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
     const double half = 0.5 * std::max(image.columns, image.rows);
     return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};
 }
 
-// Returns each cell's light; 0 if its centre lies outside the unit disk.
+// Returns the light of each cell; 0 if the cell's centre lies outside the unit disk.
 std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
     const int longer = std::max(image.width, image.height);
     const int parts = (fewestCells + longer - 1) / longer;  // cells per pixel, along each axis
@@ -142,8 +145,8 @@ ApertureImage readApertureImage(const Image& image) {
     return cells;
 }
 
-// Finds `share` among the ends of intervals that cover [0, 1]; returns the interval's index plus the fraction within
-// it.
+// Returns the index of the interval that contains `share`, plus the fraction of that interval below `share`. [first,
+// last) are the ends of adjacent intervals that start at 0.
 template <typename Iterator>
 double placeAmong(Iterator first, Iterator last, double share) {
     const Iterator found = std::min(std::upper_bound(first, last, share), last - 1);
@@ -153,7 +156,8 @@ double placeAmong(Iterator first, Iterator last, double share) {
     return static_cast<double>(found - first) + place;
 }
 
-// Inverts the cumulative sums: `s` selects the row from the bottom, and `r` the position in the row.
+// Maps (r, s) ∈ [0, 1)² to a lens point by inverting the cumulative light: s selects the row, and r the position in the
+// row.
 glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
     const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1: a black last row is never selected
     const double row = placeAmong(image.rowEnds.begin(), image.rowEnds.end(), share);

@@ -3,7 +3,8 @@
 // seams of a ring or an image. Well-distributed points on the square are therefore well distributed on the lens.
 //
 // Lens samples have equal weight. For every shape, a blurred point keeps its energy and an image its exposure. Let t ∈
-// [0, 1] be the fraction of the area that lies nearer to the centre. The light density over a disk, polygon or ring is
+// [0, 1] be the fraction of the area that lies nearer to the centre than a point. The light density over a disk,
+// polygon or ring is
 //   1 + k·(2t − 1)                                                              (k: Lens::sphericalAberration)
 // and over an aperture image it is the image's value. For n blades of curvature q, the edge at angle φ from a blade's
 // middle has the radius (1 − q)·cos(π/n)/cos φ + q. The edge is a chord for q = 0 and an arc of the circle for q = 1.
@@ -16,7 +17,7 @@
 namespace defocus::engine {
 
 // Cumulative light transmission of an aperture image over square cells, row by row from the top. A cell is a pixel, a
-// part of one in small images, or a group of pixels in large images.
+// part of a pixel in small images, or a group of pixels in large images.
 struct ApertureImage {
     int columns = 0;
     int rows = 0;
@@ -32,12 +33,12 @@ struct Aperture {
     double anamorphicRatio = 1;
     double obstruction = 0;  // obstructed fraction of the area
     double sphericalAberration = 0;
-    ApertureImage image;  // no rows: the lens has no aperture image
+    ApertureImage image;  // empty if the lens has no aperture image
 };
 
-// Prepares the aperture of a lens. The longer side of an aperture image spans the lens, and its top is the lens's top.
-// The area outside the unit disk is opaque. Throws Error if the image is empty, black within the disk, or contains
-// negative, NaN or infinite values.
+// Prepares the aperture of a lens. An aperture image is scaled so that its longer side spans the lens; the image's top
+// is the lens's top. The area outside the unit disk is opaque. Throws Error if the image is empty, black within the
+// disk, or contains negative, NaN or infinite values.
 Aperture makeAperture(const Lens& lens);
 
 // Maps (r, s) ∈ [0, 1)² to the lens point (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) maps to the centre,
@@ -47,7 +48,7 @@ glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 // Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).
 glm::dvec2 concentricDisk(const glm::dvec2& square);
 
-// Returns the point of the square that concentricDisk maps to `disk`, a point of the unit disk.
+// Inverse of concentricDisk: returns the point of the square that maps to the point `disk` of the unit disk.
 glm::dvec2 squareOfConcentricDisk(const glm::dvec2& disk);
 
 // Returns true if the aperture is a disk with uniform light density.

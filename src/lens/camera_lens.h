@@ -1,12 +1,12 @@
 #pragma once
-// Focal length and sensor width of a camera in a file.
+// Derives focal length and sensor width of a lens from a camera in a glTF file.
 //
 // glTF gives a camera's vertical field of view. The image's aspect k gives the horizontal one: tan(θx/2) =
 // k·tan(yfov/2). The image always shows this field of view. Only the camera's physical scale remains to be chosen:
 //   - a file with the draft extension EXT_camera_physical gives the focal length f. The image uses the sensor width
 //   2·f·tan(θx/2), which may be part of the sensor;
 //   - otherwise the sensor's width is horizontalAperture, and f = horizontalAperture / (2 tan(θx/2)).
-// A focal length that is set by name changes the field of view instead.
+// A focal length that the user sets changes the field of view instead.
 
 #include <functional>
 #include <string_view>
@@ -16,8 +16,8 @@
 
 namespace defocus::engine {
 
-// Sets focal length and horizontal aperture of `lens` from the camera. Values for which `isSet` returns true stay
-// unchanged; its argument is the field's name (lens/lens_fields.h). `aspect` is the image's width over its height.
+// Sets focal length and horizontal aperture of `lens` from the camera. A value stays unchanged if `isSet` returns true
+// for the name of its field (lens/lens_fields.h). `aspect` is the image's width over its height.
 void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::function<bool(std::string_view)>& isSet);
 
 }  // namespace defocus::engine

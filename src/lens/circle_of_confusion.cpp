@@ -26,7 +26,7 @@ Interval times(const Interval& p, double factor) {
     return factor >= 0 ? Interval{p.min * factor, p.max * factor} : Interval{p.max * factor, p.min * factor};
 }
 
-// Returns the product of an interval and an interval of factors ≥ 0.
+// Returns the product of two intervals; `factor` must be ≥ 0.
 Interval times(const Interval& p, const Interval& factor) {
     return {p.min * (p.min < 0 ? factor.max : factor.min), p.max * (p.max < 0 ? factor.min : factor.max)};
 }
@@ -37,7 +37,7 @@ Interval squared(const Interval& p) {
     return {near * near, far * far};
 }
 
-// Ranges of the terms of C over a box.
+// Ranges of the terms of the circle of confusion C over a box (circle_of_confusion.h).
 struct Parts {
     Interval radius2;  // r²
     Interval factor;   // blur factor of the surface times (1 + g·r²)
@@ -67,7 +67,7 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     return parts;
 }
 
-// Returns the range of C/w before limiting, as a fraction of the image's width.
+// Returns the range of C/w without the blur limits, as a fraction of the image's width.
 Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
     const Interval ofLens = times({std::min(0.0, parts.front.min) + std::max(0.0, parts.behind.min),
                                    std::min(0.0, parts.front.max) + std::max(0.0, parts.behind.max)},
@@ -153,8 +153,8 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double pixels = width / box.zNear;
     const double factor = parts.factor.max;
 
-    // Two linear pieces that meet at a kink differ by at most the change of slope times the distance from the kink. An
-    // edge of length L deviates most if the kink lies in its middle: slope·L/4.
+    // Two linear functions that meet at a kink differ by at most the change of slope times the distance from the kink.
+    // Interpolation along an edge of length L errs most if the kink lies in the middle of the edge: by slope·L/4.
     const Interval added{box.own.addedMin, box.own.addedMax};
     const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
@@ -170,7 +170,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
-    // Vertex blur that varies along an edge changes the pieces further.
+    // Vertex blur that varies along an edge adds to the error at a kink.
     const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
     const double gained = 1 + coc.gain * parts.radius2.max;
     const double factors = box.own.factorMax - box.own.factorMin;
@@ -178,8 +178,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     deviation.kinks = change * longestEdge / 4 * pixels;
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
-    // A function with second derivatives of at most H deviates from its chord by at most H·L²/8. Lengths are measured
-    // in clip space and divided by the nearest depth. Then the second derivatives of r²·w are at most 2·(1 + r)².
+    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Lengths are
+    // measured in clip space and divided by the nearest depth. Then the second derivatives of r²·w are at most 2·(1 +
+    // r)².
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *
@@ -188,7 +189,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     deviation.curved = second * length * length / 8 * width;
 
     // A product of two linear functions deviates from its chord by a quarter of the product of their changes. Vertex
-    // blur is linear on the surface, and so are w and the pieces of C that it multiplies.
+    // blur is linear inside a triangle and multiplies other linear functions: w and the linear parts of C.
     const double ofGain = 2 * coc.gain * reach * base * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double products = factors * (gained * unscaled + ofGain) + added.max - added.min;
     deviation.curved += products * longestEdge / 4 * pixels;

@@ -3,11 +3,11 @@
 // shaders/include/lens.glsl implements the same function. This version serves level selection, culling, plans and
 // tests.
 //
-// In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk, k = W/H. The thin
-// lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s. A is the aperture's diameter and s the focus
-// distance, both in m. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
-// Rasterization. C has the opposite sign here: C > 0 behind the focus plane. The signed diameter is c = C/w·W px. It
-// depends on 1/w and on the image position n = (x/w, y/w) in normalised device coordinates:
+// In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk. The image has W × H
+// px, and k = W/H. The thin lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s. A is the aperture's
+// diameter and s the focus distance, both in m. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur
+// for Stochastic Rasterization. C has the opposite sign here: C > 0 behind the focus plane. The signed diameter is c =
+// C/w·W px. It depends on 1/w and on the image position n = (x/w, y/w) in normalised device coordinates:
 //   focus term    q = 1 + κ·r² + t·n,   r² = n.x² + (n.y/k)²      (curved focus surface, tilted focus plane)
 //   in front      F = a/w + b₁·q,       b₁ = −a/(s − focusRangeFront)
 //   behind        B = a₂/w + b₂·q,      a₂ = a·(1 + focusRangeBehind/s), b₂ = −a/s
@@ -15,9 +15,10 @@
 //   c/W = clamp(factor·(1 + g·r²)·(min(0, F) + max(0, B)) + added, −R₁, R₂)
 // Everything within the focus range is sharp. C keeps the thin lens's limits at both ends of the depth range: a at w =
 // 0 and b·w for w → ∞. The focus range thus preserves strong near and far blur, and distant lights keep their disk
-// size. Refocused, the blur behind the range is smaller: that of a lens focused at the range's far end. In front of the
-// range the two forms are equal. R₁ and R₂ are the blur limits in front and behind, as fractions of the image's width.
-// A surface has a factor (0 disables the lens's blur) and may add blur of its own.
+// size. With Lens::focusRangeRefocuses, the blur behind the range is that of a lens focused at the range's far end,
+// which is smaller. The blur in front of the range is the same in both forms. R₁ and R₂ are the blur limits in front
+// and behind, as fractions of the image's width. `factor` and `added` are properties of the surface: factor 0 disables
+// the lens's blur, and `added` is a fraction of the image's width.
 
 #include <glm/vec2.hpp>
 #include <limits>
@@ -29,27 +30,27 @@ namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
     double a = 0;
-    double aBehind = 0;                                                // a₂ ≤ a
+    double aBehind = 0;                                                // a₂ in the equation above, ≤ a
     double front = 0;                                                  // b₁
-    double behind = 0;                                                 // b₂ ≤ b₁
+    double behind = 0;                                                 // b₂ in the equation above, ≤ b₁
     glm::dvec2 tilt{0};                                                // t
     double curvature = 0;                                              // κ
     double gain = 0;                                                   // g
     double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁
     double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂
     double aspect = 1;                                                 // k
-    double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor, for added vertex blur
-    double astigmatism = 0;        // A of aberrations.h
-    double coma = 0;               // B of aberrations.h
-    double chromatic = 0;          // largest change of b₁ and b₂ by a wavelength
+    double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
+    double astigmatism = 0;        // coefficient A of aberrations.h
+    double coma = 0;               // coefficient B of aberrations.h
+    double chromatic = 0;          // max change of b₁ and b₂ over all wavelengths
 
-    // Returns true if F and B differ.
+    // Returns true if the lens has a sharp focus range, so that the terms F and B of C differ.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
-    // Returns true if C = a + b·w everywhere and no other control is in use.
+    // Returns true if C = a + b·w everywhere, without artistic controls.
     [[nodiscard]] bool thinLens() const;
     // Returns true if the blur depends on the position in the image.
     [[nodiscard]] bool varies() const;
-    // Returns true if points in focus are not imaged as points.
+    // Returns true if astigmatism or coma blurs even points in focus.
     [[nodiscard]] bool aberrates() const { return astigmatism != 0 || coma != 0; }
 };
 
@@ -62,10 +63,11 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
 double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc = glm::dvec2(0),
                          double factor = 1, double added = 0);
 
-// Range of the CoC in a box. Aberrations displace rays like blur does, so they widen the range on both sides.
+// Range of the signed CoC diameter over a box. Aberrations displace rays as defocus does, so they widen both ends of
+// the range.
 struct CocRange {
-    double nearest = 0;   // min signed CoC, px: that of the nearest depth
-    double farthest = 0;  // max signed CoC, px: that of the farthest depth
+    double nearest = 0;   // min signed CoC, px: at the nearest depth
+    double farthest = 0;  // max signed CoC, px: at the farthest depth
     double smallest = 0;  // min |CoC|, px; 0 if the range contains the focus
     double largest = 0;   // max |CoC|, px
 };
@@ -81,11 +83,12 @@ struct OwnBlur {
     [[nodiscard]] bool none() const { return !varies() && factorMin == 1 && addedMin == 0; }
 };
 
-// Returns the bounds for an object with blur factor `factor` ≥ 0 and vertex blur within `vertices`.
+// Returns the bounds of the blur modifiers of an object with blur factor `factor` ≥ 0 and vertex blur within
+// `vertices`.
 OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices);
 
-// Part of a box that the lens sees. Depths are [zNear, zFar] in m with 0 < zNear ≤ zFar; infinity is allowed. Image
-// positions are [ndcMin, ndcMax]. `own` bounds the blur modifiers of its surfaces.
+// Depths and image positions of a box's content. Depths are [zNear, zFar] in m with 0 < zNear ≤ zFar; infinity is
+// allowed. Image positions are [ndcMin, ndcMax]. `own` bounds the blur modifiers of the surfaces in the box.
 struct CocBox {
     double zNear = 0;
     double zFar = 0;
@@ -94,17 +97,17 @@ struct CocBox {
     OwnBlur own{};
 };
 
-// Returns bounds of the CoC over the box by interval arithmetic. They are exact for the thin lens and conservative
-// otherwise, and continuous in the box.
+// Returns bounds of the CoC over the box by interval arithmetic. The bounds are exact for the thin lens and
+// conservative otherwise. They change continuously with the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
 // Returns the largest |CoC| at infinite depth over the image, px.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
-// Bounds, in px, on the error of interpolating C linearly inside a triangle.
+// Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
-    double kinks = 0;   // error at the kinks between linear pieces of C; splitting triangles removes it
-    double curved = 0;  // error from curved C and from vertex blur; only small triangles reduce it
+    double kinks = 0;   // error at the kinks of a piecewise linear C; cutting triangles there removes it
+    double curved = 0;  // error where C is curved, or by vertex blur; only smaller triangles reduce it
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

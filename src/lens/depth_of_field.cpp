@@ -18,12 +18,12 @@ DepthOfField depthOfField(const Lens& lens, double acceptable) {
     if (!(aperture > 0)) return {0, 0, infinity};
     const double f = lens.focalLength * millimetre;
     const double imageDistance = lens.horizontalAperture * millimetre / (2 * tanHalfHorizontalFov(lens));
-    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // 1/m, on either side of the focus
+    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // 1/m, half range of 1/z in focus
     DepthOfField result;
     result.hyperfocal = aperture * f / (acceptable * millimetre) + (lens.focusBreathing ? f : 0);
     result.near = 1 / (1 / lens.focusDistance + inFocus);
     const double far = 1 / lens.focusDistance - inFocus;
-    // Rounding must not give a lens at its hyperfocal distance a finite far limit.
+    // Despite rounding, a lens focused at its hyperfocal distance must get an infinite far limit.
     result.far = far > 1e-12 * inFocus ? 1 / far : infinity;
     return result;
 }

@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct DepthOfField {
-    double hyperfocal = 0;  // m; 0 if everything is always in focus
+    double hyperfocal = 0;  // m; 0 for a pinhole, which has everything in focus
     double near = 0;        // m
     double far = 0;         // m; may be infinite
 };

@@ -1,7 +1,8 @@
 #pragma once
 // A lens in the terms of photographers, USD and Blender, and its parameters for an off-axis graphics camera.
 //
-// With A the aperture's diameter and s the focus distance (m), a point at depth z is blurred to a disk of diameter
+// Let A be the aperture's diameter and s the focus distance (m), W the image's width in px, and θx the horizontal field
+// of view. A point at depth z is blurred to a disk of diameter
 //   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels,
 // the circle of confusion (CoC). circle_of_confusion.h adds the artistic controls.
 
@@ -37,7 +38,7 @@ struct Lens {
     double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
     double astigmatism = 0;               // mm on the sensor; see aberrations.h
     double coma = 0;                      // mm on the sensor; > 0: tails point outwards
-    std::shared_ptr<const Image> apertureImage;  // grey values as transmission; null: the shape above
+    std::shared_ptr<const Image> apertureImage;  // grey values are transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus, px
@@ -51,12 +52,12 @@ struct Lens {
     double radialBlurGain = 0;  // κ of the gain 1 + κr² on the blur
 };
 
-// Throws Error naming the value that makes the lens impossible. Examples: NaN, fStop ≤ 0, 1 or 2 blades, or focus
-// inside the focal length with focus breathing.
+// Throws Error, with the name of the invalid value in its message, if the lens is impossible. Examples: NaN, fStop ≤ 0,
+// 1 or 2 blades, or a focus distance below the focal length with focus breathing.
 void checkLens(const Lens& lens);
 
-double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); follows the focus with focusBreathing
-double apertureDiameter(const Lens& lens);      // A in m, including blurScale; 0 without depth of field
+double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); depends on the focus if focusBreathing
+double apertureDiameter(const Lens& lens);      // in m, including blurScale; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
 
 }  // namespace defocus::engine

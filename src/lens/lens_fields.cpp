@@ -165,7 +165,7 @@ std::optional<double> givenLensValue(const LensSettings& given, const LensField&
 void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value) {
     if (value) {
         Lens scratch;
-        setLensField(scratch, field, *value);  // throws Error for values that no lens can have
+        setLensField(scratch, field, *value);  // throws Error for values out of range
     }
     std::visit(
         [&](auto member) {

@@ -1,6 +1,6 @@
 #pragma once
-// Table of the numeric fields of a Lens by name. The command line, glTF camera extras, shot files, image metadata and
-// panels share it.
+// Table of the numeric fields of a Lens by name, shared by the command line, glTF camera extras, shot files, image
+// metadata and control panels.
 
 #include <functional>
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Aspect of the image that a lens value affects. It decides whether the value has an effect in a frame.
+// Property of the image that a lens value affects; determines whether the value has an effect in a frame.
 enum class LensFeature {
     camera,     // field of view, focus breathing
     exposure,   // only the brightness of PNG, JPEG and video
@@ -26,7 +26,7 @@ enum class LensFeature {
     lensPoint,  // blur that depends on the colour or on the position in the image
 };
 
-// Group of lens values in forms.
+// Group of a lens value in control panels and help texts.
 enum class LensSection { focus, lens, aperture };
 
 struct LensField {
@@ -40,11 +40,11 @@ struct LensField {
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // the request's value, in `unit`; none: set by Request::focus
+        given;                // member of the request, in `unit`; none: set by Request::focus
     const char* description;  // help text of the option
-    const char* example;      // a typical value
+    const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;
-    bool everyday = false;    // shown by --help
+    bool everyday = false;    // true: listed by --help
     const char* schema = "";  // JSON schema of the value, for ranges with gaps
 };
 
@@ -57,14 +57,15 @@ const LensField* lensFieldNamed(std::string_view name);
 // Returns the value in the field's unit: degrees where a Lens holds radians, 0 or 1 for booleans.
 double lensFieldValue(const Lens& lens, const LensField& field);
 
-// Returns whether other values of the lens override a field, such as an aperture image the number of blades.
+// Returns true if the field has no effect because of the lens's other values. Example: an aperture image replaces the
+// blades.
 bool overridden(const Lens& lens, const LensField& field);
 
 // Sets the field. Throws Error if the value is out of range, or fractional for an integer field. checkLens checks
 // constraints between fields.
 void setLensField(Lens& lens, const LensField& field, double value);
 
-// Return and set a request's value of a field, in the field's unit. No value leaves the field to the camera. Setting
+// Get and set a request's value of a field, in the field's unit. nullopt leaves the value to the file's camera. Setting
 // throws Error like setLensField.
 std::optional<double> givenLensValue(const LensSettings& given, const LensField& field);
 void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value);

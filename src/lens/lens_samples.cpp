@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The dimensions are lens r and s, pixel x and y, time, band, and light x and y.
+// Dimensions of a sample: lens r and s, pixel x and y, time, chromatic band, and light x and y.
 constexpr std::size_t dimensionCount = 8;
 using Coordinates = std::array<double, dimensionCount>;
 
@@ -40,15 +40,15 @@ double seedShift(std::uint32_t seed, std::size_t dimension) {
 
 constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13, 17, 19};
 
-// Returns point index + 1, because point 0 is a corner of the cube. The points are shifted so that index 0 lies in the
-// middle.
+// Returns a coordinate of Halton point index + 1, because point 0 is a corner of the unit cube. With seed 0, a shift
+// moves the point of index 0 to the middle of the cube.
 double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     return fraction(radicalInverse(base, index + 1) - 1.0 / base + 0.5 + seedShift(seed, dimension));
 }
 
-// Returns the permuted value of `digit` in a random permutation (Fisher–Yates shuffle). The permutation depends on
-// `before`, a hash of the preceding digits.
+// Returns the value of `digit` under a random permutation of the digits 0 … base − 1 (Fisher–Yates shuffle). The
+// permutation depends on `before`, a hash of the preceding digits.
 std::uint32_t permuted(std::uint32_t base, std::uint32_t digit, std::uint32_t before) {
     std::array<std::uint32_t, bases.back()> digits{};
     std::iota(digits.begin(), digits.begin() + base, 0u);
@@ -108,7 +108,7 @@ struct Direction {
     std::array<std::uint32_t, 5> first{};
 };
 
-using Columns = std::array<std::uint32_t, 32>;  // generator matrix; the first bit is the highest
+using Columns = std::array<std::uint32_t, 32>;  // columns of a generator matrix; the top bit is the first binary digit
 
 constexpr Columns columnsOf(const Direction& direction) {
     Columns columns{};
@@ -125,7 +125,7 @@ constexpr Columns columnsOf(const Direction& direction) {
     return columns;
 }
 
-// Dimensions 2 to 8. Dimension 1 is the bit-reversed index.
+// Generator matrices of dimensions 2 to 8. Dimension 1 is the bit-reversed index.
 constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {columnsOf({1, 0, {1}}),
                                                                   columnsOf({2, 1, {1, 3}}),
                                                                   columnsOf({3, 1, {1, 3, 1}}),
@@ -142,11 +142,13 @@ std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     return result;
 }
 
-// Scramble for seed 0, the best of 3,000 candidates. It minimises the area error of half planes of the lens. The error
-// covers the first 8 to 256 points and the prefixes and suffixes of 64 points.
+// Scramble for seed 0, the best of 3,000 candidates. It minimises the error of the lens's area in half planes,
+// estimated by counting points. The error is measured for the first 8 to 256 points, and for prefixes and suffixes of
+// 64 points.
 constexpr std::uint32_t chosenScramble = 935;
 
-// With seed 0, index 0 has all coordinates 0. Flipping the same bits in all points moves it to 1/2.
+// Returns a coordinate of a scrambled Sobol point. With seed 0, the same bits are flipped in all points, so that the
+// coordinates of point 0 become 1/2.
 double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + static_cast<std::uint32_t>(dimension));
     const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
@@ -155,9 +157,9 @@ double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t 
 
 // ---- additive recurrences -------------------------------------------------------------------------------------------
 
-// The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d dimensions. The lens uses d = 2. The pixel uses the
-// last two of d = 4, so that its points are independent of the lens points. Time uses the golden ratio, the band √2,
-// and the lights the last two of d = 6.
+// Steps of additive recurrences (Roberts 2018). The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d
+// dimensions. The lens uses d = 2. The pixel uses the last two of d = 4, so that its points are independent of the lens
+// points. Time uses the golden ratio, the band √2, and the lights the last two of d = 6.
 constexpr double plastic2 = 1.32471795724474602596;
 constexpr double plastic4 = 1.16730397826141868426;
 constexpr double plastic6 = 1.11277568427870547063;

@@ -42,12 +42,12 @@ struct LensSample {
     glm::vec2 pixel{0.0f};    // offset from the pixel centre in px, each in [−0.5, 0.5); +x right, +y up
     float time = 0.5f;        // [0, 1): from shutter opening to closing
     float band = 0.5f;        // [0, 1): position in the chromatic band, from red to blue
-    glm::vec2 light{0.5f};    // each in [0, 1): the shadow-casting point on every light (plan/visible/shadows.h)
+    glm::vec2 light{0.5f};    // each in [0, 1): point on every light, for shadows (plan/visible/shadows.h)
     std::uint32_t index = 0;  // index in the sequence
 };
 
-// Returns sample `index` of a sequence. With seed 0, the first sample is the middle of pixel, time and band. Its lens
-// point is the centre, except with a ring or an aperture image.
+// Returns sample `index` of a sequence. With seed 0, the first sample lies in the middle of the pixel, the exposure and
+// the chromatic band. Its lens point is the lens's centre, except with a ring or an aperture image.
 LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t index, std::uint32_t seed);
 
 // Returns samples [first, first + count) of a sequence.

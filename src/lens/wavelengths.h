@@ -2,9 +2,9 @@
 // Axial chromatic aberration: the focus shifts with the wavelength. Each lens sample has a position in the band from
 // red (0) to blue (1), which determines its colour weight and its focus. No additional samples are drawn.
 //
-// Let D be the dioptres between the focus of red and blue. Then 1/s(t) = 1/s + 3·D·(t − 1/2). The weights below have
-// their centres at t = 1/3 (red), 1/2 (green) and 2/3 (blue); red and blue are D apart. In C = a + b·w this adds
-// 3·a·D·(1/2 − t) to b.
+// Let D be the dioptres between the focus of red and blue. The focus distance at band position t is s(t), with 1/s(t) =
+// 1/s + 3·D·(t − 1/2). The colour weights below have their centres at t = 1/3 (red), 1/2 (green) and 2/3 (blue); red
+// and blue are D apart. In C = a + b·w this adds 3·a·D·(1/2 − t) to b.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -14,7 +14,8 @@
 
 namespace defocus::engine {
 
-// Returns the change of b₁ and b₂ at band position `t` ∈ [0, 1]; `a` is the constant term of the lens's C(w).
+// Returns the change of the coefficients b₁ and b₂ of C(w) at band position `t` ∈ [0, 1] (circle_of_confusion.h). `a`
+// is the constant term of C(w).
 double chromaticShift(double a, double dioptres, double t);
 
 // Returns each sample's weight in red, green and blue: 2(1 − t), 3/2·(1 − (2t − 1)²) and 2t. The weights are divided by

@@ -1,4 +1,5 @@
-// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: level selection from blur and projected size.
+// Source: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering (level selection from blur and projected
+// size).
 
 #include "plan/frame_plan.h"
 
@@ -68,7 +69,7 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
     });
 }
 
-// Returns the object's pose, bounding box, depths and blur; levels and draws are not chosen yet.
+// Returns a plan of the object with pose, bounding box, depths and blur, but without levels.
 ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
     const Object& object = world.pose.objects[index];
     ObjectPlan result;
@@ -115,7 +116,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     return levelOfDetail(pyramid, query, plan.settings.metric, thresholds);
 }
 
-// Chooses λ, the two levels around it and the samples that draw each level.
+// Chooses the fractional level λ, the two adjacent levels, and the samples that draw each level.
 void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& plan) {
     const auto sampleCount = static_cast<std::uint32_t>(plan.samples.size());
     if (object.nearestDepth > 0)
@@ -133,7 +134,7 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
-// Chooses whether the drawn levels' triangles must be divided so that C is linear inside them.
+// Chooses whether the triangles of the drawn levels are divided, so that C is linear inside each triangle.
 void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
     if (!plan.usesCocControls) return;
     if (object.nearestDepth <= plan.view.nearPlane) {
@@ -154,7 +155,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
     if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
 }
 
-// Returns the reason why the object need not be drawn; empty if it must be drawn.
+// Returns the reason why the object need not be drawn; empty if the object must be drawn.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
@@ -205,7 +206,7 @@ void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* 
     arrange(objects, std::move(order));
 }
 
-// Returns the largest blur in px of anything drawn. The background counts if its blur varies over the image.
+// Returns the largest CoC in px of all drawn objects. A visible background counts if its colour varies.
 double largestBlur(const FramePlan& plan, const World& world) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
@@ -356,7 +357,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
-    // The lens must be decided first, because the levels depend on the remaining blur.
+    // Leave out the lens before choosing levels, because levels depend on the blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());

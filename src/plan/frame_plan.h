@@ -15,10 +15,10 @@
 
 namespace defocus::engine {
 
-// Time of a lens sample.
+// Time of a lens sample within the exposure.
 struct SampleMoment {
     std::uint32_t moment = 0;
-    float fraction = 0;  // fraction of the way from this shutter moment to the next, [0, 1); 0 at the last moment
+    float fraction = 0;  // position between this shutter moment and the next, [0, 1); 0 at the last moment
     float time = 0;      // time within the exposure, [0, 1)
 };
 
@@ -42,7 +42,7 @@ struct VisibleLevel {
 // the circle of confusion in clip space (circle_of_confusion.h).
 enum class Refinement {
     none,       // triangles are drawn undivided
-    split,      // triangles are cut along the kinks of C and, before the shear, at the near plane
+    split,      // triangles are cut along the kinks of C, and at the near plane before the lens shear
     subdivide,  // triangles are divided into small ones because C is curved, then split
 };
 
@@ -65,18 +65,18 @@ struct ObjectPlan {
     bool skinned = false;
     bool deformed = false;      // the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over all moments of the frame
-    double nearestDepth = 0;    // m, of the bounding box; ≤ near plane if the box reaches it
+    double nearestDepth = 0;    // m, of the bounding box; may be less than View::nearPlane
     double farthestDepth = 0;   // m
-    CocRange coc;               // px, over the bounding box
-    CocDeviation cocDeviation;  // px, of the drawn levels
+    CocRange coc;               // px, range over the bounding box
+    CocDeviation cocDeviation;  // px, error bounds over the drawn levels
     double projectedEdge = 0;   // px, mean edge length of level 0 at the nearest depth
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
-    // LodMode::continuous: the share of sample n's pixels that draw `coarse`; the rest draw `fine`. 0 if no sample is
-    // shared.
+    // LodMode::continuous: both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no sample
+    // is shared.
     double boundaryShare = 0;
-    std::vector<VisibleLevel> visible;  // levels that are drawn in part; other levels are drawn completely
+    std::vector<VisibleLevel> visible;  // levels with culled clusters; other levels are drawn completely
     double cocScale = 1;                // factor on the object's blur, ≥ 0
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
     bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
@@ -100,10 +100,11 @@ struct ShadowPlan {
     std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
     int size = 0;                     // px, side of each map
     std::uint32_t points = 1;         // sample points on each light per lens sample
-    std::vector<ObjectPlan> casters;  // each is drawn at one level, `fine`, for all samples
-    // Corners of boxes that contain all casters, in m from the camera along the world's axes.
+    std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
+    // Corners of boxes that contain all casters, in m along the world's axes; the camera is the origin.
     std::vector<glm::dvec3> corners;
-    // Corners of the volume that the whole frame shows, in the same coordinates. Shadow maps need not extend beyond it.
+    // Corners of the volume that the entire frame shows, in the coordinates of `corners`. Shadow maps need not extend
+    // beyond this volume.
     std::vector<glm::dvec3> seen;
     double casterError = 0;  // m, maximum deviation of the casters' levels from full detail
 };
@@ -115,52 +116,52 @@ struct LeftOut {
 
 struct FramePlan {
     View view;
-    std::optional<Tile> tile;  // part of the image to draw; none: the whole image
+    std::optional<Tile> tile;  // part of the image to draw; nullopt: the entire image
     RenderSettings settings;
     LodThresholds thresholds;  // settings.thresholds, completed by defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // m; 0 if the lens is left out
-    // Upper bound of the blur in px over everything that may be drawn. It includes an endless background whose blur
-    // varies over the image. The value stays valid if the lens is left out. It comes from bounding boxes, so an object
-    // that reaches the near plane makes it infinite.
+    // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound comes
+    // from bounding boxes and is infinite if a box reaches the near plane. The value is kept if the lens is left out.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;  // samples to draw, in order
-    // `frameSamples` is the number of the sequence's samples in the completed frame. `frameFirst` is the first sample
-    // that was planned together with `samples`.
+    // `frameSamples` is the number of samples in the completed frame, counted from the start of the sequence.
+    // `frameFirst` is the index of the first sample that was planned together with `samples`.
     std::uint32_t frameSamples = 0;
     std::uint32_t frameFirst = 0;
     std::vector<SampleMoment> moments;  // one per sample; empty if nothing moves during the exposure
-    // Transforms from the view at each moment of the shutter to the view in its middle; empty if the camera doesn't
-    // move.
+    // Transforms from view space at each shutter moment to view space in the middle of the exposure; empty if the
+    // camera doesn't move.
     std::vector<glm::dmat4> middleFromView;
     std::vector<ObjectPlan> objects;  // objects to draw, front to back
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, and samples only smooth edges
-    bool usesCocControls = false;               // C differs from a + b·w somewhere
+    bool usesCocControls = false;               // C differs from a + b·w for some object
     bool usesOwnBlur = false;                   // some object or vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;
     bool usesTransmission = false;
-    bool needsAlpha = false;  // the background is transparent, so the accumulation keeps coverage
-    // Sums over all samples.
+    bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
+    // Triangle counts, summed over all samples.
     std::uint64_t trianglesDrawn = 0;
     std::uint64_t trianglesFacingAway = 0;  // culled from the drawn levels because their clusters face away
     std::uint64_t trianglesOutside = 0;     // culled from the drawn levels because their clusters lie outside the image
     std::uint64_t trianglesAtFullDetail = 0;  // triangles in level 0 of the drawn objects, without culling
 };
 
-// Number of samples if nothing is blurred. These samples only smooth edges.
+// Number of samples for antialiasing if nothing is blurred.
 inline constexpr std::uint32_t antialiasingSamples = 16;
-// Blur diameter up to which the lens is left out, unless RenderSettings::keepAll is set.
+// A frame is drawn without the lens if all CoC diameters are smaller, unless RenderSettings::keepAll is set.
 inline constexpr double minBlur = 0.5;  // px
 
-// Returns the visible part of `level`, or null if all of it is drawn.
+// Returns the part of `level` that remains after culling, or null if the level is drawn completely.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
-// Returns the sample that draws an object at both levels, each at some pixels. Only LodMode::continuous has one.
+// Returns the index of the sample that draws the object's coarse level at some pixels and the fine level at the others.
+// nullopt if there is none; only LodMode::continuous has such a sample.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
 // Plans a frame. Throws Error if the lens, the size, the number of samples or the shutter's moments are invalid.

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Describes one draw. `shared` is the share of the boundary sample that the other level draws.
+// Describes one draw. `shared` is the fraction of the shared sample's pixels that the other level draws.
 std::string drawText(const LevelDraw& draw, double shared) {
     if (draw.sampleCount == 0) return "";
     return fmt::format("{} ({} tri) x {:.4g}", draw.level, draw.triangleCount, draw.sampleCount - shared);
@@ -43,7 +43,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// Describes how images are blurred as lens cells, or the reason why they aren't.
+// Describes how --method multirate blurs the samples' images, or the reason why it doesn't.
 std::string lensCellsText(const FramePlan& plan) {
     const LensCells cells = lensCells(plan);
     if (cells.blur > 0)

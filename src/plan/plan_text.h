@@ -1,5 +1,5 @@
 #pragma once
-// Prints a FramePlan as a table. frame/report/plan_report.h has the JSON.
+// Formats a FramePlan as a text table. frame/report/plan_report.h formats it as JSON.
 
 #include <string>
 

@@ -1,12 +1,12 @@
 #pragma once
-// Settings that a plan depends on. The number of samples is fixed.
+// Settings of a FramePlan with a fixed number of samples.
 
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
 namespace defocus::engine {
 
-// Causes that hide the simplification of a level. Benchmarks isolate one cause; images need both.
+// Effects that hide the simplification of a level. Images use both; benchmarks can isolate one.
 enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
@@ -17,7 +17,7 @@ struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects a different set of sample points
-    std::uint32_t firstSample = 0;  // offset into the sequence, so that references use other points
+    std::uint32_t firstSample = 0;  // offset into the sequence; reference images use other points
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;
@@ -26,10 +26,10 @@ struct RenderSettings {
     GivenThresholds thresholds = {};
     Shadows shadows = Shadows::automatic;
     double cocTolerance = 0.5;  // px, maximum error of interpolating C inside a triangle, > 0
-    bool keepAll = false;       // disables culling; the image must not change
+    bool keepAll = false;       // disables culling; the image stays the same
 };
 
-// Sets the thresholds to `factor` times the defaults for frames of `sampleCount` samples.
+// Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
 }  // namespace defocus::engine

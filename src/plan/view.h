@@ -27,7 +27,7 @@ struct View {
     std::map<std::string, double> methodValues;  // values of the method's settings that a shot animates, by name
 };
 
-// Poses of the scene while the shutter is open.
+// Poses of the scene at moments while the shutter is open.
 struct Shutter {
     std::vector<Pose> poses;  // same objects as World::pose; empty if the scene doesn't move
     // false: moments are evenly spaced from opening to closing, and vertices move linearly between them. Munkberg, Toth

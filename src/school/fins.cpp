@@ -29,7 +29,7 @@ float rayLength(const std::array<float, 6>& heights, float t) {
     return std::max(length, 0.0f);
 }
 
-// Returns 1 on each of `rays` rays and 0 halfway between two rays.
+// Returns a wave over the ray position t: 1 on each of `rays` rays, 0 halfway between two rays.
 float rayWave(float t, int rays) {
     return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
@@ -39,8 +39,7 @@ Fin medianFin(const FishShape& shape, const MedianFin& fin) {
     const auto ray = [&shape, fin, up](float t) {
         const float a = glm::mix(fin.start, fin.end, t);
         const FishSection section = fishSection(shape, a);
-        // The fin's root lies slightly below the skin. The first and last rays start deeper, so that the fin's ends
-        // blend into the body.
+        // The fin's root lies slightly below the skin, so that the fin blends into the body.
         const float sunk = std::min(0.018f, 0.5f * section.halfHeight);
         const glm::vec3 root(-a, section.centre + up * (section.halfHeight - sunk), 0.0f);
         const float length = sunk + rayLength(fin.heights, t) * (1.0f - fin.scallop * (1.0f - rayWave(t, fin.rays)));
@@ -94,7 +93,7 @@ Fin pairedFin(const FishShape& shape, const PairedFin& fin, float side) {
     const auto ray = [=](float t) {
         const float s = 1.0f - 2.0f * t;
         const float notch = 1.0f - 0.03f * (1.0f - rayWave(t, fin.rays));
-        // Rays are longest slightly above the middle; both ends are round.
+        // Rays are longest slightly above the middle of the fin; both ends of the fin are round.
         const float off = (s - 0.35f) / 1.35f;
         const float length =
             fin.length * notch * (1.0f - 0.45f * off * off) * (1.0f - 0.3f * std::pow(std::abs(s), 6.0f));
@@ -145,8 +144,8 @@ float rowLength(const Fin& fin, float at) {
     return sum;
 }
 
-// Returns the distance between the rows at `from` and `to`, perpendicular to them. Rows fan out, so several distances
-// are averaged.
+// Returns the distance between the rows at `from` and `to`, perpendicular to the rows. Rows fan out, so several
+// distances are averaged.
 float rowGap(const Fin& fin, float from, float to) {
     float sum = 0.0f;
     constexpr std::array<float, 3> places{0.15f, 0.45f, 0.8f};
@@ -210,7 +209,7 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
             const float t = fin.rowsAlongRays ? rows.at[row] : along;
             const float r = fin.rowsAlongRays ? along : rows.at[row];
             const FinRay ray = fin.rowsAlongRays ? shared : fin.ray(t);
-            // The front normal is the derivative across the rows times the derivative along the row.
+            // The front normal is the cross product of the derivatives across the rows and along the row.
             constexpr float step = 0.004f;
             const float tStep = t + step > 1.0f ? -step : step;
             const float rStep = r + step > 1.0f ? -step : step;

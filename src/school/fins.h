@@ -22,10 +22,11 @@ struct Fin {
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
-    bool rowsAlongRays = false;  // vertex rows follow the rays (long low fins) or cross them (fans)
+    bool rowsAlongRays = false;  // true: vertex rows follow the rays (long low fins); false: rows cross the rays (fans)
 };
 
-// Positions of a fin's vertex rows (t along rays, else r) and their vertex counts, for triangle edges of length `edge`.
+// Vertex rows of a fin. `at` is the ray position t of each row if rows follow the rays, else its fraction r of the
+// distance from root to edge. `counts` are the numbers of vertices.
 struct FinRows {
     std::vector<float> at;
     std::vector<std::uint32_t> counts;

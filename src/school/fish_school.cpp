@@ -22,7 +22,7 @@ namespace {
 constexpr int maximumFish = 10'000;
 constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
-constexpr std::int64_t maximumTotal = 400'000'000;  // about 10 GB of meshes
+constexpr std::int64_t maximumTotal = 400'000'000;  // triangles; about 10 GB of meshes
 
 // Camera: 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m. The CoC diameter at 1024 px width is 74.9 px · |1/2 −
 // 1/z|, z in m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px behind the focus.
@@ -30,7 +30,7 @@ constexpr double horizontalAperture = 36.0;
 constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
 constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
-constexpr double tanHalfHeight = 0.27;  // at 4:3
+constexpr double tanHalfHeight = 0.27;  // at an aspect ratio of 4:3
 constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright water surface is the backdrop
 
 struct Placement {
@@ -44,17 +44,17 @@ struct Placement {
 
 using enum FishSpecies;
 constexpr std::array<Placement, 20> composition{{
-    // In focus.
+    // Fish in focus.
     {angelfish, 0, 0.18, 0.06, 2.00, 0.27f, 22, 4},
     {butterflyfish, 0, 0.71, -0.28, 2.02, 0.25f, 16, -6},
     {anthias, 0, -0.48, 0.46, 2.03, 0.26f, 24, 6},
     {tang, 0, 0.62, 0.62, 2.03, 0.26f, 18, -2},
-    // In front of the focus plane.
+    // Fish in front of the focus plane.
     {clownfish, 0, -0.42, -0.38, 1.62, 0.22f, 26, 8},
     {goldfish, 0, -0.82, -0.84, 1.10, 0.175f, 22, 12},
     {tang, 1, 0.72, -0.86, 1.16, 0.17f, 26, 8},
     {anthias, 2, -0.90, 0.84, 1.26, 0.19f, 14, 0},
-    // Behind the focus plane.
+    // Fish behind the focus plane.
     {anthias, 1, 0.06, -0.66, 2.45, 0.30f, 30, 8},
     {parrotfish, 0, -0.86, 0.06, 2.90, 0.42f, 18, 5},
     {butterflyfish, 1, -0.06, 0.66, 3.00, 0.36f, 24, 2},
@@ -78,8 +78,8 @@ glm::dvec3 worldPosition(const Placement& fish) {
            glm::dvec3(fish.x * tanHalfWidth * fish.depth, fish.y * tanHalfHeight * fish.depth, -fish.depth);
 }
 
-// Adds fish beyond the composed ones: scattered in the view behind the focus plane, without overlapping other fish. The
-// depth range grows with their number and with each failed attempt.
+// Scatters further fish over the view behind the focus plane until the school has `count` fish. Fish do not overlap;
+// the depth range grows with each failed attempt.
 void scatter(std::size_t count, std::uint32_t seed, std::vector<Placement>& school) {
     std::vector<glm::dvec3> centres;
     centres.reserve(count);
@@ -131,7 +131,7 @@ void addCamera(Scene& scene) {
     addNode(std::move(node), scene);
 }
 
-// Adds a directional light that shines along `direction` in camera axes. A light's node shines along −z.
+// Adds a directional light that shines along `direction` in camera axes. A glTF light shines along its node's −z axis.
 void addSun(const std::string& name, const glm::vec3& color, float lux, const glm::dvec3& direction, Scene& scene) {
     Light light;
     light.name = name;

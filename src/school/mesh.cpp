@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // triangle edges of the eyes relative to the body; smaller for crisp pupils
+constexpr float eyeEdge = 0.75f;  // triangle edges of the eyes relative to the body's; smaller for crisp pupils
 
 // ---- body ------------------------------------------------------------------------------------------
 
@@ -27,7 +27,8 @@ float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914
 }
 
 Rings bodyRings(const FishShape& shape, float edge) {
-    // Distance from the snout over the skin, averaged over back, belly and flank. Steps are fine at the round snout.
+    // Tabulate the distance from the snout along the skin, averaged over back, belly and flank. Steps are fine at the
+    // round snout.
     constexpr int pieces = 400;
     std::vector<float> distance{0.0f};
     std::vector<float> at{0.0f};
@@ -48,7 +49,7 @@ Rings bodyRings(const FishShape& shape, float edge) {
     const auto steps = std::max(6, static_cast<int>(std::lround(distance.back() / (0.87f * edge))));
     Rings rings;
     std::size_t piece = 1;
-    for (int i = 1; i < steps; ++i) {  // the poles are single vertices
+    for (int i = 1; i < steps; ++i) {  // snout and tail end are single vertices, not rings
         const float wanted = distance.back() * static_cast<float>(i) / static_cast<float>(steps);
         while (piece < pieces && distance[piece] < wanted) ++piece;
         const float a =
@@ -62,7 +63,7 @@ Rings bodyRings(const FishShape& shape, float edge) {
     return rings;
 }
 
-// Angles that are evenly spaced along the skin of a section, from the back over the left flank.
+// Maps fractions of a section's girth to angles, starting at the back and passing the left flank first.
 class Girth {
 public:
     explicit Girth(const FishSection& section) {
@@ -101,7 +102,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // Slope of the outline, for the normals.
+        // Neighbouring sections give the slope of the outline for the normals.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);

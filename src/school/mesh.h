@@ -22,7 +22,7 @@ struct Fish {
 // (`eyeMaterial`). Units are metres. The origin lies inside the fish, the head points to +x, the back to +y.
 Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial);
 
-// Surface during assembly, in body lengths and unbent; shared by mesh.cpp and fins.cpp.
+// Surface of a fish during assembly: straight, in body lengths. Shared by mesh.cpp and fins.cpp.
 struct FishSurface {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec4> colors;

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float softness = 0.012f;  // half width of soft painted borders, in body lengths; a few mesh edges
+constexpr float softness = 0.012f;  // half width of soft painted borders in body lengths, a few mesh edges
 
 // Returns 1 for |distance| < halfWidth and 0 outside, with a soft border.
 float painted(float distance, float halfWidth, float soft = softness) {

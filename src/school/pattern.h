@@ -20,7 +20,7 @@ struct FishBand {  // band around the body
 };
 
 struct FishStripes {      // stripes along the body
-    float count = 0.0f;   // number over the body's height; 0: none
+    float count = 0.0f;   // number of stripes over the body's height; 0: none
     float share = 0.45f;  // painted fraction of the period
     float slant = 0.0f;   // rise towards the tail, in half heights per body length
     float wave = 0.0f;    // waviness, in periods
@@ -30,11 +30,11 @@ struct FishStripes {      // stripes along the body
 };
 
 struct FishSpots {
-    float size = 0.0f;    // spacing of the spots; 0: none
+    float size = 0.0f;    // spacing of the spots in body lengths; 0: no spots
     float radius = 0.3f;  // relative to `size`
     float from = 0.3f;
     float to = 1.0f;
-    float lowest = -1.0f;  // height range, in half heights of the section
+    float lowest = -1.0f;  // height range, in half heights of the body's section
     float highest = 1.0f;
     glm::vec3 color{0.0f};
     glm::vec3 halo{0.0f};
@@ -47,7 +47,7 @@ struct FishPattern {
     glm::vec3 belly{0.8f};
     float bellyEdge = -0.35f;  // height of the belly colour's edge, in half heights
     glm::vec3 rear{0.5f};      // colour of the rear half
-    float rearStart = 2.0f;    // position `a`; above 1: none
+    float rearStart = 2.0f;    // position `a` of the rear half's start; above 1: no rear half
     float rearSoftness = 0.15f;
     float rearSlant = 0.0f;
     glm::vec3 face{0.5f};
@@ -60,13 +60,13 @@ struct FishPattern {
     glm::vec3 scaleEdge{1.0f};  // pale rim of the scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
-    glm::vec3 medianRoot{0.5f};  // dorsal and anal fin, from root to edge
+    glm::vec3 medianRoot{0.5f};  // dorsal and anal fin: colour at the root
     glm::vec3 medianEdge{0.5f};
     glm::vec3 medianRim{0.5f};  // thin line along the fin's edge
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};
-    glm::vec3 caudalRim{0.5f};  // along the outermost rays
+    glm::vec3 caudalRim{0.5f};  // line along the outermost rays
     float caudalRimWidth = 0.0f;
     glm::vec3 pairedRoot{0.5f};
     glm::vec3 pairedEdge{0.5f};
@@ -77,14 +77,14 @@ struct FishPattern {
 glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const FishSkinPoint& point,
                     const FishRelief& relief);
 
-// Returns a fin's colour at ray position `t` (0 to 1 from the first to the last) and fraction `r` of the distance to
-// its edge. `ray` is 1 on a ray and 0 between two rays.
+// Returns a fin's colour at ray position `t` (0 at the first ray, 1 at the last) and fraction `r` of the distance from
+// root to edge. `ray` is 1 on a ray and 0 between two rays.
 glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, float ray);
 
 // Returns the eye's colour at `angle` radians from the pupil's centre.
 glm::vec3 eyeColor(const FishPattern& pattern, float angle);
 
-// Converts 0xRRGGBB in sRGB to linear.
+// Converts an sRGB colour 0xRRGGBB to linear Rec. 709.
 glm::vec3 linearColor(std::uint32_t srgb);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Fish species before random variation: outline, fins and palettes. `variant` selects a palette, modulo their number.
-// prototypes_disks.cpp has tall disks, prototypes_ovals.cpp ovals, prototypes_swimmers.cpp long swimmers.
+// Fish species before random variation: outline, fins and palettes. `variant`, modulo the number of palettes, selects a
+// palette. prototypes_disks.cpp has tall disks, prototypes_ovals.cpp ovals, prototypes_swimmers.cpp long swimmers.
 
 #include "school/mesh.h"
 
@@ -18,7 +18,7 @@ Fish goldfish(int variant);
 Fish fusilier(int variant);
 Fish parrotfish(int variant);
 
-// Short names for the species tables. Colours are 0xRRGGBB in sRGB.
+// Helper functions for the species tables. Colours are 0xRRGGBB in sRGB.
 inline glm::vec3 rgb(std::uint32_t srgb) {
     return linearColor(srgb);
 }

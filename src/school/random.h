@@ -1,7 +1,6 @@
 #pragma once
-// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. They are
-// implemented here because the standard library's distributions differ between implementations, but the school must
-// not.
+// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. The standard
+// library's distributions differ between implementations; the school must be the same everywhere.
 
 #include <cmath>
 #include <cstdint>
@@ -28,7 +27,7 @@ public:
         return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
     }
 
-    // Returns a value in [0, 1) with 24 bits.
+    // Returns a random value in [0, 1) with 24 bits.
     float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
     // Returns `value` times a random factor in 1 ± `relative`.

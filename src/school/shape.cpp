@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float originA = 0.45f;  // point of the spine that bending leaves in place
+constexpr float originA = 0.45f;  // position `a` of the spine point that bending leaves in place
 
 float monotoneCubic(const std::array<float, 9>& x, const std::array<float, 9>& y, float at) {
     const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
@@ -53,8 +53,8 @@ float distanceToSegment(const glm::vec2& p, const glm::vec2& a, const glm::vec2&
     return glm::length(p - a - t * ab);
 }
 
-// Adds scales, which overlap like roof tiles: each covers the one behind it. Of the disks that contain the point, the
-// foremost is visible.
+// Adds scales, which overlap like roof tiles: each scale covers the scale behind it. Scales are disks; the foremost
+// disk that contains the point is visible.
 void addScales(const FishShape& shape, float a, float alongGirth, float detail, FishRelief& relief) {
     const float behindGill = glm::smoothstep(shape.gillA * 0.97f, shape.gillA * 1.12f, a);
     const float beforeTail = 1.0f - glm::smoothstep(0.93f, 1.0f, a);
@@ -122,7 +122,7 @@ FishSection fishSection(const FishShape& shape, float a) {
     float top = monotoneCubic(knotRoots(), shape.outline.top, root);
     float bottom = monotoneCubic(knotRoots(), shape.outline.bottom, root);
     float width = monotoneCubic(knotRoots(), shape.outline.width, root);
-    // The tail's stem flattens towards the tail fin. Its end, hidden inside the fin, is rounded.
+    // The tail's stem flattens towards the tail fin. The end of the stem, hidden inside the fin, is rounded.
     width *= 1.0f - 0.62f * glm::smoothstep(0.86f, 0.98f, a);
     constexpr float roundFrom = 0.975f;
     if (a > roundFrom) {

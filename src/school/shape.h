@@ -21,7 +21,7 @@ struct FishOutline {
 
 // Elliptical cross-section at position `a`.
 struct FishSection {
-    float centre = 0;  // height of its centre above the axis
+    float centre = 0;  // height of the section's centre above the body's axis
     float halfHeight = 0;
     float halfWidth = 0;
 };
@@ -64,11 +64,11 @@ struct FishShape {
     float length = 0.3f;  // m
     FishOutline outline;
     float eyeA = 0.13f;
-    float eyeHeight = 0.25f;  // height above the section's centre, in its half heights
+    float eyeHeight = 0.25f;  // height above the section's centre, in half heights of the section
     float eyeRadius = 0.034f;
     float mouthLength = 0.05f;
     float mouthDrop = 0.02f;
-    float gillA = 0.27f;  // rear edge of the gill cover
+    float gillA = 0.27f;  // position `a` of the gill cover's rear edge
     float scaleSize = 0.043f;
     float finRipple = 0.02f;  // amplitude of sideways waves at the fins' edges
     float finPhase = 0.0f;
@@ -88,12 +88,12 @@ struct FishSkinPoint {
     float a = 0;
     float y = 0;           // height above the axis
     float halfHeight = 0;  // half height of the section
-    float height = 0;      // −1 to 1 from belly to back: y in half heights of the section
-    float alongGirth = 0;  // distance along the skin from the section's centre, upwards
+    float height = 0;      // −1 at the belly to 1 at the back of the section
+    float alongGirth = 0;  // distance along the skin above the section's centre
 };
 
-// Skin relief, displaced along the normal in body lengths: eye socket, mouth, gill cover, scales and lateral line.
-// `detail` is the mesh's edge length; features too fine for the mesh fade out.
+// Relief of the skin at a point: eye socket, mouth, gill cover, scales and lateral line. The displacement is along the
+// normal, in body lengths. Features that are fine compared with the mesh's edge length `detail` fade out.
 struct FishRelief {
     float displacement = 0;
     float groove = 0;     // darkness of grooves, 0 to 1
@@ -102,8 +102,8 @@ struct FishRelief {
 };
 FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float detail);
 
-// Swimming bend of the spine. bend() moves a point of the straight fish sideways with the spine, in body lengths with x
-// = −a.
+// Swimming bend of the spine. bend() moves a point of the straight fish with the spine. Points are in body lengths,
+// with x = −a.
 class FishSpine {
 public:
     explicit FishSpine(const FishShape& shape);

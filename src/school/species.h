@@ -11,7 +11,8 @@ namespace defocus::engine {
 enum class FishSpecies { angelfish, butterflyfish, anthias, tang, fusilier, goldfish, clownfish, parrotfish, idol };
 inline constexpr int fishSpeciesCount = 9;
 
-// `variant` selects a palette of the species, modulo their number. Equal arguments give equal fish.
+// Returns a fish. `variant`, modulo the number of palettes, selects a palette of the species. Equal arguments give
+// equal fish.
 Fish makeFish(FishSpecies species, int variant, float length, std::uint32_t seed, std::uint32_t number);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ std::uint32_t onRing(const VertexRow& ring, std::uint32_t i) {
     return ring.first + (i == ring.count ? 0u : i);
 }
 
-// Triangulates the front side between two open rows. It takes the shorter diagonal at each step, which avoids sheared
+// Triangulates the front side between two open rows. Each step uses the shorter diagonal, which avoids sheared
 // triangles between rows that are shifted along each other.
 void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::vec3>& positions,
                 std::vector<std::uint32_t>& indices) {

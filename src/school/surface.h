@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-// `count` consecutive vertices from index `first`. Closed rows (rings) are evenly spaced from `offset` (in steps, 0 to
-// 1); open rows are evenly spaced from end to end.
+// Row of `count` consecutive vertices from index `first`. Vertices of a closed row (ring) are evenly spaced; the first
+// lies `offset` steps (0 to 1) after the ring's start. Vertices of an open row are evenly spaced from end to end.
 struct VertexRow {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -20,7 +20,7 @@ struct VertexRow {
 // Triangulates between two rings. As seen from outside with `b` below `a`, vertices run from left to right.
 void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32_t>& indices);
 
-// Connects ring `a` to the single vertex `apex`, which lies below it (`apexBelow`) or above it.
+// Connects ring `a` to the single vertex `apex`, which lies below the ring (`apexBelow`) or above it.
 void capRing(const VertexRow& a, std::uint32_t apex, bool apexBelow, std::vector<std::uint32_t>& indices);
 
 // Turns a sheet of open rows into a closed thin shell. Vertex i of the sheet has its front copy at i and its back copy
@@ -29,8 +29,8 @@ void capRing(const VertexRow& a, std::uint32_t apex, bool apexBelow, std::vector
 void stitchShell(const std::vector<VertexRow>& rows, std::uint32_t backOffset, const std::vector<glm::vec3>& positions,
                  std::vector<std::uint32_t>& indices);
 
-// Return the number of triangles for rows with these counts: ringTriangles for stitchRings and capRing over all rings,
-// shellTriangles for stitchShell.
+// Return the number of triangles for rows with these vertex counts: ringTriangles for stitchRings and capRing over all
+// rings, shellTriangles for stitchShell.
 std::uint64_t ringTriangles(const std::vector<std::uint32_t>& counts);
 std::uint64_t shellTriangles(const std::vector<std::uint32_t>& counts);
 

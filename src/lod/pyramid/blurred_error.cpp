@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // patches of 2, 4, … 512 cells fill a table
+constexpr int maxResolution = 512;  // cells per side; patches of 2, 4, … 512 cells fill a table
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // min ratio between consecutive levels
+constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
 // the error grows with the squared edge length. Twice this factor gives a lower bound for levels whose triangles are
@@ -38,8 +38,8 @@ using SquareSums = std::array<double, blurSizes>;
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain lit cells
-        CellBox kept;                                 // `shown`, enlarged by black patches as needed for the next size
-        std::array<LargeVector<glm::vec3>, 2> means;  // white and black; empty for single cells
+        CellBox kept;                                 // `shown`, enlarged by empty patches as needed for the next size
+        std::array<LargeVector<glm::vec3>, 2> means;  // over white and over black cells; empty for single cells
     };
 
 public:
@@ -55,7 +55,7 @@ public:
         }
     }
 
-    // Computes the patch means. Keeps a reference to the cells.
+    // Computes the patch means of a picture. Keeps a reference to `cells`.
     void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
@@ -68,7 +68,8 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // Returns a row of values, starting at the left edge of the box. `black` is ignored for single cells.
+    // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over black cells.
+    // For single cells (size 0), `black` is ignored and the row has the cells' values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -104,13 +105,14 @@ private:
     std::vector<Size> sizes_;
 };
 
-// Change of values from one picture to another. After averaging, values are clamped to `brightest`.
+// A row of values in two pictures, before and after a change.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Returns the sum of products of two changes over `count` cells of a row and all channels.
+// Returns the sum of products of two changes over `count` cells of a row and all channels. Values are clamped to
+// `brightest`.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -130,8 +132,8 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Adds the squared differences between `seen` and `reference`. If `reference` is null, the row `dark` of black cells
-// replaces it.
+// Adds the squared differences between `seen` and `reference` to `sums`. If `reference` is null, the row `dark` of
+// black cells replaces each of its rows.
 //
 // Each cell shows one point, so that a patch mean contains sampling noise. Squaring the mean would add the variance of
 // this noise. Therefore two independent means are multiplied: over the white and over the black cells of a
@@ -188,7 +190,7 @@ private:
 struct Sight {
     Eye eye;
     SparseCells reference;            // picture of level 0
-    double covered = 0, sum = 0;      // of level 0; see Picture
+    double covered = 0, sum = 0;      // Picture::covered and sum of level 0
     SquareSums light{};               // squared light of level 0
     std::vector<SquareSums> changes;  // squared differences from level 0, per level
 
@@ -221,7 +223,8 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Interpolates linearly between the patch sizes of the table; uses the last value beyond. at(i) returns entry i.
+// Interpolates a BlurTable linearly at the patch side `side`; larger sides than in the table give the last value. at(i)
+// returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {
     double low = 0;
@@ -241,7 +244,7 @@ double squared(float value) {
 
 }  // namespace
 
-// Directions of a Fibonacci lattice on the sphere, not aligned with the coordinate axes.
+// Returns a Fibonacci lattice on the sphere, which is not aligned with the coordinate axes.
 std::vector<glm::dvec3> blurredErrorViews() {
     std::vector<glm::dvec3> directions(viewCount);
     for (std::size_t i = 0; i < viewCount; ++i) {
@@ -276,7 +279,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh has no light to serve as unit, and no error.
+    // A black mesh has no error: there is no light to serve as unit.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -343,7 +346,7 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     const auto limit = [&](std::size_t l) {
         return contrast * measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
     };
-    double fine = -limit(0);  // error of the level minus its limit
+    double fine = -limit(0);  // error of the finer level minus its limit
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         const double coarse = rootOfSum([&](double side) { return squaredError(pyramid, l, side); }) - limit(l);
         if (coarse > 0) return static_cast<double>(l) - coarse / (coarse - fine);

@@ -21,19 +21,20 @@
 namespace defocus::engine {
 
 // Computes Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError from the levels and the finishes of
-// the mesh's primitives. Without finishes, all primitives are white and matt. Errors are raised to grow by at least a
-// tenth per level, so that every target error selects a unique level. `helpers` is the number of additional threads; it
-// does not affect the result.
+// the mesh's primitives. Without finishes, all primitives are white and matt. Errors are raised where needed to grow by
+// at least 10 % per level, so that every target error selects a unique level. `helpers` is the number of additional
+// threads; it does not affect the result.
 void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, std::size_t helpers = 0);
 
-// Returns unit vectors from the mesh to the eyes.
+// Returns the directions of the pictures: unit vectors from the mesh to the eye.
 std::vector<glm::dvec3> blurredErrorViews();
 
-// Light above this multiple of the mesh's mean light is clamped.
+// Light is clamped to this multiple of the mesh's mean light.
 inline constexpr double shownWhite = 4;
 
-// Return E² and V² for a patch of side `side` (object units, ≥ 0). Both are continuous in the side. Beyond the largest
-// patch of the table, E falls as 1/side, like the error of a single spot.
+// Return the squared error E² of a level and the squared contrast V² of level 0 for a patch of side `side` (object
+// units, ≥ 0). Both are continuous in the side. Beyond the largest patch of the table, E falls as 1/side, like the
+// error of a single spot.
 double squaredError(const Pyramid& pyramid, std::size_t level, double side);
 double squaredContrast(const Pyramid& pyramid, double side);
 

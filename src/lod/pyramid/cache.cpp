@@ -27,8 +27,8 @@ namespace {
 constexpr std::string_view extension = ".pyramid";
 constexpr std::size_t keyDigits = 16;
 
-// The name contains the complete key. Different program versions and options therefore never overwrite each other's
-// files.
+// Returns a name that is a hash of the complete key. Different program versions and options therefore never overwrite
+// each other's files.
 fs::path fileName(const PyramidKey& key) {
     const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,
                                    static_cast<std::uint64_t>(key.options.maxLevels),
@@ -42,7 +42,8 @@ bool consistsOf(std::string_view text, const char* letters) {
     return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// Complete files are named "KEY.pyramid". PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
+// Returns whether the name is that of a complete or pending cache file. Complete files are named "KEY.pyramid".
+// PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
 NameKind kindOf(std::string_view name) {
     const bool pending = name.starts_with('.');
     if (pending) name.remove_prefix(1);
@@ -91,7 +92,7 @@ void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, con
     writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key));
 }
 
-// Returns why the pyramid could not be stored; empty on success.
+// Stores the pyramid. Returns the reason for a failure; empty on success.
 std::string tryToStore(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
     try {
         store(pyramid, mesh, folder, key);
@@ -134,7 +135,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     }
 
     const std::uint64_t triangles = trianglesOf(meshes);
-    // Largest mesh first, so that no core is left with a large mesh at the end.
+    // Process the largest mesh first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -29,11 +29,12 @@ struct CachedPyramids {
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 
-// Loads one pyramid. Returns nothing if the folder holds no valid file for it.
+// Loads the pyramid of one mesh. Returns nullopt if `folder` has no valid file for this mesh and these options.
 std::optional<Pyramid> loadPyramid(const Mesh& mesh, const std::filesystem::path& folder,
                                    const PyramidOptions& options = {});
 
-// Stores one pyramid. Throws Error if the file cannot be written, and std::bad_alloc. An incomplete file is removed.
+// Stores the pyramid of one mesh. Throws Error if the file cannot be written; an incomplete file is removed. Throws
+// std::bad_alloc.
 void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const std::filesystem::path& folder,
                   const PyramidOptions& options = {});
 
@@ -45,8 +46,8 @@ struct CacheFile {
     bool pending = false;         // the file is being written, or its process was killed
 };
 
-// Lists the cache files in `folder`, newest first. They are recognised by name and first bytes. Returns nothing if the
-// folder does not exist. Throws Error if it cannot be read.
+// Lists the cache files in `folder`, newest first. Cache files are recognised by name and first bytes. Returns an empty
+// list if the folder does not exist. Throws Error if the folder cannot be read.
 std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 
 // Removes the cache files in `folder` and returns them. Throws Error if a file cannot be removed.

@@ -19,7 +19,7 @@ namespace {
 // ---- growing: assignment of triangles to clusters
 
 constexpr float coneWeight = 0.75f;     // weight of similar normals against compactness
-constexpr float minTurn = 1e-3f;        // lower bound of the price of a differing normal
+constexpr float minTurn = 1e-3f;        // lower bound of the cost factor of a differing normal
 constexpr std::size_t seedsAhead = 64;  // max number of triangles next to earlier clusters that are considered as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
 // vertex.
@@ -39,8 +39,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // Index into `around` of the first corner whose triangle may still be unassigned. Only for vertices with more than
-    // maxNeighbours corners.
+    // Index into `around` of the first corner whose triangle may still be unassigned. Entries exist only for vertices
+    // with more than maxNeighbours corners.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat, evenly tessellated surface
@@ -85,8 +85,8 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
     g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * max));
 }
 
-// Returns corners at the vertex. If there are more than maxNeighbours, returns at most that many corners of unassigned
-// triangles. Corners of assigned triangles are swapped to the front, each only once.
+// Returns all corners at the vertex if there are at most maxNeighbours. Otherwise returns at most maxNeighbours corners
+// of unassigned triangles. For this, corners of assigned triangles are swapped to the front, each only once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;
@@ -133,8 +133,8 @@ void take(ClusterGrowth& g, TriangleNumber triangle) {
     for (const LocalNumber v : g.cornersOf(triangle)) addVertex(g, v);
 }
 
-// Removes and returns the last triangle of the list that does not face away from the cluster, unlike the back of a thin
-// sheet. Returns an invalid number if there is none.
+// Removes and returns the last triangle of the list that does not face away from the cluster; invalid if there is none.
+// Triangles that face away, such as the back of a thin sheet, move to the list `beside`.
 TriangleNumber lastFacing(ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     while (!list.empty()) {
         const TriangleNumber triangle = list.back();
@@ -195,8 +195,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the neighbour of earlier clusters that is nearest to `place`, among the most recent ones. Returns the first
-// unassigned triangle if there is none.
+// Returns the neighbour of earlier clusters that is nearest to `place`, among the most recent neighbours. Returns the
+// first unassigned triangle if there are no neighbours.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -214,7 +214,8 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Finishes the cluster. Keeps only `seedsAhead` neighbours per list, because a vertex can have any number of triangles.
+// Finishes the cluster. Keeps at most `seedsAhead` unassigned neighbours per list as seeds, because a vertex can have
+// any number of triangles.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);
@@ -255,7 +256,7 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
 
 namespace {
 
-// Relative rounding error of a stored value in single precision, relative to the magnitude of its inputs.
+// Rounding error of a value stored in single precision, relative to the magnitude of its inputs.
 constexpr double valueRounding = 1e-6;
 
 // Replaces NaN and infinite positions by 0.
@@ -269,7 +270,7 @@ struct LocalTriangles {
     Numbered<LocalNumber, glm::vec3> positions;
 };
 
-// `localOf` must be all invalid, and is again afterwards.
+// Returns a primitive's triangles. All entries of `localOf` must be invalid; the function restores this state.
 template <typename Vertex>
 LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
                               const Numbered<Vertex, PositionNumber>& places,
@@ -345,7 +346,8 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
     return cluster;
 }
 
-// Reorders the triangles of a primitive; `first` is the offset of its first index in the level.
+// Reorders the triangles of a primitive into clusters and appends the clusters to `result`. `first` is the offset of
+// the primitive's first index in the level.
 template <typename Vertex>
 void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
                       std::uint32_t first, std::vector<Cluster>& result) {

@@ -1,7 +1,7 @@
 #pragma once
-// Builds clusters (see Cluster). A cluster grows by one triangle at a time until it is full. The next triangle touches
-// the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer builds its meshlets by
-// similar criteria. Triangles may have any shape and order.
+// Groups triangles into clusters for culling (see Cluster). A cluster grows by one triangle at a time until it is full.
+// The next triangle touches the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer
+// builds its meshlets by similar criteria. Triangles may have any shape and order.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-using LocalNumber = Number<struct LocalKind>;  // a distinct position among those that one primitive uses
+using LocalNumber = Number<struct LocalKind>;  // index of a distinct position among those of one primitive
 
 struct GrownClusters {
     std::vector<TriangleNumber> triangles;  // cluster by cluster; consecutive triangles are mostly neighbours

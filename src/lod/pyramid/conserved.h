@@ -1,6 +1,6 @@
 #pragma once
-// Measures the properties of a surface that a wide blur preserves: mean colour, reflected light and covered area. They
-// allow a level to be compared with level 0.
+// Measures the properties of a surface that a wide blur preserves: mean colour, reflected light and covered area. A
+// level is compared with level 0 by these properties.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace defocus::engine {
 struct Conserved {
     double area = 0;       // object units squared
     glm::dvec3 colour{0};  // mean over the area
-    LightMeans light{};    // with vertex colours only
+    LightMeans light{};    // from vertex colours; textures are ignored
     // Area that the surface covers in a parallel projection along each direction, in object units squared. Both sides
     // of a face count. The opposite direction gives the same area.
     std::array<double, outlineDirections> outline{};
@@ -29,17 +29,17 @@ using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::d
 // Returns a function that interpolates the level's vertex colours. The colour is white if the level has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
-// Measures a level. Colour and light use at least `points` points on its area; the outline uses a grid of `resolution`²
-// points. The mean colour is exact if the colour is linear over each triangle.
+// Measures a level. Colour and light are sampled at no fewer than `points` points on the surface; the outline uses a
+// grid of `resolution`² points. The mean colour is exact if the colour is linear over each triangle.
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
 // Largest differences between a level and level 0.
 struct ConservedDifference {
-    double colour = 0;       // in any colour channel
-    double light = 0;        // under any light
-    double outline = 0;      // relative, in any direction
-    double meanOutline = 0;  // relative and signed: of the mean over all directions
+    double colour = 0;       // max over the colour channels
+    double light = 0;        // max over all light directions
+    double outline = 0;      // relative, max over all directions
+    double meanOutline = 0;  // relative and signed change of the mean over all directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Structs are unpacked by structured bindings, some of which are unused. A new struct member then causes a compile
-// error, as a reminder to add it to the key or the file.
+// Structured bindings unpack all members of a struct, including unused ones. A new member then causes a compile error,
+// as a reminder to add the member to the key or the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 168 && sizeof(PyramidFileLevel) == 80 && sizeof(Cluster) == 48,
@@ -96,7 +96,7 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
 
 // ---- reading -----------------------------------------------------------------------------------
 
-// Reads consecutive arrays from the bytes. Checks the size before it allocates memory.
+// Reads consecutive arrays from a file's bytes. Checks the remaining size before memory is allocated.
 class Reader {
 public:
     explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -241,7 +241,7 @@ std::uint64_t meshHash(const Mesh& mesh) {
 }
 
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
-    // The build system's hash of the sources in src/lod invalidates all files when the algorithm changes.
+    // The build system's hash of the sources in src/lod invalidates all cache files when the algorithm changes.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
     const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
     return {hashBytes(std::as_bytes(std::span(sources)), own), options};

@@ -1,7 +1,7 @@
 #pragma once
-// Encodes a pyramid as a cache file and decodes it. The file holds only data that cannot be derived from the mesh.
-// These are the mesh vertex of each pyramid vertex, the indices, and the positions, normals, colours and texture
-// coordinates of each level.
+// Encodes a pyramid as a cache file and decodes it. The file contains only data that cannot be derived from the mesh:
+// the mesh vertex of each pyramid vertex, the indices, and the positions, normals, colours and texture coordinates of
+// each level.
 //
 //   header | level records | index ranges, levels × primitives | clusters, level by level | source | indices
 //          | normals, if the mesh has none | for each level from 1: positions, normals, colours, uv0, uv1
@@ -69,12 +69,12 @@ struct PyramidFileLevel {
 // Encodes a pyramid. `pyramid` must be the result of buildPyramid for `mesh`.
 std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key);
 
-// Decodes a pyramid, bit-identical to the encoded one. Returns nothing if `bytes` are not a complete, valid file for
-// this mesh and key. Safe for arbitrary bytes: all indices are checked, and at most about 40 times the size of `bytes`
-// is allocated.
+// Decodes a pyramid, bit-identical to the encoded pyramid. Returns nullopt if `bytes` are not a complete, valid file
+// for this mesh and key. Safe for arbitrary bytes: all indices are checked, and at most about 40 times the size of
+// `bytes` is allocated.
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key);
 
-// Reads only the header, for any key and version. Returns nothing if `bytes` are too short or of another format.
+// Reads only the header, for any key and version. Returns nullopt if `bytes` are too short or of another format.
 std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes);
 
 }  // namespace defocus::engine

@@ -1,7 +1,7 @@
 #pragma once
-// Simplified materials of a scene's meshes, used for the pictures that measure the error of levels (picture.h). They
-// follow glTF's metallic-roughness model. Normal maps, occlusion maps, transparency, clear coat and sheen are ignored
-// for all levels.
+// Simplified materials of a scene's meshes, used for the pictures that measure the error of levels (picture.h).
+// Finishes follow glTF's metallic-roughness model. Normal maps, occlusion maps, transparency, clear coat and sheen are
+// ignored for all levels.
 
 #include <cstddef>
 #include <cstdint>
@@ -48,12 +48,12 @@ struct Finish {
     float reflectance = 0;  // reflectance of non-metals at normal incidence
     glm::vec3 emission{0.0f};
     FinishMap baseColorMap = {};
-    FinishMap metallicRoughnessMap = {};  // y: roughness, z: metallic
+    FinishMap metallicRoughnessMap = {};  // channel y: roughness, z: metallic
     FinishMap emissionMap = {};
 };
 
-// The finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs it. It is
-// kept as long as a finish uses it. Thread-safe.
+// Creates the finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs
+// it, and kept as long as a finish uses it. Thread-safe.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);

@@ -9,7 +9,7 @@ namespace defocus::engine {
 using Four = float __attribute__((vector_size(16)));
 using FourWords = std::uint32_t __attribute__((vector_size(16)));
 
-// Read and write four consecutive values.
+// loaded() reads four consecutive values; store() writes them.
 template <typename Numbers, typename Value>
 Numbers loaded(const Value* from) {
     Numbers numbers;

@@ -1,4 +1,5 @@
-// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: fractional levels from blur and projected size.
+// Source: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: fractional levels from blur and projected
+// size.
 
 #include "lod/pyramid/level_selection.h"
 
@@ -14,9 +15,9 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // mean edge in px at 64 s
 constexpr LodThresholds referenceError{0.018, 0.18};  // error in px at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;   // px; `light` for one sample
-constexpr double sampleErrorShareMax = 0.3;  // raises the total expected error by at most 4 %
-constexpr double largestFactor = 2;          // few samples: their noise does not hide silhouette errors
+constexpr double lightOfSampleError = 6.7;   // px, default of LodThresholds::light for one sample
+constexpr double sampleErrorShareMax = 0.3;  // max ratio to the sampling error; raises the total error by at most 4 %
+constexpr double largestFactor = 2;          // max factor on the blur threshold: few samples hide no outline errors
 
 // Returns whether the metric compares edge lengths with the target.
 bool bySize(LodMetric metric) {
@@ -117,7 +118,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
     if (!(target > 0)) return 0;
     if (metric == LodMetric::halving) return halvings(pyramid, query.pixelsPerUnit, target);
 
-    // Find the first level that is coarser than the target; λ lies between it and the level before.
+    // Find the first level that is coarser than the target; λ lies between this level and the level before.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const double coarse = storedSize(pyramid.levels[l], metric) * query.pixelsPerUnit;
         if (coarse <= target) continue;

@@ -20,7 +20,7 @@ const char* lodMetricName(LodMetric metric);
 // in standard deviations of the object's light within its blur. An unset threshold depends on the sample count, so that
 // long renders converge to full detail.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // px per px of blur, ≥ 0
+    std::optional<double> blur = {};   // px of target per px of CoC, ≥ 0
     std::optional<double> size = {};   // px, ≥ 0; ignored by LodMetric::score
     std::optional<double> light = {};  // px, ≥ 0; only for LodMetric::measured, which ignores `blur` and `size`
 };
@@ -29,7 +29,7 @@ struct GivenThresholds {
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // target px per px of CoC
+    double blur = 0;  // px of target per px of CoC
     double size = 0;  // min target in px
     // Allowed error of a measured level with edges of 1 px, in standard deviations of the light within the blur; see
     // measuredLimit.
@@ -55,9 +55,9 @@ double expectedSampleError(std::uint32_t sampleCount);
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the light within the blur. The error of N samples is expectedSampleError(N) times that
-// deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. It must
-// be smaller than the sampling error, because it appears as large soft spots on objects. FLIP, like the eye, weighs
-// them more than the outlines and fine ghosts caused by sampling.
+// deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. The
+// levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
+// spots more than the outlines and fine ghosts caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 // Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the light within
@@ -82,8 +82,8 @@ struct LevelQuery {
 //   score: like size, but with τ = blur·c. λ is the level whose mean edges are blur·s times those of level 0.
 //     s = c/d is the score of Tzeng et al. 2012; d is the mean edge of level 0 at the depth of the box's centre.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px.
-// Returns 0 if pixelsPerUnit is negative, infinite or NaN. Returns the coarsest level if it is 0, because the object is
-// then a point.
+// Returns 0 if pixelsPerUnit is negative, infinite or NaN. Returns the coarsest level if pixelsPerUnit is 0, because
+// the object is then a point.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 
@@ -98,7 +98,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
 struct SampleSplit {
     std::uint32_t level = 0;
     std::uint32_t coarseCount = 0;
-    double boundaryShare = 0;  // g: share of the pixels of sample `coarseCount` that draw the coarser level
+    double boundaryShare = 0;  // g: fraction of the pixels of sample `coarseCount` that draw the coarser level
 };
 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);

@@ -1,6 +1,7 @@
 #pragma once
-// Renders pictures of a level by parallel projection, without a lens. Each cell shows the surface nearest to the eye at
-// its centre. The lighting is a uniform sky and the default lights of scenes without lights (scene/defaults.h).
+// Renders pictures of a level by parallel projection, without a lens. Each grid cell shows the surface that is nearest
+// to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without lights
+// (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +45,7 @@ struct Eye {
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    LargeVector<glm::vec3> light;  // linear radiance of the cells in the eye's box; 0 where no surface is
+    LargeVector<glm::vec3> light;  // linear radiance of the cells in the eye's box; 0 in cells without a surface
     std::size_t covered = 0;       // number of covered cells
     double sum = 0;                // sum over all cells of the mean of the three channels
 };
@@ -62,12 +63,12 @@ private:
     const Eye& eye_;
     std::span<const Finish> finishes_;
     std::vector<glm::vec3> places_;  // projected vertices of the level
-    // The surface nearest to the eye at the centre of each cell of the box.
+    // Depth and triangle of the surface nearest to the eye, for the centre of each cell of the box.
     LargeVector<float> depths_;          // z; −∞ for empty cells
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 
-// Renders level `number`.
+// Renders one picture of level `number`.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Shading of picture cells. Private to picture.cpp. The model is that of shaders/include/shading.glsl, which names the
-// sources.
+// Shading of picture cells. Private to picture.cpp. The shading model is the same as in shaders/include/shading.glsl,
+// which names the sources.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ struct SurfacePoint {
     glm::vec3 diffuse{0}, specular{0};
     float roughness = 1;
     glm::vec3 normal{0};
-    float agreement = 1;  // length of the mean of the normals that `normal` stands for
+    float agreement = 1;  // length of the mean of the unit normals that `normal` represents
 };
 
 struct DistantLight {
@@ -82,11 +82,11 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// Visible part of the distribution of normals that one normal stands for.
+// Visible part of the distribution of normals that one normal represents.
 struct SeenNormals {
     float spread = 0;              // normalSpread()
     float shown = 0;               // mean cosine to the eye over the visible normals
-    float along = 1, towards = 0;  // the visible mean is along · normal + towards · toEye: seenNormal()
+    float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
 
 inline SeenNormals seenNormals(float nv, float agreement) {
@@ -144,7 +144,7 @@ inline glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point,
                                 reflectance * gloss.reflected(light, cosine));
 }
 
-// Returns the share of a uniform white sky that the specular lobe reflects.
+// Returns the fraction of a uniform sky's light that the specular lobe reflects.
 inline glm::vec3 specularAlbedo(const SurfacePoint& point, float nv) {
     const glm::vec4 r =
         point.roughness * glm::vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + glm::vec4(1.0f, 0.0425f, 1.04f, -0.04f);
@@ -209,7 +209,7 @@ public:
     }
 
 private:
-    // Simple loops over few arrays, which compilers vectorise.
+    // The loops of normalise(), look() and shadeBy() are simple, so that compilers vectorise them.
     void normalise() {
         float* const x = normal_[0].data();
         float* const y = normal_[1].data();
@@ -256,16 +256,16 @@ private:
     glm::vec3 toEye_;
     std::size_t count_ = 0;
     std::vector<Cell> cells_;
-    std::array<std::vector<float>, 3> normal_;  // of each cell, one array per coordinate
+    std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
     std::vector<float> agreement_;
     std::vector<float> spread_, along_, towards_;  // see SeenNormals
-    std::vector<std::vector<float>> shares_;       // of each light: the share that each cell receives
+    std::vector<std::vector<float>> shares_;       // per light: the mean cosine of incidence at each cell
 };
 
 // Computes the visible radiance of surface points. Surfaces without a finish are matt, without specular reflection.
 class Shading {
 public:
-    // Writes the radiance into `cells`.
+    // Prepares the shading of a level. shade() and endRow() write the radiance to `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
@@ -324,7 +324,7 @@ public:
         matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
-    double sum = 0;           // sum of the mean channels of all cells
+    double sum = 0;           // sum over all cells of the mean of the three channels
     std::size_t covered = 0;  // number of shaded cells
 
 private:

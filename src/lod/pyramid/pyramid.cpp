@@ -27,9 +27,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minEdgeGrowth = 1.05;   // min ratio between consecutive levels
-constexpr double minEdgeToError = 2;     // a level is no finer than its error, however short its edges are
-constexpr double minErrorGrowth = 1.25;  // min ratio between consecutive levels, from level 1 on
+constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edges of consecutive levels
+constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge to its error
+constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
 constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
 // Number of points on each of two surfaces for measuring the distance between a level and level 0. It equals the number
 // of triangles of the surface, within these bounds. The cost is therefore small compared with simplification.
@@ -75,14 +75,15 @@ bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
-// Restores the vertex numbers of the file. Triangles use only the first of equal vertices.
+// Restores the vertex numbers of the file, so that each file vertex is a mesh vertex. Triangles still use only the
+// first of several equal vertices.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
     for (const MeshVertexNumber v : unique.first.numbers()) unique.first[v] = {v.value};
 }
 
-// Computes the mean and max edge length over all faces.
+// Computes the level's mean and max edge length over all faces.
 void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     double sum = 0;
     double longest = 0;
@@ -98,7 +99,7 @@ void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     level.longestEdge = std::isfinite(longest) ? longest : 0;
 }
 
-// Appends a level's index ranges and indices.
+// Appends a level's indices to the pyramid. Returns the level with its index ranges and clusters.
 PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& triangles,
                          std::vector<Cluster> clusters, const SurvivalOrder& order) {
     PyramidLevel level;
@@ -124,7 +125,7 @@ std::size_t percentileRank(std::size_t count) {
 }
 
 // Returns the distance between the two surfaces: the larger of both directions, at most the bounding box's diagonal.
-// The distance is infinite without this limit if the level has no area left.
+// Without this limit, the distance to a level without area would be infinite.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
@@ -207,7 +208,7 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Reorders the level's triangles into clusters. `positions` are those of the mesh, including twins.
+// Reorders the level's triangles into clusters. `positions` are the positions of the mesh's vertices, including twins.
 void cluster(FittedLevel& level, const WeldedPositions& positions) {
     Numbered<LevelVertexNumber, PositionNumber> places;
     places.reserve(level.numbers.size());
@@ -252,7 +253,7 @@ constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasu
 // Builds the pyramid except for the measurements on finished levels (blurred errors and deformation bounds).
 Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
                   const std::function<void(double)>& reach) {
-    // Merge equal vertices; weld the positions of the others.
+    // Merge equal vertices, then weld equal positions.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);
@@ -265,7 +266,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         leaveApart(unique, levels[0].triangles, mesh.vertices.count());
     }
     unique.id = {};
-    // Not used if the vertices of the mesh can be used directly, possibly with a few unused duplicates.
+    // Vertices without duplicates. Not used if the mesh's vertices can be used directly, possibly with a few unused
+    // duplicates.
     Vertices joined;
     const bool asTheyAre = hasNormals && isIdentity(unique.first, mesh.vertices.count());
     if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
@@ -281,7 +283,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     const bool fits = options.vertices == LevelVertices::fitted;
     if (options.maxLevels > 1) {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
-        // Created only when level 0's successor is complete: memory use peaks while the complete mesh collapses.
+        // Created only when level 1 is complete, because memory use peaks while the complete mesh collapses.
         std::optional<FitSource> source;
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
@@ -461,7 +463,7 @@ std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
                                    const Progress& progress) {
-    // Largest mesh first, so that no core is left with a large mesh at the end.
+    // Build the largest pyramid first, so that no core is left with a large mesh at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -34,16 +34,16 @@ struct IndexRange {
 };
 
 // A cluster is a run of triangles of one level that are close together and face similar directions. A frame skips the
-// complete run if no lens sample shows any of its triangles (plan/visibility.h). All lengths are in object units,
-// measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the
-// triangles.
+// complete run if no lens sample shows any of its triangles (plan/visible/visibility.h). All lengths are in object
+// units, measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes
+// of the triangles.
 struct Cluster {
-    IndexRange indices;       // within one primitive
+    IndexRange indices;       // index range within one primitive
     glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
     float radius = 0;         // radius of the bounding sphere
     glm::vec3 axis{0, 0, 1};  // unit axis of the cone that contains the unit normals n of the triangles
     float minCosine = -1;     // min cosine of the angle between a normal n and the axis
-    float planes = 0;         // min of n·(p − centre), with p on the plane of the triangle with normal n
+    float planes = 0;         // min of n·(p − centre) over the triangles, with p on the triangle's plane
     // Min altitude of the triangles. Triangles with coinciding corners are ignored, because they draw nothing.
     float minAltitude = 0;
 };
@@ -52,7 +52,7 @@ inline constexpr std::uint32_t maxClusterTriangles = 64;
 
 // RMS of a difference after averaging over square patches of growing size.
 // Entry 0: per point, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Light is
-// relative to the mean light of the mesh, so that 1 means as much as the mean.
+// relative to the mean light of the mesh, so that 1 equals the mean light.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
@@ -63,15 +63,15 @@ struct PyramidLevel {
     std::vector<Cluster> clusters;  // sorted by index range; together they cover the ranges of all primitives
     // Vertex attributes of the level, fitted to level 0; level 0 and LevelVertices::surviving have the values of the
     // mesh. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same position.
-    // Fitted normals have length ≤ 1. A shorter normal stands for normals that differ more, and a matt surface reflects
-    // less light there.
+    // Fitted normals have length ≤ 1. A shorter normal represents level 0 normals that differ more; a matt surface
+    // reflects less light there.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
     std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
     std::vector<glm::vec2> uv0, uv1;   // vertexCount entries; empty without texture coordinates
 
     // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:
-    // it grows by at least 5 % per level and is at least 2·error. The second bound holds because a level with a large
+    // it grows by at least 5 % per level and is at least 2·error. Reason for the second bound: a level with a large
     // error is no finer than that error, however short its edges are.
     double meanEdge = 0;
     double longestEdge = 0;  // object units
@@ -79,8 +79,9 @@ struct PyramidLevel {
     // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
     // over the area in both directions. It is estimated conservatively from 256 to 1,024 points per direction
     // (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding
-    // box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their size. It is also
-    // at least the distance from any of their points to the level, up to the diagonal of the bounding box.
+    // box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their size and at
+    // least the distance from any of their points to the level. The error never exceeds the diagonal of the bounding
+    // box.
     double error = 0;
 
     BlurTable blurredError{};  // see blurred_error.h; 0 for level 0
@@ -91,7 +92,7 @@ struct Pyramid {
     // A few vertices are stored twice, for coarser levels that need two normals at one position.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // for each vertex, its index in Mesh::vertices; morph targets use it
-    std::vector<std::uint32_t> indices;  // of all levels
+    std::vector<std::uint32_t> indices;  // indices of all levels, level by level
     std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level
     Bounds bounds;                       // bounding box of level 0's triangles, in object units
     // For each joint, the bounding box of the vertices that it moves at any level, in object units; empty without
@@ -145,8 +146,8 @@ private:
 // Returns the total number of triangles of the meshes.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 
-// Returns the number of helper threads for a mesh that is built in parallel with other meshes: its share of the cores.
-// `all` is the total number of triangles of these meshes.
+// Returns the number of helper threads for one of several pyramids that are built in parallel, in proportion to the
+// mesh's triangles. `all` is the total number of triangles of all meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
 // Builds one pyramid per mesh, on all cores.

@@ -1,6 +1,6 @@
-// Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on Simplified Surfaces; the R2 sequence after Roberts
-// 2018, The Unreasonable Effectiveness of Quasirandom Sequences; triangles in Morton order after Lauterbach et al.
-// 2009, Fast BVH Construction on GPUs.
+// Sources: Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on Simplified Surfaces; Roberts 2018, The
+// Unreasonable Effectiveness of Quasirandom Sequences (R2 sequence); Lauterbach et al. 2009, Fast BVH Construction on
+// GPUs (Morton order).
 
 #include "lod/pyramid/surface_distance.h"
 
@@ -23,11 +23,12 @@ namespace {
 
 constexpr std::size_t maxTrianglesPerLeaf = 4;
 constexpr std::size_t arity = 4;  // children per node
-// Relative rounding error of a coordinate in single precision, relative to the largest coordinate of both sides.
+// Rounding error of a single-precision difference of coordinates, relative to the largest coordinate of the surface and
+// the point.
 constexpr float rounding = 2.5e-7f;
-constexpr double mortonCells = 1023;  // per axis: 10 bits
+constexpr double mortonCells = 1023;  // max cell number per axis: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// 1/g and 1/g², where g³ = g + 1 (R2 sequence).
+// Steps of the R2 sequence: 1/g and 1/g², where g³ = g + 1.
 constexpr double stepU = 0.7548776662466927;
 constexpr double stepV = 0.5698402909980532;
 
@@ -59,7 +60,8 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
-// Radix sort by the Morton code in the upper 32 bits. The triangle numbers in the lower 32 bits are already sorted.
+// Sorts the keys by the Morton code in the upper 32 bits (radix sort). The triangle numbers in the lower 32 bits are
+// already sorted.
 void sortByCode(LargeVector<std::uint64_t>& keys) {
     constexpr std::uint64_t digits = 1024;
     LargeVector<std::uint64_t> sorted(keys.size());
@@ -73,7 +75,7 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Returns the triangles with finite corners and positive area, among `count` triangles.
+// Returns those of the `count` triangles that have finite corners and positive area, in Morton order.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
@@ -116,7 +118,7 @@ void buildNodes(Surface& surface) {
     }
     surface.leafBits = std::countr_zero(leaves);
     surface.nodes.resize(inner);
-    LargeVector<Box> boxes(inner + leaves);  // of the inner nodes, then of the leaves
+    LargeVector<Box> boxes(inner + leaves);  // boxes of the inner nodes, then of the leaves
     for (std::size_t leaf = 0; leaf < leaves; ++leaf)
         for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
             boxes[inner + leaf] = around(boxes[inner + leaf], boxOf(surface.triangles[t]));
@@ -133,7 +135,8 @@ void buildNodes(Surface& surface) {
     surface.extent = std::max({extent.x, extent.y, extent.z});
 }
 
-// Returns lower bounds of the squared distances to the four boxes. `slack` is the max rounding error of a coordinate.
+// Returns lower bounds of the squared distances from `p` to the node's four boxes. `slack` is the max rounding error of
+// a coordinate.
 Four squaredDistances(const BoxNode& node, const glm::vec3& p, float slack) {
     const Four zero{};
     Four sums{};
@@ -157,20 +160,20 @@ struct Nearest {
     std::size_t triangle = 0;
 };
 
-// `guess` is a triangle that is probably close. The search stops at the first triangle with a squared distance of at
-// most `enough`.
+// Returns the triangle that is closest to `p`. `guess` is a triangle that is probably close. The search stops at the
+// first triangle with a squared distance of at most `enough`.
 Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess, double enough) {
     struct Entry {
         float squaredDistance;
         std::size_t node;
     };
-    std::array<Entry, 3 * 32 + arity> stack;  // three per tree level (max 32), plus the children of the current node
+    std::array<Entry, 3 * 32 + arity> stack;  // three entries per tree level (max 32 levels), plus the current children
     std::size_t size = 0;
     Nearest nearest{squaredDistance(surface.triangles[guess], p), guess};
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
     const glm::vec3 place(p);
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-    // Slightly enlarged, because squared distances in single precision are rounded, too.
+    // Returns the smallest distance so far, slightly enlarged because the boxes' squared distances are rounded, too.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
     float max = bound();
     stack[size++] = {0, 0};
@@ -269,7 +272,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     if (to.empty()) return std::vector<double>(count, infinity);
     std::vector<double> distances;
     distances.reserve(count);
-    std::size_t nearest = 0;  // result for the previous point, which is close
+    std::size_t nearest = 0;  // triangle nearest to the previous point, which is close
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, 0);
         nearest = found.triangle;
@@ -281,8 +284,8 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared; a min-heap
-    std::size_t nearest = 0;                       // result for the previous point, which is close
+    std::vector<double> largest(rank, min * min);  // squared distances, a min-heap
+    std::size_t nearest = 0;                       // triangle nearest to the previous point, which is close
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());
         nearest = found.triangle;

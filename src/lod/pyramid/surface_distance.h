@@ -40,8 +40,8 @@ struct Surface {
     [[nodiscard]] bool empty() const { return triangles.empty(); }
 };
 
-// Builds the hierarchy. Three indices form a triangle; one or two remaining indices are ignored. All are below
-// positions.size().
+// Builds the hierarchy. Three indices form a triangle; one or two remaining indices are ignored. All indices must be
+// below positions.size().
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 template <typename Vertex>
 Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<Vertex>& triangles);
@@ -51,7 +51,7 @@ double distanceTo(const Surface& surface, const glm::dvec3& point);
 
 // Returns the distances from `count` points of `from` to the surface `to`. Each point represents an equal share of the
 // area of `from`: the area is divided into strata, with one point each. The R2 sequence places the point within its
-// triangle. Returns nothing if `from` is empty.
+// triangle. Returns an empty vector if `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
 // Returns the `rank`-th largest (from 1) distance of sampleDistances, but at least `min`. Returns `min` if there are

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // max distance between vertex numbers, in units of the square root of the vertex count
+constexpr double maxSpread = 2;  // max mean distance of vertex numbers, in units of √(vertex count)
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
     std::size_t first = 0;
-    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, then the triangle
+    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, then the triangle's corners
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         MeshVertexNumber* const indices = triangles.indices.data() + first;
         sorted.clear();

@@ -13,7 +13,8 @@ namespace defocus::engine {
 // Returns whether vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
 // little. For comparison, neighbours on a grid stored in rows are √n apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
-// Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the file's vertices.
+// Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
+// file's vertices.
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions);
 // Sorts the triangles of each primitive by their smallest vertex number.
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);

@@ -24,9 +24,10 @@ public:
 
     [[nodiscard]] const AttributeQuadric<n>& operator[](WedgeNumber w) const { return all_[w.value]; }
     [[nodiscard]] float costInPlace(WedgeNumber w) const { return all_[w.value].squares.c; }
-    // Adds the quadric of a face at the wedge.
+    // Adds a face's quadric to the quadric of the wedge `w`.
     void addFace(WedgeNumber w, const AttributeQuadric<n>& face) { all_[w.value].addFaces(face); }
-    // Moves the quadric of `from` to `to`. `step` and `change` lead from `from` to `to` in position and attributes.
+    // Moves the quadric of wedge `from` into the quadric of wedge `to`. `step` and `change` are the differences in
+    // position and attributes from `from` to `to`.
     void move(WedgeNumber from, WedgeNumber to, const glm::vec3& step, const AttributeRow<n>& change) {
         all_[to.value].add(all_[from.value], step, change);
         all_[from.value] = {};
@@ -47,14 +48,14 @@ private:
     LargeVector<AttributeQuadric<n>> all_;
 };
 
-// For meshes with mostly constant attributes per face, such as flat-shaded meshes. The quadric of such a face does not
-// depend on position. It and sums of such quadrics need a quarter of the memory.
+// Attribute quadrics for meshes with mostly constant attributes per face, such as flat-shaded meshes. The quadric of
+// such a face does not depend on position. Such quadrics and their sums need a quarter of the memory.
 template <std::size_t n>
 class SparseQuadrics {
 public:
     static constexpr std::size_t attributes = n;
 
-    // `changing`: for each wedge, whether attributes vary over any of its faces.
+    // `changing`: for each wedge, true if attributes vary over any of the wedge's faces.
     explicit SparseQuadrics(const std::vector<bool>& changing) : even_(changing.size()) {
         changesOf_.reserve(changing.size());
         std::uint32_t count = 0;

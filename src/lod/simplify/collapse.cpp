@@ -70,8 +70,8 @@ Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
     return sides;
 }
 
-// Returns the survivor's wedge that is most similar to `wedge`, among those for which admitted(face, wedge) is true;
-// else invalid.
+// Returns the survivor's wedge that is most similar to `wedge`, among the wedges for which admitted(face, wedge) is
+// true; invalid if there is none.
 template <typename Admitted>
 WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
     WedgeNumber nearest;
@@ -119,8 +119,8 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
         return {nearestWedge(sides, wedge, inChart), Fit::good};
     }
 
-    // A seam ends at the survivor or starts at the removed vertex. Use the most similar wedge if it is near enough in
-    // texture space.
+    // A seam ends at the survivor or starts at the removed vertex. Use the most similar wedge; the collapse is poor if
+    // this wedge is far away in texture space.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);
@@ -131,12 +131,13 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     return {nearestWedge(sides, wedge, [](FaceHandle, WedgeNumber) { return true; }), Fit::bad};
 }
 
-// Weight of the squared edge length relative to squared distances. It decides on flat regions, where it favours
-// well-shaped triangles.
+// Weight of the squared edge length relative to squared distances. On flat regions, only this term differs between
+// collapses; it favours well-shaped triangles.
 constexpr float edgeWeight = 1e-4f;
 
-// Max number of spokes around the edge. OpenMesh's collapse searches for borders around all four vertices of the edge's
-// faces. For the hub of a fan, this would take time quadratic in the number of faces.
+// Max number of spokes (outgoing half-edges) of a vertex around the edge. OpenMesh's collapse searches for borders
+// around all four vertices of the edge's faces. For the hub of a fan, this would take time quadratic in the number of
+// faces.
 constexpr std::size_t maxSpokes = 8192;
 
 // Returns whether the half-edge borders a triangular hole. OpenMesh allows a collapse along it if a second edge joins
@@ -192,7 +193,7 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
         if (surface.to_vertex_handle(spoke) == to) ++edgesBetween;
     });
     if (edgesBetween != 1) return false;
-    // Reject the collapse of a tetrahedron, or of a tip that consists of three faces like one of a tetrahedron.
+    // Reject the collapse of a tetrahedron, or of a tip that consists of three faces like the tip of a tetrahedron.
     const bool inside = !surface.is_boundary(from) && !surface.is_boundary(to);
     return !(inside && valence == 3 && surface.valence(to) == 3);
 }
@@ -208,7 +209,7 @@ Fit ShapeModule::judge(HalfedgeHandle along) {
     const glm::dvec3 target = surface.place(surface.to_vertex_handle(along));
     forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
         const FaceHandle face = surface.face_handle(spoke);
-        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // its candidate is updated next
+        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // the vertex's candidate is updated next
         if (worst == Fit::bad || !face.is_valid()) return;
         if (face == surface.face_handle(along) || face == surface.face_handle(back)) return;
         const glm::dvec3 b = surface.place(surface.to_vertex_handle(spoke));

@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Decides which collapses the surface allows, and judges their effect on surrounding faces. The link condition is
+// Decides whether the surface allows a collapse, and judges the effect on surrounding faces. The link condition is
 // OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
 // decimater module, it accepts good and poor collapses.
 class ShapeModule final : public CollapseModule {
@@ -23,18 +23,18 @@ public:
     // Returns whether the collapse preserves the topology: OpenMesh's conditions hold, only one edge joins the two
     // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
-    // Judges the effect of the collapse on the remaining faces, without the topology. Poor: it makes a sliver, or pulls
-    // the surface away from its border. Bad: it turns a face's normal by more than 75° or makes a face degenerate.
-    // Impossible: one of the vertices around the edge has more than 8,192 spokes.
+    // Judges the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
+    // sliver, or pulls the surface away from its border. Bad: the collapse turns a face's normal by more than 75° or
+    // makes a face degenerate. Impossible: a vertex of the edge's faces has more than 8,192 outgoing half-edges.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
 
 private:
     [[nodiscard]] bool besideHub(HalfedgeHandle along);
 
-    std::vector<VertexHandle> hubs_;  // vertices with too many spokes; no edge of their faces may collapse
+    std::vector<VertexHandle> hubs_;  // vertices with too many half-edges; no edge of their faces may collapse
 };
 
-// A corner of a remaining face, and the survivor's wedge that it receives.
+// A corner of a remaining face, and the wedge of the surviving vertex that the corner receives.
 struct Handover {
     HalfedgeHandle corner;
     WedgeNumber wedge;
@@ -55,8 +55,8 @@ public:
     // replacement.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Selects a survivor's wedge for every remaining corner of the removed vertex. Preferred is the wedge across the
-    // edge on the same side of any seam, then the most similar wedge of the same primitive.
+    // Selects a survivor's wedge for every remaining corner of the removed vertex. The first choice is the wedge across
+    // the edge on the same side of any seam; the second is the most similar wedge of the same primitive.
     //   poor: the texture would be stretched across a seam; bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
     // Returns the wedges selected by the last judge(); empty after the collapse.
@@ -68,8 +68,8 @@ private:
 };
 
 // Computes the cost of a collapse: the quadric errors of both vertices at the survivor, plus a small term for edge
-// length. They consist of position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As a decimater
-// module, it returns the cost as priority.
+// length. The quadric errors are position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As a
+// decimater module, it returns the cost as priority.
 class QuadricModule final : public CollapseModule {
 public:
     explicit QuadricModule(SurfaceMesh& surface) : CollapseModule(surface, false) {}

@@ -22,7 +22,7 @@ public:
 
     [[nodiscard]] bool empty() const { return heap_.empty(); }
 
-    // Inserts the vertex with this cost (≥ 0), or updates its cost.
+    // Inserts the vertex with this cost (≥ 0), or updates the cost if the vertex is present.
     void put(VertexHandle vertex, float cost, bool bad) {
         const std::uint64_t bits = std::bit_cast<std::uint32_t>(std::max(0.0f, cost));
         const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | numberOf(vertex);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
 constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
-constexpr double manyShare = 0.25;        // fraction of the faces
+constexpr double manyShare = 0.25;        // fraction of the faces, for manyAreSmallest()
 constexpr std::uint32_t fewestFaces = 4;  // min faces that collapses can reach: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -64,7 +64,7 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
-    // Cutting non-manifold edges creates several vertices at one position.
+    // Join vertices at the same position, which cutting non-manifold edges creates.
     const Numbered<SurfaceVertexNumber, PositionNumber>& places = s.origin->places;
     const std::size_t placeCount = places.empty() ? 0 : 1 + indexOf(*std::max_element(places.begin(), places.end()));
     Numbered<PositionNumber, VertexHandle> seen(placeCount);
@@ -82,7 +82,7 @@ double areaOf(const Vertices& vertices, std::span<const MeshVertexNumber, 3> cor
     return std::isfinite(area) ? area : 0;
 }
 
-// Measures the components in the original mesh, regardless of collapses.
+// Measures bounding sphere and area of each component in the original mesh, before any collapse.
 void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles) {
     const Vertices& vertices = s.origin->vertices;
     const Numbered<MeshVertexNumber, SurfaceVertexNumber>& firstVertex = s.origin->firstVertex;
@@ -106,7 +106,7 @@ void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& trian
     for (const Component& component : s.components) s.area += component.area;
 }
 
-// Counts the remaining faces and collapses of the components.
+// Counts each component's remaining faces and vertices with a good or poor collapse.
 void countComponents(Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     forEachFace(mesh, [&](FaceHandle face) { ++s.componentAt(firstVertexOf(mesh, face)).faces; });
@@ -152,7 +152,7 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
-        // Shuffle components of equal size, so that removals are spread over the mesh independent of their order.
+        // Shuffle components of equal size, so that removals are spread over the mesh.
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
             return lowbias32(a.component.value) < lowbias32(b.component.value);
         });
@@ -200,7 +200,7 @@ void removeComponent(Simplifier& s, const Removable& removable) {
 // thirds of the time of a simple median-split tree.
 class CentreTree {
 public:
-    // Contains the components that are not removed at construction. Keeps a reference to `components`.
+    // Builds the tree of all components that have not been removed. Keeps a reference to `components`.
     explicit CentreTree(const Numbered<ComponentNumber, Component>& components)
         : centres_(components), tree_(3, centres_) {}
     CentreTree(const CentreTree&) = delete;
@@ -237,7 +237,7 @@ private:
         }
     };
 
-    // Result set of a nanoflann search: receives the points that are closer than the best one.
+    // Result set of a nanoflann search: receives the points that are closer than the best point so far.
     template <typename Counts>
     struct Search {
         const std::vector<ComponentNumber>& numbers;
@@ -288,7 +288,7 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());  // of the root vertices
+    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());  // components of the root vertices
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];
         if (number.isValid()) return;

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // relative to the box's diagonal; levels may protrude slightly
+constexpr double gridMargin = 1.04;  // grid side relative to the box's diagonal; levels may protrude slightly
 
 // Returns the first cell whose centre is at or after `place`, at most `end`, where cell centres are 0, 1, …. Returns 0
 // for NaN.
@@ -75,7 +75,7 @@ double CoverGrid::area() const {
 
 void CoverGrid::add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     if (resolution_ == 0) return;
-    std::vector<glm::vec2> cells;  // cell centres at 0, 1, …
+    std::vector<glm::vec2> cells;  // positions in cells; cell centres lie at 0, 1, …
     cells.reserve(positions.size());
     for (const glm::vec3& position : positions) cells.emplace_back(cellsOf(position) - 0.5);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
@@ -95,7 +95,8 @@ void CoverGrid::mark(int row, int first, int end) {
     }
 }
 
-// Returns whether all these cells are marked. Returns false if the columns span more than one word.
+// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked. Also returns false if the
+// columns span more than one word.
 bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
     const int word = first / wordBits;
     if ((end - 1) / wordBits != word) return false;
@@ -106,7 +107,7 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Most triangles of a fine mesh lie between cell centres or on cells that are already covered.
+    // Skip triangles between cell centres or on cells that are already covered: most triangles of a fine mesh.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;
@@ -149,7 +150,7 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
-    // Fixed point, so that repeated addition of the same step causes no drift.
+    // x is a fixed-point number, so that repeated addition of the same step causes no drift.
     const double slope = (high.x - low.x) / (high.y - low.y);
     std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
     const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;

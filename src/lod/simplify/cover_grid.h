@@ -18,7 +18,7 @@ inline constexpr int wordBits = 64;  // grid cells per word
 // cell centres.
 class CoverGrid {
 public:
-    // Lays a grid of `resolution`² cells over a bounding sphere of `box`. `resolution` is a multiple of 64.
+    // Creates an empty grid of `resolution`² cells over a bounding sphere of `box`. `resolution` is a multiple of 64.
     CoverGrid(const Bounds& box, const glm::dvec3& direction, int resolution);
 
     // Marks the cells that triangles cover, regardless of orientation. Three indices form a triangle. Projected
@@ -62,8 +62,8 @@ class EdgeFill {
 public:
     explicit EdgeFill(int resolution);
 
-    // Adds an edge, in cells. `triangles` is the number of triangles to the left of the direction from `from` to `to`,
-    // minus the number to the right.
+    // Adds an edge between two positions in cells. `triangles` is the number of triangles to the left of the direction
+    // from `from` to `to`, minus the number to the right.
     void add(const glm::dvec2& from, const glm::dvec2& to, int triangles);
     // Marks the covered cells in `grid`, removes all edges, and returns the number of covered cells.
     std::size_t fill(CoverGrid& grid);
@@ -72,7 +72,7 @@ private:
     std::size_t fillRow(CoverGrid& grid, int row);
 
     int resolution_;
-    std::vector<std::int32_t> steps_;   // difference in covering triangles from the previous cell to each cell
+    std::vector<std::int32_t> steps_;   // change of the number of covering triangles at the start of each cell
     std::vector<std::uint64_t> edges_;  // one bit for each cell with a step, row by row
     int firstRow_, endRow_;             // range of rows with edges
 };

@@ -49,7 +49,7 @@ float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, con
 // Groups of the level's vertices that share one value.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
-    Numbered<UnknownNumber, MeshVertexNumber> sources;  // for each group, the mesh vertex with its initial value
+    Numbered<UnknownNumber, MeshVertexNumber> sources;  // per group, the mesh vertex with the group's initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
     // Returns for each group the sum of value(vertex), starting from `zero`.
@@ -87,8 +87,8 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// Returns least-squares equations for the groups; the solution is initialised to zero. `weight` and `value` return the
-// sums of each vertex of the level.
+// Returns least-squares equations for the groups; the solution is initialised to zero. weight(v) and value(v) return
+// the sums of weights and of weighted targets at vertex v of the level.
 template <std::size_t channels, typename Weight, typename Value>
 LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> triangles, const Grouping& groups,
                        const Weight& weight, const Value& value) {
@@ -107,7 +107,8 @@ LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> tri
     return result;
 }
 
-// Initialises each unknown to the weighted mean of its targets, or to own(group, channel) if it has none.
+// Initialises each unknown to the weighted mean of its targets, or to own(group, channel) if the unknown has no
+// targets.
 template <std::size_t channels, typename Own>
 void startFromMeans(LeastSquares& fit, const Own& own) {
     for (const UnknownNumber g : fit.weights.numbers())
@@ -115,7 +116,7 @@ void startFromMeans(LeastSquares& fit, const Own& own) {
             fit.solution[g][c] = fit.weights[g] > 0 ? fit.sums[g][c] / fit.weights[g] : own(g, c);
 }
 
-// texture_fit.cpp: fits uv0 and uv1 of `fit`, if the mesh has them.
+// Fits uv0 and uv1 of `fit`, if the mesh has texture coordinates (texture_fit.cpp).
 void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbered<MeshVertexNumber, Anchor>& anchors,
                     LevelFit& fit);
 

@@ -1,10 +1,10 @@
 #pragma once
 // Least-squares fit of values at triangle corners to targets at points on the triangles. Minimises
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
-// by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). The normal equations are stored as one
-// 3 × 3 matrix per triangle. An iteration therefore costs time per triangle, independent of the number of points.
-// Eigen's ConjugateGradient takes five times as long. This would add 4 % to building the pyramids of the school of
-// fish.
+// by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). share is the weight of a point, and
+// weight is the barycentric weight of a corner with the value x. The normal equations are stored as one 3 × 3 matrix
+// per triangle. The time of an iteration is therefore independent of the number of points. Eigen's ConjugateGradient
+// takes five times as long, which would add 4 % to the time of building the pyramids of the school of fish.
 
 #include <algorithm>
 #include <array>
@@ -103,7 +103,7 @@ private:
         return result;
     }
 
-    Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 where the diagonal is 0
+    Numbered<UnknownNumber, float> inverseDiagonal_;  // reciprocal diagonal of the equations; 0 where it is 0
 };
 
 }  // namespace defocus::engine

@@ -15,14 +15,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Lower bound of the agreement: normals that differ more have no meaningful mean.
+// Lower bound of the mean cosine between normals: normals that differ more have no meaningful mean.
 constexpr float minAgreement = 0.125f;
 
 // Sums over the anchors at each level vertex: share · weight, and share · weight · value.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // from the anchor's point on the level to the original vertex
+    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchor's point on the level to the original vertex
     Numbered<LevelVertexNumber, Three> normals;
     Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
@@ -57,8 +57,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
         const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
 
-        // Fit displacements instead of positions. They are small, so that single precision suffices far from the
-        // origin.
+        // Fit displacements instead of positions. Displacements are small, so that single precision suffices far from
+        // the origin.
         glm::dvec3 onLevel(0);
         for (std::size_t k = 0; k < 3; ++k)
             onLevel += double{w[k]} * glm::dvec3(vertices.positions[level.sources[corner[k]].value]);
@@ -121,7 +121,7 @@ Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber
 }
 
 // Returns for each group the mean cosine between the normals of the mesh and the interpolated `normals`. Only detail
-// that the level has lost lowers it; curvature that the level still shows does not.
+// that the level has lost lowers this mean; curvature that the level still shows does not.
 Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMesh& level,
                                           const Numbered<MeshVertexNumber, Anchor>& anchors, const Grouping& groups,
                                           const Numbered<UnknownNumber, glm::vec3>& normals) {
@@ -165,8 +165,8 @@ LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, 
     return std::move(fit.solution);
 }
 
-// Fits normals. A fitted normal that contradicts the surrounding triangles at `positions` is replaced by their unit
-// normal.
+// Fits normals. A fitted normal that points away from the surrounding triangles at `positions` is replaced by the
+// triangles' mean unit normal.
 Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
                                                   const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
                                                   const Numbered<LevelVertexNumber, glm::vec3>& positions) {
@@ -222,7 +222,7 @@ struct Grown {
     double area = 0;
     Bounds box;
     double factor = 1;
-    glm::dvec3 shift{0};  // moves it back into level 0's bounding box
+    glm::dvec3 shift{0};  // moves the component back into level 0's bounding box
 
     [[nodiscard]] glm::dvec3 place(const glm::dvec3& p, const glm::dvec3& centre) const {
         return centre + factor * (p - centre) + shift;

@@ -2,8 +2,8 @@
 // Fits positions, normals, colours and texture coordinates of a coarser level. The original values of the remaining
 // vertices would preserve single spots of a pattern and single bumps of a relief. A level with vertices on a convex
 // surface would also be too small. Therefore, the linear interpolation over the level is fitted to all vertices of
-// level 0 by least squares. Positions are fitted in this way by Hoppe et al. 1993, Mesh Optimization. Solved with
-// Jacobi-preconditioned conjugate gradients (Hestenes and Stiefel 1952).
+// level 0 by least squares. Positions are fitted in this way by Hoppe et al. 1993, Mesh Optimization. The solver is the
+// Jacobi-preconditioned conjugate gradient method (Hestenes and Stiefel 1952).
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -30,7 +30,7 @@ struct FitSource {
     VertexGroups charts;
     // 1: another vertex at the same position has different texture coordinates; empty without texture coordinates.
     Numbered<MeshVertexNumber, std::uint8_t> seams;
-    Numbered<MeshVertexNumber, float> areas;  // share of level 0's area that each vertex represents; mean 1
+    Numbered<MeshVertexNumber, float> areas;  // area of each vertex, relative to the mean over all vertices
     Bounds bounds;                            // bounding box of level 0's triangles
     // Values of level 0 that conserve() preserves.
     glm::dvec4 meanColor{0};
@@ -38,7 +38,7 @@ struct FitSource {
     LightMeans light{};
 };
 
-// Prepares the fit. `triangles` are those of level 0. Keeps references to the other arguments.
+// Prepares the fit of all levels. `triangles` are the triangles of level 0. Keeps references to the other arguments.
 FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
@@ -48,8 +48,8 @@ struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
-    // Returns the anchor of a vertex without its own anchor. Its area, colour and normal are added to the anchor of
-    // `near`.
+    // Returns the anchor of a vertex without its own anchor. The vertex's area, colour and normal are added to the
+    // anchor of `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
     // Returns the vertex whose anchor is shared; invalid if there is none.
@@ -58,8 +58,8 @@ struct Anchor {
     }
 };
 
-// Growth of a component after fitting. The component is scaled about `centre` until it has `area`. This is its original
-// area plus that of the components that it replaces. The scale is in [1, `maxFactor`].
+// Growth of a component after fitting. The component is scaled about `centre` until it has `area`. `area` is the
+// component's original area plus the areas of the components that it replaces. The scale is in [1, `maxFactor`].
 struct Growth {
     glm::dvec3 centre{0};  // object units
     double area = 0;       // object units squared
@@ -70,7 +70,7 @@ struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
     Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a twin
     // 1: the vertex belongs to the back of a thin sheet, where the other vertices at its position belong to the front.
-    // It shares its normal and colour only with other back vertices.
+    // A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
     Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if there are no growths
@@ -79,8 +79,7 @@ struct LevelMesh {
 // Fitted attributes of each vertex of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
-    Numbered<LevelVertexNumber, glm::vec3>
-        normals;  // length ≤ 1; the shorter a normal is, the more the normals that it stands for differ
+    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the represented normals differ more
     Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };

@@ -37,7 +37,7 @@ struct LitPoint {
     glm::vec3 normal{0};   // unit length, or zero
     float agreement = 1;
     float area = 0;
-    float light = 0;  // area · colour
+    float light = 0;  // area times mean of the colour's channels
 };
 
 // Calls visit(corners, point) for sample points of the surface. Returns the area of the surface.
@@ -86,10 +86,10 @@ struct LightSlopes {
     LightRow x, y, z;
 };
 
-// Derivatives for the normal of a group, split into two parts. For a light direction d, the part `odd` · d changes sign
-// with d. The other part is the same for opposite lights.
+// Derivatives of the mean light with respect to the normal of a group, split into two parts. For a light direction d,
+// the part `odd` · d changes sign with d. The other part is the same for opposite lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the symmetric matrix `odd`
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {
@@ -180,9 +180,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the means by approximately `wanted`. A larger
-// `damping` gives a smaller change. It is relative to the mean diagonal of the equations. Damping is needed because
-// only about nine of the lights are independent.
+// Returns the smallest change of the groups' normals that changes the means by approximately `wanted`. `damping` is
+// relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because only
+// about nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -276,7 +276,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
     double minSquares = std::numeric_limits<double>::infinity();
-    // Strong at first, so that normals turn no further than necessary and highlights keep their positions.
+    // Damping is strong at first, so that normals turn no further than necessary and highlights keep their positions.
     double damping = 1;
     for (int round = 0; round < maxRounds; ++round) {
         followNormals();

@@ -1,6 +1,6 @@
 #pragma once
-// Measures the light that a matt surface reflects, and fits the normals of a coarse level to that of level 0. A wide
-// blur reduces shading to its mean over the surface.
+// Measures the light that a matt surface reflects, and fits the normals of a coarse level so that it reflects as much
+// light as level 0. A wide blur reduces shading to its mean over the surface.
 
 #include <algorithm>
 #include <array>
@@ -21,9 +21,10 @@ std::array<glm::dvec3, lightCount> directionsToLights();
 // the mean of its three channels.
 using LightMeans = std::array<double, lightCount>;
 
-// normalSpread() and meanCosine() of shaders/include/shading.glsl: light reflected by a distribution of normals.
-// `agreement`, in [0, 1], is the length of their mean vector. `mean` is agreement · cosine if the distribution is
-// symmetric about the mean normal. In that case, the average of the result over all light directions is 1/4.
+// Match normalSpread() and meanCosine() in shaders/include/shading.glsl: light reflected by a distribution of normals.
+// `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is agreement · cosine if the
+// distribution is symmetric about the mean normal. In that case, the average of the result over all light directions is
+// 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);
@@ -42,7 +43,7 @@ struct LitSurface {
     std::span<const glm::vec3> normals;
     std::span<const glm::vec4> colors;  // empty: white
     std::span<const std::uint32_t> indices;
-    bool coarse = true;  // normals shorter than 1 stand for differing normals, as in shading.glsl
+    bool coarse = true;  // normals shorter than 1 represent differing normals, as in shading.glsl
 };
 
 // Returns the light that a matt surface reflects, averaged over its area. It uses at least three points per triangle
@@ -54,7 +55,7 @@ inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Turns the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds of
 // the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached. The
-// change is the smallest in the RMS over the area. It is at most 16 times the improvement of the means, because a
+// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the means, because a
 // change is visible at each point. Lengths of normals are preserved, so that roughness does not change. Vertices with
 // equal numbers in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,

@@ -1,5 +1,5 @@
-// Cutting non-manifold surfaces: after Guéziec, Taubin, Lazarus and Horn 2001, Cutting and Stitching: Converting Sets
-// of Polygons to Manifold Surfaces.
+// Source for cutting non-manifold surfaces: Guéziec, Taubin, Lazarus and Horn 2001, Cutting and Stitching: Converting
+// Sets of Polygons to Manifold Surfaces.
 
 #include "lod/simplify/manifold.h"
 
@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Limit for pairing faces at one edge. Beyond it, all faces are separated, in linear time.
+// Max number of faces at one edge that are paired. At edges with more faces, all faces are separated, in linear time.
 constexpr std::size_t maxFacesToPair = 32;
 
 // Flags for the repairs of a face.
@@ -37,7 +37,8 @@ struct PairedSurface {
     [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
     [[nodiscard]] PositionNumber start(SurfaceCorner edge) const { return at[edge]; }
     [[nodiscard]] PositionNumber end(SurfaceCorner edge) const { return at[nextCorner(edge)]; }
-    // Returns the direction of the edge, after the face has been reversed if marked as turned.
+    // Returns true if the edge leads from the lower to the higher position number, in the final orientation of its
+    // face.
     [[nodiscard]] bool forward(SurfaceCorner edge) const {
         return (start(edge) < end(edge)) != (turned[faceOf(edge)] != 0);
     }
@@ -55,7 +56,7 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
                                                               return std::min({p[0], p[1], p[2]});
                                                           });
 
-    // Equal faces have the same smallest position; few faces share any one position.
+    // Equal faces have the same smallest position number, so only faces that share this number are compared.
     struct Key {
         PositionNumber next, previous;  // the other two corners in winding order
         PrimitiveNumber primitive;
@@ -100,7 +101,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
-    // Group by the lower position, then sort the few edges of each group by the higher one.
+    // Group by the lower position, then sort the few edges of each group by the higher position.
     Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
@@ -173,7 +174,7 @@ glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
 }
 
 // Pairs the half-edges at one edge. Criteria in this order: same primitive, flat angle, input order. A face and its
-// reverse form a two-sided sheet. They are paired only if no other face continues either.
+// reverse form a two-sided sheet. The two are paired only if no other face continues either of them.
 void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;
@@ -238,7 +239,7 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
 
     manifold.corners.resize(surface.at.size());
     Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // the position has a vertex
-    Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // not the first vertex at its position
+    Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // 1: not the first vertex at its position
     for (const SurfaceCorner corner : surface.at.numbers()) {
         const SurfaceCorner fan = root(corner);
         if (fan == corner) {

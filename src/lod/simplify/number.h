@@ -38,11 +38,11 @@ using SurfaceFaceNumber = Number<struct SurfaceFaceKind>;      // face of the ma
 using WedgeNumber = Number<struct WedgeKind>;                  // into WedgeTable
 using ComponentNumber = Number<struct ComponentKind>;          // into Simplifier::components
 using PrimitiveNumber = Number<struct PrimitiveKind>;          // into Mesh::primitives
-using TriangleNumber = Number<struct TriangleKind>;            // into a TriangleSet
+using TriangleNumber = Number<struct TriangleKind>;            // index into a TriangleSet
 using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
 using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // into Pyramid::vertices
 
-// Corner 3·f + i is corner i of face f.
+// Kind of the corners of faces. Corner 3·f + i is corner i of face f.
 template <typename Face>
 struct CornerOf;
 template <typename Face>
@@ -68,7 +68,8 @@ constexpr Number<CornerOf<Face>> previousCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 0 ? corner.value + 2 : corner.value - 1};
 }
 
-// Convert a number or an OpenMesh handle to an array index, and an array index to a number or handle.
+// indexOf() converts a number or an OpenMesh handle to an array index; itemAt() converts an array index to a number or
+// handle.
 template <typename Key>
 constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })

@@ -19,9 +19,9 @@ namespace {
 
 constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
-constexpr double cellsPerEdge = 16;  // approximate value, for evenly sized triangles
+constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
-constexpr double maxUnseen = 5e-3;   // relative area difference up to which nothing is moved
+constexpr double maxUnseen = 5e-3;   // relative area difference up to which no vertex is moved
 constexpr int localRounds = 2;       // rounds in which each outline edge follows level 0's outline
 constexpr int maxGlobalRounds = 12;  // rounds that match the covered area in each direction
 // Accepted relative area differences. Levels with many triangles are slow to fit and mostly cover enough area, so that
@@ -30,9 +30,9 @@ constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
 constexpr int maxVainRounds = 4;  // rounds without improvement before the search ends
-constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to other parts
+constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to another part
 constexpr int maxEdgePoints = 24;
-constexpr double stiffness = 0.1;      // damping of vertices with few outline points, relative to all points
+constexpr double stiffness = 0.1;      // damping of moves, relative to the weight of the outline points
 constexpr double maxMoveShare = 0.25;  // max move per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
@@ -43,7 +43,7 @@ struct Edge {
     std::uint32_t face[2] = {0, 0};
     // Direction of each face along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
-    bool closed = false;  // it has exactly two faces here; further faces are separate open edges
+    bool closed = false;  // the edge has two faces; further faces are separate open edges
 };
 
 struct Edges {
@@ -98,14 +98,15 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
 
 // A sample point of a level's outline, seen from one direction.
 struct OutlinePoint {
-    std::uint32_t a = 0, b = 0;  // groups at the ends of its edge
-    double share = 0;            // weight of b
+    std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
+    double share = 0;            // interpolation weight of b
     double length = 0;           // length of the outline that the point represents, object units
     glm::dvec2 start{0};         // position in cells
     glm::dvec2 across{0};        // outward unit normal of the outline
 };
 
-// Returns the signed distance in cells from `start` along `outward` to level 0's outline; NaN if it is too far.
+// Returns the signed distance in cells from `start` along `outward` to level 0's outline; NaN if the outline is farther
+// than maxWay.
 double wayToOutline(const CoverGrid& level0, const glm::dvec2& start, const glm::dvec2& outward) {
     const bool inside = level0.covers(start);
     const double sign = inside ? 1 : -1;
@@ -209,9 +210,9 @@ public:
         return true;
     }
 
-    // Returns the current positions, or the best ones if later rounds were worse.
+    // Returns the current positions, or the best positions if later rounds were worse.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Returns the largest relative area difference of these positions.
+    // Returns the largest relative area difference at the positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
@@ -265,8 +266,8 @@ private:
         return area;
     }
 
-    // Returns the smallest factors x with (G Gᵀ) x = b, slightly damped. Exploits that most vertices are on few
-    // outlines.
+    // Returns x with (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The
+    // sum exploits that most vertices are on few outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -308,12 +309,12 @@ private:
     double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since `best_`
-    std::vector<glm::vec3> gradients_;  // for each vertex group, one per direction
+    std::vector<glm::vec3> gradients_;  // area gradients: for each vertex group, one per direction
     // State for the direction of the last cover().
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
-    std::vector<const Edge*> rim_;    // edges except those between two faces with the same turn
+    std::vector<const Edge*> rim_;    // potential outline: edges without two faces of the same turn
 };
 
 }  // namespace
@@ -353,8 +354,8 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     };
     matchAreas(fit);
     std::vector<glm::vec3> best = fit.places();
-    // Following level 0's outline edge by edge moves vertices farther and may follow another part. Use it only if it
-    // helps.
+    // Following level 0's outline edge by edge moves vertices farther and may follow another part of the mesh. Use this
+    // result only if its areas agree better.
     if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();

@@ -23,7 +23,7 @@ struct Quadric {
     float c = 0;       // value of the sum at the vertex itself
     float weight = 0;  // total weight of the planes
     glm::vec3 b{0};
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the symmetric matrix A
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix A
 
     // Adds a plane through the vertex with the unit normal `normal`.
     void addPlane(const glm::vec3& normal, float planeWeight) {
@@ -124,8 +124,8 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds the quadric of another vertex. `step` and `change` lead from its position and attributes to those of this
-    // vertex.
+    // Adds the quadric of another vertex. `step` and `change` are the differences in position and attributes from the
+    // other vertex to this one.
     void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow<n>& change) {
         const float cost = other.at(step, change);
         const AttributeGradients<n>& g = other.gradients;

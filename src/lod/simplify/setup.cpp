@@ -13,8 +13,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Weights of constraint planes through an edge, perpendicular to its face. The weight is multiplied by the squared edge
-// length. (The plane of a face is weighted by the face's area.)
+// Weights of constraint planes through an edge, perpendicular to the edge's face. The weight is multiplied by the
+// squared edge length. (The plane of a face is weighted by the face's area.)
 constexpr double borderWeight = 10;  // open borders and material borders
 constexpr double seamWeight = 0.5;   // discontinuities of uv or colour
 constexpr double rimWeight = 1;      // where the surface folds back onto itself; lower for smaller angles
@@ -54,8 +54,8 @@ double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     return torn(e, mesh.next_halfedge_handle(twin)) || torn(mesh.next_halfedge_handle(e), twin) ? seamWeight : 0;
 }
 
-// Returns the weight of the constraint at an edge where the surface turns by more than 60°. Without it, the rim of a
-// thin sheet could be cut back at no cost, because the faces of the rim have almost no area.
+// Returns the weight of the constraint at an edge where the surface turns by more than 60°. Without this constraint,
+// the rim of a thin sheet could be cut back at no cost, because the faces of the rim have almost no area.
 double rimConstraint(const Crosses& crosses, FaceHandle face, FaceHandle beyond) {
     const glm::dvec3& mine = crossOf(crosses, face);
     const glm::dvec3& theirs = crossOf(crosses, beyond);
@@ -109,8 +109,8 @@ void buildQuadrics(SurfaceMesh& mesh) {
             const glm::dvec3 upright = glm::cross(mesh.step(a, b), normal);
             const double length = glm::length(upright);
             if (!(length > 0)) continue;
-            // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. Weighted
-            // by its length only, shortening the strip would be cheaper than thinning out its interior.
+            // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. With a
+            // weight by length only, shortening the strip would be cheaper than thinning out its interior.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
             const glm::vec3 constraint(upright / length);
             mesh.data(a).quadric.addPlane(constraint, static_cast<float>(weight * area));
@@ -130,7 +130,7 @@ Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& tri
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// Returns the scale from uv to lengths in the unit frame: it preserves the total area of the mesh.
+// Returns the scale from uv to lengths in the unit frame that preserves the total area of the mesh.
 float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;
@@ -148,7 +148,8 @@ float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& t
     return std::isfinite(ratio) ? static_cast<float>(ratio) : 0.0f;
 }
 
-// Records the surface vertex and the primitive of each mesh vertex, taken from the first corner that uses it.
+// Records the surface vertex and the primitive of each mesh vertex, taken from the first corner that uses the mesh
+// vertex.
 void rememberCorners(Origin& origin, const SurfaceMesh& mesh) {
     origin.firstVertex.resize(origin.vertices.count());
     origin.firstPrimitive.resize(origin.vertices.count());
@@ -199,7 +200,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.survivors.reserve(mesh.n_vertices());
     for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
     s.current.assign(s.survivors.begin(), s.survivors.end());
-    s.modules.emplace(mesh);  // of the complete mesh
+    s.modules.emplace(mesh);  // modules of the complete mesh
 }
 
 }  // namespace defocus::engine

@@ -1,7 +1,7 @@
-// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. The candidate of each vertex is its
-// cheapest collapse. Whether it is allowed is tested only when its turn comes. For meshes with many faces, sweeps over
-// memory perform the collapses below an increasing cost limit. Later, a priority queue orders them. Deleted elements
-// are removed at each level.
+// Source: Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. The candidate of each vertex
+// is its cheapest collapse. A candidate is tested against the rules only when its turn comes. For meshes with many
+// faces, sweeps over memory perform the collapses below an increasing cost limit. Later, a priority queue orders them.
+// Deleted elements are removed at each level.
 
 #include "lod/simplify/simplify.h"
 
@@ -25,15 +25,15 @@ constexpr std::size_t maxFacesToFollow = 8192;
 // While at least this number of faces must remain, collapses are made in sweeps.
 constexpr std::size_t minFacesToSweep = 16'384;
 constexpr std::size_t sweepsPerLevel = 8;   // a sweep covers this fraction (1/8) of the remaining collapses
-constexpr std::size_t minSweepShare = 128;  // but at least this fraction (1/128) of the faces
+constexpr std::size_t minSweepShare = 128;  // a sweep covers at least this fraction (1/128) of the faces
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
-// A further level must save a quarter of the triangles.
+// Max ratio of the triangle counts of a level and the level before: a level must save a quarter of the triangles.
 constexpr double largestShare = 0.75;
 // Min fraction of the reducible faces that a level keeps. If many components are as small as possible, halving the
-// total would otherwise take too many faces from the few large ones.
+// total would otherwise take too many faces from the few large components.
 constexpr double minShareOfMovable = 0.25;
-// Components that can still be simplified keep a fraction of the faces that their share of the mesh's area deserves.
-// `keptShare` is the preferred fraction. `minKeptShare` applies if components would otherwise have to be removed.
+// Components that can still be simplified keep a fraction of their even share of the faces (evenShare). `keptShare` is
+// the preferred fraction. `minKeptShare` applies if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -49,7 +49,7 @@ void setCandidate(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         spend(s, v);
 }
 
-// Sets the candidate of a vertex, and updates the queue if it is in use.
+// Sets the candidate of a vertex, and updates the queue if the queue is in use.
 void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
     setCandidate(s, v, candidate);
     if (!s.queued) return;
@@ -64,7 +64,7 @@ void enqueueCheapest(Simplifier& s, VertexHandle v) {
     enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
 
-// Sets the vertex's candidate to its best allowed collapse; to none if no collapse is possible.
+// Sets the vertex's candidate to its best allowed collapse; invalid if no collapse is possible.
 void enqueueBest(Simplifier& s, VertexHandle v) {
     Candidate best;
     best.fit = Fit::impossible;
@@ -136,7 +136,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Performs the collapse that was judged last.
+// Performs the collapse of `along`, which must be the collapse that was judged last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);
@@ -154,7 +154,8 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse two rings away can make a collapse possible, without an update here. Retry all vertices once.
+            // A collapse two rings away can make a collapse possible without updating its candidate. Retry all vertices
+            // once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
@@ -177,7 +178,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// Returns approximately the cost of the `rank`-th cheapest collapse among good and poor ones.
+// Returns approximately the cost of the `rank`-th cheapest good or poor collapse.
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
@@ -191,14 +192,14 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
 }
 
 // Performs good and poor collapses with a cost of at most `max`, in vertex order, until `target` faces are left.
-// Returns whether there were any.
+// Returns true if any collapse was performed.
 bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most are too expensive
+        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most candidates are too expensive
         if (i == count) break;
         const VertexHandle v(i);
         const Candidate& candidate = vertices[i].candidate;
@@ -234,8 +235,8 @@ bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
-// Returns the target number of faces of the next level: half. If half is so close to the min that no further level fits
-// between, returns the min.
+// Returns the target number of faces of the next level: half of the current number. Returns `minTriangles` if half is
+// below it, or so close that no further level fits between.
 std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;
@@ -245,7 +246,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces without any collapsible vertex, such as those of tetrahedra or isolated triangles
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: the component has other faces
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: not all faces are stuck
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {
@@ -280,7 +281,7 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     collapseTo(s, enough, target, minKeptShare);
 }
 
-// Returns why no further level is made from this number of faces.
+// Returns the reason why no further level is made from this number of faces.
 PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
     return faces <= options.minTriangles ? PyramidEnd::minTriangles : PyramidEnd::smallSaving;

@@ -1,10 +1,10 @@
 #pragma once
-// Simplifies a mesh into a sequence of coarser meshes by half-edge collapses with quadric error metrics. Their vertices
-// are a subset of the mesh's vertices.
+// Simplifies a mesh into a sequence of coarser meshes by half-edge collapses with quadric error metrics. The vertices
+// of the coarser meshes are a subset of the mesh's vertices.
 //
 // The surface is connected by position across all primitives, so that seams and material borders stay closed. See
 // manifold.h for non-manifold surfaces and wedges.h for attributes. Each collapse belongs to one of these classes:
-//   good:  nothing speaks against it;
+//   good:  neither poor nor bad;
 //   poor:  it pulls the surface away from a seam or an open border, or makes a sliver; its cost is multiplied by ten;
 //   bad:   it turns a face's normal by more than 75° or assigns a vertex of another primitive to a face.
 // A bad collapse is made only when no good or poor collapse is left in the mesh.
@@ -14,10 +14,10 @@
 // The topology never changes (link condition). A closed surface is closed at every level, and a component without
 // handles can shrink to a tetrahedron. A component with many handles keeps far more triangles.
 //
-// A component is spent when it has no good or poor collapse left. If spent components own most of the faces, the other
-// components keep part of the share of faces that their area deserves. No bad collapse reduces a component below that
-// share. If collapses cannot reach the target, complete components are removed, the smallest first and never the
-// largest. A nearby component grows to replace each removed one.
+// A component is spent when it has no good or poor collapse left. A component's even share of the faces is proportional
+// to its area. If spent components own most of the faces, the other components keep a fraction of their even share. No
+// bad collapse reduces a component below its even share. If collapses cannot reach the target, complete components are
+// removed, the smallest first and never the largest. A nearby component grows to replace each removed one.
 
 #include <cstdint>
 #include <functional>
@@ -38,7 +38,7 @@ constexpr std::size_t fewestToGiveBack = 16'384;
 struct SimplifyOptions {
     std::uint32_t minTriangles = 64;  // halving ends at this number of triangles
     int maxLevels = 23;               // excluding level 0
-    // Whether anchors are computed for the levels; a level without anchors cannot be fitted.
+    // true: anchors are computed for the levels. A level without anchors cannot be fitted.
     bool anchors = true;
     // If not empty, replaces halving: the fraction of the mesh's positions that each level keeps, in decreasing order.
     // Vertices at the same position count once.
@@ -71,8 +71,8 @@ struct Simplification {
 
 // Makes levels with half the triangles each, or with the fractions of vertices in `options.vertexShares`. Ends where
 // the next level would save less than a quarter of the triangles. Calls take(l, level) once for each level l = 0 …
-// levelCount − 1, on the thread of `tasks` that computed its anchors. The last calls may come after the function
-// returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
+// levelCount − 1, on the thread of `tasks` that computed the level's anchors. The last calls may come after the
+// function returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

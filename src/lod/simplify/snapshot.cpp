@@ -1,4 +1,5 @@
-// Copies a level between collapses: the mesh vertices at its corners, and the position of each mesh vertex on it.
+// Copies a level between collapses: the mesh vertices at its corners, and the position of each mesh vertex on the level
+// (anchor).
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,8 @@ namespace {
 // darken both sides. Such a wedge is split, as Hoppe 1998 allows at any corner. At a texture seam, each side may
 // already have its own wedge. The wedges of one smoothing group are therefore examined together.
 
-// Min length of the mean of the unit normals around a wedge, weighted by corner angle. Below it, the wedge is split.
-// The tip of a cone of 60° is not split.
+// Min length of the mean of the unit normals around a wedge, weighted by corner angle. A wedge with a shorter mean is
+// split. The tip of a cone of 60° is not split.
 constexpr double minResultant = 0.5;
 constexpr int rounds = 3;  // iterations of k-means with two clusters
 
@@ -68,8 +69,8 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Moves the corners of the back side to the end and returns its start. Returns the number of corners if no split is
-// needed.
+// Moves the corners of the back side to the end of `corners` and returns the index of the first of them. Returns the
+// number of corners if no split is needed. `own` is the vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -99,7 +100,7 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
         front = nextFront;
         back = nextBack;
     }
-    // The side that agrees better with the vertex's own normal keeps this normal.
+    // The side that agrees better with the vertex's normal becomes the front.
     if (glm::dot(front, own) * glm::length(back) < glm::dot(back, own) * glm::length(front)) std::swap(front, back);
     const auto border = std::stable_partition(corners.begin(), corners.end(), isFront);
     return static_cast<std::size_t>(border - corners.begin());
@@ -173,11 +174,11 @@ Creases creases(Simplifier& s, const Corners& corners) {
 // for the closest face starts there.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // vertices with more faces are skipped on that way
-constexpr double noDistance = 1e-24;          // squared; distances below it are rounding errors for a mesh of unit size
+constexpr std::size_t maxFacesAround = 1024;  // vertices with more faces are skipped by the search
+constexpr double noDistance = 1e-24;          // squared; shorter distances are rounding errors in a mesh of unit size
 constexpr double minUpright = 0.99;  // squared cosine of the angle between a face's normal and the offset to the point
-// Min number of anchors searched per surviving vertex. If more vertices collapsed onto it, only every second, fourth, …
-// is searched.
+// Min number of anchors searched per surviving vertex. If many mesh vertices collapsed onto that vertex, anchors are
+// searched only for every second, fourth, … of them.
 constexpr std::uint32_t enoughAnchors = 16;
 
 // The level's faces, and the corners at each vertex.
@@ -228,8 +229,9 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
     return nearest;
 }
 
-// Returns whether the closest point of a face is its perpendicular foot. `along` are its coordinates and `offset` leads
-// to the query point. `along` alone is unreliable for slivers because of rounding.
+// Returns whether a face's closest point to a query point is the foot of the perpendicular. `along` are the closest
+// point's coordinates; `offset` leads from there to the query point. `along` alone is unreliable for slivers because of
+// rounding.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -297,7 +299,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // vertex with the last searched anchor
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // last vertex with an anchor of its own
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];
         if (!v.isValid()) continue;

@@ -22,8 +22,8 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // surface vertex of its first corner, or invalid
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // primitive of the same corner
+    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // at the mesh vertex's first corner; or invalid
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // primitive of the mesh vertex's first corner
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
@@ -37,8 +37,8 @@ struct Component {
     std::size_t faces = 0;      // number of remaining faces
     // Number of vertices with a good or poor collapse, according to the tests made so far.
     std::size_t harmless = 0;
-    bool spent = false;     // `harmless` has been 0 once
-    bool standsIn = false;  // it replaces removed components
+    bool spent = false;     // true since `harmless` first reached 0
+    bool standsIn = false;  // the component replaces removed components
     bool removed = false;
 };
 
@@ -54,7 +54,7 @@ struct Simplifier {
     CollapseQueue queue;
     bool queued = false;  // `queue` is in use
     std::size_t liveFaces = 0;
-    // Initial number of faces. `lost` receives the removed fraction of it in steps of 0.01.
+    // Initial number of faces. `lost` receives the removed fraction of these faces in steps of 0.01.
     std::size_t firstFaces = 0;
     std::size_t facesAtReport = 0;
     std::function<void(double)> lost;
@@ -75,12 +75,12 @@ struct Simplifier {
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// setup.cpp: builds the manifold of the mesh and its quadrics, without candidates. If all triangles are degenerate, the
-// mesh stays empty.
+// Builds the manifold of the mesh and its quadrics, without candidates (setup.cpp). If all triangles are degenerate,
+// Simplifier::mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// collapse.cpp: judges the effect of a collapse on the surrounding faces and their wedges. Ignores the topology.
+// Judges the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
 // Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
 // only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
@@ -93,15 +93,15 @@ VertexHandle survivorOf(Simplifier& s, VertexHandle v);
 // Removes deleted elements from the mesh, renumbers the others in the same order, and frees the memory.
 void compact(Simplifier& s);
 
-// components.cpp: returns whether shared vertices connect all faces. Vertices that share only a position do not
+// Returns whether shared vertices connect all faces (components.cpp). Vertices that share only a position do not
 // connect.
 bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
 // simplify these further.
 bool manyAreSmallest(const Simplifier& s);
-// Finds the components of the remaining mesh. Later calls have no effect.
+// Finds the components of the remaining mesh. Further calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Records that the vertex's component has no good or poor collapse left.
+// Marks the vertex's component as spent: it has no good or poor collapse left.
 void spend(Simplifier& s, VertexHandle v);
 // Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
@@ -120,17 +120,17 @@ Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 // A copy of a level, which other threads measure and fit while collapses continue.
 struct Snapshot {
     TriangleSet<MeshVertexNumber> drawn;
-    Numbered<TriangleCorner, VertexHandle> corners;       // the same triangles, with vertices of the level's surface
+    Numbered<TriangleCorner, VertexHandle> corners;       // vertices of the level's surface at the corners of `drawn`
     Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
     std::vector<MeshVertexNumber> behind;               // vertices of `drawn` whose corners are all on the back; sorted
     std::vector<Ball> removed;                          // see SimplifiedLevel::removed
     Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // see LevelMesh::growthsOf; empty if there are none
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // see LevelMesh::growthsOf; empty if nothing grows
 };
 
-// snapshot.cpp: copies the level. compact() must have been called.
+// Copies the current level (snapshot.cpp). compact() must have been called.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
 // Makes a level from its copy `picture`. Anchors are computed only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);

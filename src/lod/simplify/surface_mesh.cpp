@@ -7,7 +7,7 @@ namespace defocus::engine {
 namespace {
 
 // Connects the half-edges without faces to loops along borders. Each border vertex has exactly one outgoing half-edge
-// without a face, because its faces form a single fan. It becomes the halfedge_handle of the vertex.
+// without a face, because its faces form a single fan. This half-edge becomes the halfedge_handle of the vertex.
 void linkBorders(SurfaceMesh& mesh) {
     const auto count = static_cast<int>(mesh.n_halfedges());
     for (int h = 0; h < count; ++h)
@@ -18,7 +18,8 @@ void linkBorders(SurfaceMesh& mesh) {
             mesh.set_next_halfedge_handle(border, mesh.halfedge_handle(mesh.to_vertex_handle(border)));
 }
 
-// Numbers the elements for which isKept is true, in their order; the others become invalid. Returns their number.
+// Numbers the elements for which isKept is true, in their order; the others become invalid. Returns the number of kept
+// elements.
 template <typename Handle, typename IsKept>
 std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const IsKept& isKept) {
     numbers.assign(count, Handle());

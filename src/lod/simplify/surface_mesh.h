@@ -3,8 +3,9 @@
 // and face. Only this header includes OpenMesh; other files use the names below.
 //
 // Faces are oriented consistently with their neighbours. A half-edge also represents the corner of its face at the
-// vertex where it starts. At a border, the half-edges on the outside have no face. The halfedge_handle of a border
-// vertex is its outgoing half-edge without a face. Collapses only mark elements as deleted; livingCopy() removes them.
+// vertex where the half-edge starts. At a border, the half-edges on the outside have no face. The halfedge_handle of a
+// border vertex is its outgoing half-edge without a face. Collapses only mark elements as deleted; livingCopy() removes
+// them.
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/CollapseInfoT.hh>
@@ -46,12 +47,12 @@ struct Frame {
 // Class of a collapse. Collapses of a worse class wait until no better one is left; simplify.h defines poor and bad.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
-// The next collapse that removes a vertex.
+// The planned collapse of a vertex, which removes the vertex.
 struct Candidate {
     HalfedgeHandle along;  // from the vertex to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
     Fit fit = Fit::good;    // worst class found by the tests made so far
-    bool outdated = false;  // another collapse is cheaper, or the cost has changed
+    bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }
     [[nodiscard]] bool harmless() const { return possible() && fit < Fit::bad; }

@@ -15,10 +15,10 @@ namespace defocus::engine {
 namespace {
 
 // Max distance in texture space between an anchor and its triangle, relative to the triangle's longest side in texture
-// space. A vertex beyond it belongs to another chart.
+// space. A more distant vertex belongs to another chart.
 constexpr float maxTextureGap = 0.5f;
 
-// Returns whether a gap at a triangle with these corners leads to another chart.
+// Returns whether the displacement `gap` in texture space leads from a triangle with these corners to another chart.
 bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) {
     float longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -20,8 +20,8 @@ glm::dvec3 triangleCross(std::span<const Corner, 3> corners, const At& at) {
     return glm::cross(glm::dvec3(at(corners[1])) - a, glm::dvec3(at(corners[2])) - a);
 }
 
-// Returns (u, v) of the point a + u·(b − a) + v·(c − a) of triangle abc that is closest to `p`. By Voronoi regions,
-// after Ericson 2005, Real-Time Collision Detection, 5.1.5.
+// Returns (u, v) of the point a + u·(b − a) + v·(c − a) of triangle abc that is closest to `p`. The method tests the
+// triangle's Voronoi regions (Ericson 2005, Real-Time Collision Detection, 5.1.5).
 inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                      const glm::dvec3& c) {
     const glm::dvec3 ab = b - a;

@@ -1,6 +1,6 @@
 #pragma once
-// Triangle lists as used throughout `lod`: three corners per triangle, sorted by primitive. Also averages over their
-// area.
+// Triangle lists as used throughout `lod`: three corners per triangle, sorted by primitive. Also area-weighted means
+// over triangles.
 
 #include <cmath>
 #include <cstddef>

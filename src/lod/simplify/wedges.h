@@ -19,13 +19,13 @@ namespace defocus::engine {
 
 // Weight of an attribute: the distance, in units of the mesh's longest side, that costs as much as a change of the
 // attribute by 1. Texture coordinates are scaled to surface lengths, so that the error measures how far the texture
-// slides. Chosen by a parameter sweep on the school of fish. Half or twice a weight costs up to 0.5 dB at the same
-// triangle count.
+// slides. The weights come from a parameter sweep on the school of fish. Half or twice a weight costs up to 0.5 dB at
+// the same triangle count.
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// For per-vertex blur, relative to the mesh's range of blur. Four times the colour weight, because a level must show
-// blur where the file has it.
+// Weight of per-vertex blur, relative to the mesh's range of blur. The weight is four times the colour weight, because
+// a level must show blur where the file has blur.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
     // Returns the mesh vertex of the wedge.
     [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
-    // Returns the weighted attributes: normal, colour, blur and uv, without those that the mesh lacks.
+    // Returns the weighted attributes: normal, colour, blur and uv, without attributes that the mesh lacks.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
     }
@@ -56,16 +56,17 @@ public:
     }
     // Returns the squared distance between two wedges in texture space, in units of the frame.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
-    // Returns the dissimilarity of two wedges: the sum of the squared differences of normal, colour, blur (times 4) and
-    // texture coordinates.
+    // Returns the dissimilarity of two wedges: the sum of the squared differences of normal, colour (times 4), blur
+    // (times 4) and texture coordinates.
     [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
 
-    // Adds a face to the quadrics of its three wedges; `places` are its corners. Slivers are ignored, because their
-    // gradients are mostly noise.
+    // Adds a face to the quadrics of its three wedges; `places` are the positions of the corners. Slivers are ignored,
+    // because their gradients are mostly noise.
     void addFace(const WedgeNumber* corners, const glm::dvec3* places);
-    // Returns the cost of replacing the wedge `from` by `to`, at the offset `step`; never negative.
+    // Returns the cost of replacing the wedge `from` by the wedge `to`, whose position differs by `step`; never
+    // negative.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
-    // Moves the contents of the quadric of `from` to the quadric of `to`, at the offset `step`.
+    // Moves the quadric of the wedge `from` into the quadric of the wedge `to`, whose position differs by `step`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
     // Prefetch memory: prefetchStart() for cost() of a survivor, prefetch() for moveQuadric().
     void prefetchStart(WedgeNumber w) const;
@@ -80,7 +81,7 @@ private:
     bool hasColors_ = false;
     bool hasBlurs_ = false;
     bool hasUv_ = false;
-    LargeVector<float> rows_;  // attributeCount_ per wedge
+    LargeVector<float> rows_;  // weighted attributes, attributeCount_ per wedge
     LargeVector<MeshVertexNumber> sources_;
     Quadrics quadrics_ = DenseQuadrics<3>(0);
 };

@@ -16,7 +16,8 @@ namespace {
 
 constexpr float agreeingCosine = 0.99985f;  // 1°
 
-// Hash table with open addressing and linear probing, at most half full. `equal` compares vertices with equal hashes.
+// Gives equal vertices the same id. Uses a hash table with open addressing and linear probing, at most half full.
+// `equal` compares vertices with equal hashes.
 template <typename Vertex, typename Id, typename Equal>
 Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
     const std::size_t size = std::bit_ceil(2 * hashes.size() + 1);
@@ -97,11 +98,12 @@ WeldedVertices weldVertices(const Mesh& mesh) {
 }
 
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions) {
-    // Only vertices that share their position with others are compared; each other vertex is its own leader.
+    // Only vertices that share their position with others are compared; every other vertex is the only member of its
+    // group.
     const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
     VertexGroups groups(normals.size());
     for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;
-    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // vertices at each position, at most 2
+    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // vertex count per position, clamped to 2
     for (const PositionNumber position : at) met[position] = met[position] == 0 ? 1 : 2;
     std::vector<MeshVertexNumber> order;
     for (const MeshVertexNumber v : groups)

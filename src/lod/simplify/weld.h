@@ -1,5 +1,6 @@
 #pragma once
-// Finds equal vertices, vertices at the same position, and groups of these with similar normals.
+// Finds equal vertices, vertices at the same position, and groups of vertices with the same position and similar
+// normals.
 
 #include <glm/vec3.hpp>
 #include <vector>

@@ -10,8 +10,9 @@
 namespace defocus::engine {
 
 // Returns an order of `points` in which entries [g·share, (g + 1)·share) lie near centres[g] on the lens. Both sets are
-// halved recursively across the longer side of the points (Bentley 1975, Multidimensional Binary Search Trees Used for
-// Associative Searching). Points of the same centre keep their order. Needs share ≥ 1 and points = share · centres.
+// halved recursively across the longer side of the points' bounding box (Bentley 1975, Multidimensional Binary Search
+// Trees Used for Associative Searching). Points of the same centre keep their order. Requires share ≥ 1 and
+// points.size() = share · centres.size().
 std::vector<std::uint32_t> evenDivision(std::span<const LensSample> points, std::span<const LensSample> centres,
                                         std::uint32_t share);
 

@@ -16,12 +16,12 @@ namespace defocus::engine {
 
 namespace {
 
-// σ of the blur as a fraction of a disk's diameter, times √N. Disk-shaped cells would have 1/4. The value is 40 %
-// larger to close the gaps between cells.
+// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. Disk-shaped cells would have 1/4. The
+// value is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 4;  // fewer samples do not divide a lens
+constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, images are not blurred
 constexpr std::uint32_t maxPointsOfCell = 16;
-constexpr std::uint32_t maxPoints = 1u << 14;  // over all cells
+constexpr std::uint32_t maxPoints = 1u << 14;  // sum over all cells
 
 std::string reasonForNone(const FramePlan& plan) {
     if (plan.settings.keepAll) return "everything is kept";
@@ -34,8 +34,8 @@ std::string reasonForNone(const FramePlan& plan) {
     return "";
 }
 
-// Mean and covariance of lens points, and the fraction of the unit disk that their light fills. Defaults: the unit
-// disk.
+// Mean and covariance of lens points, and the fraction of the unit disk that their light fills. Defaults: a uniform
+// unit disk.
 struct LensSpread {
     glm::dvec2 mean{0};
     glm::dmat2 covariance{0.25};
@@ -53,8 +53,8 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
     return spread;
 }
 
-// Returns the fraction of the disk that the image's light would fill with uniform density: (Σ w)² / Σ w² over its
-// cells.
+// Returns the fraction of the unit disk that the light of an aperture image would fill at uniform density: (Σ w)² / Σ
+// w² over the light w of the cells, divided by the disk's number of cells.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;
@@ -75,7 +75,7 @@ LensSpread lensSpread(const Lens& lens) {
     const Aperture aperture = makeAperture(lens);
     if (isUniformDisk(aperture)) return {};
     LensSpread spread = spreadOf(lensSamples(lens, Sequence::sobol, 0, 4096, 0));
-    // Area of an ellipse with this covariance, without a ring's hole.
+    // Relative area of a uniform ellipse with this covariance; a ring's hole is subtracted below.
     spread.area = std::min(1.0, 4 * std::sqrt(glm::determinant(spread.covariance)));
     spread.area *= (1 - aperture.obstruction) / (1 + aperture.obstruction);
     if (!aperture.image.rowEnds.empty()) spread.area = std::min(spread.area, filledArea(aperture.image));
@@ -89,9 +89,9 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each sample to the mean of its cell. A cell's points are further points of the sequence, divided evenly among
-// nearby samples. The division runs along two axes, so the means form rows and columns. The axes are rotated, so that
-// the means of adjacent columns interleave across a blurred vertical or horizontal edge.
+// Moves each sample to the mean of its lens cell. A cell consists of further points of the sequence, which are divided
+// evenly among nearby samples. The division runs along two axes, so the means form rows and columns. The axes are
+// rotated, so that the means of adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -118,7 +118,8 @@ glm::dmat2 root(const glm::dmat2& m) {
     return {a, b, 0, std::sqrt(std::max(m[1][1] - b * b, 1e-12))};
 }
 
-// Returns the samples transformed to the lens's mean, and to its covariance minus `variance` along each axis.
+// Returns the lens points of `samples`, transformed so that their mean is the lens's mean, and their covariance is the
+// lens's covariance minus `variance` along each axis.
 std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const LensSpread& lens, double variance) {
     glm::dmat2 wanted = lens.covariance;
     for (glm::length_t axis = 0; axis < 2; ++axis) wanted[axis][axis] -= std::min(variance, 0.75 * wanted[axis][axis]);
@@ -136,7 +137,7 @@ double varianceOf(double blur, double coc) {
     return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
-// Returns the number of classes for a blur of up to `coc` px.
+// Returns the number of variance classes that CoC diameters up to `coc` px need.
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);
     int classes = variance > 0 ? 1 : 0;
@@ -168,7 +169,7 @@ LensCells lensCells(const FramePlan& plan) {
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
     moveToMeans(samples, plan);
-    // A lens point at (1, 0) moves the image by c/2 px.
+    // The lens point (1, 0) moves the image by c/2 px, so a blur of σ = blur·c px has a σ of 2·blur on the lens.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

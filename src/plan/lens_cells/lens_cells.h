@@ -1,5 +1,5 @@
 #pragma once
-// Lens cells: pieces of the lens that are represented by one lens sample each (method "multirate").
+// Lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's middle, blurred slightly. The blur kernel is the lens's shape, √N times smaller. Summing pinhole
@@ -25,34 +25,34 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // classes on each side of the focus; σ is limited by the last class
-// Returns the variance of class k ≥ 0 along an axis in px²: 4^k/3 + 1/6. The image of a class consists of tent-weighted
-// means over squares of 2^k px, interpolated linearly between their centres.
+inline constexpr int maxCellClasses = 5;  // classes in front of the focus, and behind it; the last class limits σ
+// Returns the blur variance of class k ≥ 0 along an axis in px²: 4^k/3 + 1/6. The image of a class consists of
+// tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // px², subtracted from every variance: hidden by a pixel's own width
+inline constexpr double minCellVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
 
 struct LensCells {
     double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
-    std::uint32_t firstSample = 0;   // LensSample::index of the first sample
-    std::vector<glm::vec2> middles;  // lens points at the middles of the cells, like LensSample::lens
-    glm::dvec2 pixelShift{0};        // px, added to pixel offsets so that their mean is the pixel's centre
-    // Number of classes used in front of and behind the focus. Both are 0 if the samples leave no gaps. Then only the
-    // middles of the cells are used, which avoids popping.
+    std::uint32_t firstSample = 0;   // LensSample::index of the first cell's sample
+    std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
+    glm::dvec2 pixelShift{0};        // px, added to LensSample::pixel so that the mean offset is 0
+    // Number of variance classes in front of and behind the focus. Both are 0 if the samples leave no visible gaps.
+    // Samples still move to the middles of the cells then, which avoids popping.
     int inFront = 0;
     int behind = 0;
-    std::string reason;  // reason why images are not blurred; empty if they are
+    std::string reason;  // reason why images are not blurred; empty if images are blurred
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
 // Returns the cells of the samples that were planned together. A frame that grows block by block has separate cells in
-// each block. Their blur is that of all samples up to the end of the block.
+// each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// Moves the plan's samples to the middles of their cells and adds the pixel shift. Does nothing if images are not blurred.
+// Moves the plan's samples to the middles of their cells and adds the pixel shift. Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
-// Returns the pixel resolution along an axis that an image blurred by `coc` px needs, as a share of full resolution.
-// One pixel replaces a square of a class with that variance. Returns 1 if images are not blurred.
+// Returns the resolution along an axis that the image of a sample needs at a CoC of `coc` px, as a fraction of full
+// resolution. The fraction is 2^−k at the variance of class k, and 1 if images are not blurred.
 double pixelRate(const LensCells& cells, double coc);
 
 }  // namespace defocus::engine

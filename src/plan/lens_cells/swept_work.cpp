@@ -12,13 +12,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Rectangle in normalised device coordinates.
+// Bounding rectangle in normalised device coordinates.
 struct SweptBounds {
     glm::dvec2 min{1e30};
     glm::dvec2 max{-1e30};
 };
 
-// Sums over pixel rectangles. Each rectangle adds values at its corners; a prefix sum over rows and columns fills it.
+// Image that sums values over pixel rectangles. add() changes four corners; image() fills the rectangles by prefix sums
+// over rows and columns.
 class RectangleSums {
 public:
     RectangleSums(int width, int height)
@@ -107,7 +108,8 @@ public:
     }
 
 private:
-    // Moving objects and lenses with aberrations are treated as front-facing.
+    // Returns true if the triangle faces away from the entire lens; always false for moving objects and lenses with
+    // aberrations.
     [[nodiscard]] bool facesAway(const std::uint32_t* indices) const {
         if (moments_.size() > 1 || plan_->coc.aberrates()) return false;
         LensTriangle triangle;

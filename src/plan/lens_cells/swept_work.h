@@ -10,14 +10,14 @@ namespace defocus::engine {
 
 // Returns a one-channel image: triangles per pixel. A triangle counts in all pixels that its bounding rectangle
 // overlaps, over all lens points and times. A triangle that reaches the near plane counts in all pixels. A triangle
-// that faces away from the entire lens counts in none. A level that only some samples draw counts with the fraction of
-// those samples.
+// that faces away from the entire lens counts in none. A level that only some samples draw is weighted by the fraction
+// of these samples.
 Image sweptWork(const FramePlan& plan, const World& world);
 
 // Number of triangles per pixel at which the colour map saturates.
 inline constexpr float maxShownSweptWork = 16383;
 
-// Returns the work as colours for display: black for empty pixels, then brighter with the logarithm (magma).
+// Returns the work in the magma colour map on a logarithmic scale; pixels without work are black.
 Image sweptWorkColourMap(const Image& work);
 
 }  // namespace defocus::engine

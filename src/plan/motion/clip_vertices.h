@@ -9,8 +9,8 @@
 namespace defocus::engine {
 
 struct ClipVertices {
-    std::vector<glm::dvec3> places;  // (x, y, w) of the pinhole image
-    std::vector<double> coc;         // C of each vertex; undefined if w ≤ 0 and the lens has controls
+    std::vector<glm::dvec3> places;  // (x, y, w) in the clip space of the pinhole camera
+    std::vector<double> coc;         // C of each vertex; undefined for w ≤ 0 with artistic controls
 };
 
 // Returns the vertices of a level in `pose`, one of the object's poses; `time` ∈ [0, 1] is the time in the exposure.

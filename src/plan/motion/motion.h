@@ -5,19 +5,19 @@
 
 namespace defocus::engine {
 
-// Throws Error if the shutter's poses and cameras belong to different scenes or moments. Throws Error if there are
-// fewer of them than the samples need.
+// Throws Error if the shutter has different numbers of poses and cameras, poses with different numbers of objects, or
+// fewer moments than the samples need.
 void checkShutter(const World& world, const View& view, const RenderSettings& settings);
 
 // Returns the poses of an object at the moments of the shutter, each in the view space of that moment. The result is
 // empty if the object doesn't move relative to the camera. This is the case if all poses equal `pose` within 1e-9 of
-// the size of its matrices.
+// each matrix's largest element.
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
-// Returns true if the shutter is open for longer than an instant.
+// Returns true if the exposure has a duration.
 bool shutterIsOpen(const World& world, const View& view);
 
-// Fills plan.moments and plan.middleFromView. Both stay empty if no object of the plan moves and no vertex blur
+// Fills plan.moments and plan.middleFromView. Both stay empty if no object or shadow caster moves and no vertex blur
 // changes.
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 

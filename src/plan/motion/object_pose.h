@@ -10,9 +10,10 @@ ObjectPose objectPose(const Object& object, const glm::dmat4& viewFromWorld);
 // Returns true if morph targets change the mesh.
 bool morphs(const ObjectPose& pose);
 
-// Returns a bounding box of the vertices of all levels. With a skin, Σ w_j·M_j·p lies in the convex hull of the points
-// M_j·p. The result is therefore the union of all joints' transformed boxes. With morph targets, p + Σ m_t·d_t lies in
-// the box of p, widened by each target's box times its weight.
+// Returns a bounding box of the vertices of all levels in view space. A skinned vertex Σ w_j·M_j·p with joint weights
+// w_j lies in the convex hull of the points M_j·p. The result is therefore the union of all joints' transformed boxes.
+// A morphed vertex p + Σ m_t·d_t with target weights m_t lies in the box of p, widened by the weighted box of each
+// target.
 Bounds posedBox(const Pyramid& pyramid, const ObjectPose& pose, bool skinned);
 
 // Returns the largest factor by which the pose scales a length.

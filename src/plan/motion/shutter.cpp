@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the time from the frame's time to the opening of its shutter, in s.
+// Returns the time of the shutter's opening, in s relative to the frame's time.
 double openingOffset(const ShutterSettings& shutter) {
     switch (shutter.position) {
         case ShutterPosition::start:
@@ -21,7 +21,7 @@ double openingOffset(const ShutterSettings& shutter) {
     return 0;
 }
 
-// Returns the moments whose poses are needed, as fractions of the exposure.
+// Returns the moments of the exposure at which poses are needed, as fractions of its duration.
 std::vector<double> shutterShares(const ShutterSettings& shutter, const Lens& lens, const RenderSettings& settings) {
     std::vector<double> shares;
     if (const auto* const segments = std::get_if<std::uint32_t>(&shutter.motionSegments)) {

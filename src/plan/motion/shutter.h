@@ -27,10 +27,10 @@ struct ShutterMoment {
     glm::dmat4 worldFromCamera{1.0};
 };
 
-// Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. Its argument is a time in
-// seconds relative to the frame's time. Both stay empty if the exposure has no duration; the cameras also stay empty if
-// the camera doesn't move. With exact motion, the moments are the times of the samples, which follow from `view` and
-// `settings`.
+// Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. The argument of `momentAt` is
+// a time in seconds relative to the frame's time. `opened` and the cameras stay empty if the exposure has no duration;
+// the cameras also stay empty if the camera doesn't move. With exact motion, the moments are the times of the samples,
+// which follow from `view` and `settings`.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int middlePoints = 9;  // test points per side, over the image's central third
+constexpr int middlePoints = 9;  // test points along each side of the image's central third
 
 // Returns the lens focused at infinity, where focus breathing doesn't change the field of view.
 Lens unfocused(const Lens& lens) {
@@ -56,7 +56,7 @@ glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view
     return *point;
 }
 
-// With focus breathing the pixel's ray depends on the focus distance; a few iterations converge.
+// With focus breathing the pixel's ray depends on the focus distance, which a few iterations find.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who) {
     Lens lens = unfocused(view.lens);
     const int rounds = lens.focusBreathing ? 4 : 1;

@@ -15,8 +15,8 @@ namespace defocus::engine {
 // Returns the depth of the node's centre. Throws Error if the node doesn't exist or lies behind the camera.
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who);
 
-// Returns the nearest surface point in view space for each place in the image; none where the place shows no surface.
-// Places are in px from the top left corner. `lens` gives the field of view.
+// Returns the nearest surface point, in view space, at each image position in `places`; nullopt where no surface is
+// visible. Positions are in px from the top left corner. `lens` gives the field of view.
 std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose& pose, const View& view,
                                                   const Lens& lens, const std::vector<glm::dvec2>& places);
 
@@ -29,9 +29,10 @@ glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view
 // surfaceAtPixel.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who);
 
-// Returns the median depth of the surfaces in the central third of the image; none if it shows no surface.
+// Returns the median depth of the surfaces in the central third of the image; nullopt if no surface is visible there.
 std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const View& view);
-// Returns the same depth, but throws Error if the central third shows no surface.
+// Returns the median depth of the surfaces in the central third of the image. Throws Error if no surface is visible
+// there.
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who);
 
 }  // namespace defocus::engine

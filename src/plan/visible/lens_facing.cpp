@@ -8,7 +8,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns det and (Nx, Ny), trilinear in three triangles (the polar form). It yields the Bernstein coefficients.
+// Returns (Nx, Ny, det) as a trilinear function of three triangles: the polar form (blossom), whose values are the
+// Bernstein coefficients over time.
 glm::dvec3 blossom(const LensTriangle& a, const LensTriangle& b, const LensTriangle& c) {
     glm::dvec3 result(0);
     for (std::size_t i = 0; i < 3; ++i) {

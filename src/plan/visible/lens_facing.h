@@ -1,7 +1,7 @@
 #pragma once
-// Tests whether a triangle faces away from the entire lens, for any C of its vertices and during motion. Source:
-// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A. The
-// determinant has the opposite sign here: it is positive if the front shows.
+// Tests whether a triangle faces away from the entire lens, for any circles of confusion C of its corners and during
+// motion. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization,
+// Appendix A. The determinant has the opposite sign here: it is positive if the front shows.
 //
 // After the shear p + C·(u, k·v, 0), the determinant of the corners (x, y, w) is
 //   det + u·Nx + k·v·Ny,   N = Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
@@ -16,14 +16,15 @@
 namespace defocus::engine {
 
 struct LensTriangle {
-    std::array<glm::dvec3, 3> places;  // (x, y, w) of the pinhole image
-    std::array<double, 3> coc{};       // C of the corners
+    std::array<glm::dvec3, 3> places;  // (x, y, w) in the clip space of the pinhole camera
+    std::array<double, 3> coc{};       // circle of confusion C of each corner
 };
 
-// Returns the largest determinant over the lens.
+// Returns the largest determinant over all lens points in the disk of `radius`. The triangle faces away from all of
+// them if the result is ≤ 0.
 double largestDeterminant(const LensTriangle& triangle, double aspect, double radius = 1);
 
-// Returns an upper bound of the determinant over the lens while the triangle moves linearly from `from` to `to`.
+// Returns an upper bound of the determinant over all lens points while the triangle moves linearly from `from` to `to`.
 double largestDeterminant(const LensTriangle& from, const LensTriangle& to, double aspect, double radius = 1);
 
 // Returns the triangle interpolated linearly between `from` (share 0) and `to` (share 1).

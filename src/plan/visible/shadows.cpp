@@ -19,12 +19,12 @@ namespace {
 
 constexpr int minMapSize = 128;  // px
 constexpr int maxMapSize = 2048;
-constexpr double minShare = 0.01;           // min fraction of all light for a light that casts shadows
-constexpr double widestTangent = 3;         // tan of half a map's field of view, max
-constexpr double levelErrorTexels = 0.5;    // max error of a caster's level, in texels
-constexpr std::size_t maxBoxes = 64;        // max number of individual boxes that bound the casters
-constexpr double nearShare = 1e-4;          // near plane of lights inside the scene, relative to its size
-constexpr std::uint32_t smoothPoints = 64;  // points on a light at which penumbra steps are hardly visible
+constexpr double minShare = 0.01;           // lights below this fraction of all light cast no shadow
+constexpr double widestTangent = 3;         // max tan of half a map's field of view
+constexpr double levelErrorTexels = 0.5;    // texels, max simplification error of a caster
+constexpr std::size_t maxBoxes = 64;        // with more casters, a single box bounds them all
+constexpr double nearShare = 1e-4;          // near plane of point and spot lights, relative to the scene's size
+constexpr std::uint32_t smoothPoints = 64;  // points on a light that hide the steps of a penumbra
 
 const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
 
@@ -59,8 +59,7 @@ Bounds boundsOfCorners(const std::vector<glm::dvec3>& corners) {
     return bounds;
 }
 
-// ---- selection of lights and casters
-// ------------------------------------------------------------------------------------------------
+// ---- selection of lights and casters --------------------------------------------------------------------------------
 
 // Returns the bounding box of the object over all moments, in the view space of the middle of the exposure.
 Bounds casterBox(const World& world, const FramePlan& plan, const ObjectPlan& object) {
@@ -76,15 +75,16 @@ bool finite(const Bounds& box) {
     return !box.empty() && isFinite(glm::vec3(box.minimum)) && isFinite(glm::vec3(box.maximum));
 }
 
-// Returns the coarsest level whose error is at most `error` m.
+// Returns the coarsest level whose simplification error is at most `error` m. `scale` is metres per unit of object
+// space.
 std::uint32_t casterLevel(const Pyramid& pyramid, double scale, double error) {
     std::uint32_t level = 0;
     while (level + 1 < pyramid.levels.size() && pyramid.levels[level + 1].error * scale <= error) ++level;
     return level;
 }
 
-// Returns the illuminance (lux, as luminance over the colours) at the middle of the casters. `radius` (m) is their
-// bounding radius and the min distance.
+// Returns the illuminance by a light, in lux, weighted over colours by luminance. `middle` is the centre of the
+// casters. Their bounding radius `radius` (m) is the min distance.
 double strength(const PlacedLight& placed, const glm::dvec3& middle, double radius) {
     const double brightness = placed.light.intensity * glm::dot(glm::dvec3(placed.light.color), luminanceWeights);
     if (placed.light.type == LightType::directional) return brightness;
@@ -92,7 +92,7 @@ double strength(const PlacedLight& placed, const glm::dvec3& middle, double radi
     return brightness / (distance * distance);
 }
 
-// Returns true if one map can contain everything that a local light can illuminate.
+// Returns true if a single shadow map can contain everything that a point or spot light illuminates.
 bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const std::vector<glm::dvec3>& corners) {
     if (placed.light.type == LightType::spot &&
         std::tan(std::min(1.5, double{placed.light.outerConeAngle})) <= widestTangent)
@@ -159,10 +159,10 @@ std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, maxPointsPerSample(maps)));
 }
 
-// ---- projections
-// -------------------------------------------------------------------------------------------------------
+// ---- projections ----------------------------------------------------------------------------------------------------
 
-// Returns the corners of the visible volume, up to the farthest object. Shadows outside it are never visible.
+// Returns the corners of the volume that the lens samples see, up to the farthest object. Shadows outside this volume
+// are invisible.
 std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
     double farthest = plan.view.nearPlane;
     double widening = 0;  // widening of the frustum by the blur, as a fraction of the image's half width
@@ -192,8 +192,8 @@ glm::dvec2 texelShift(const LensSample& sample, std::uint32_t point) {
     return glm::fract(at);
 }
 
-// Sets the x and y rows of the projection to `area`, which spans `size` texels; one texel is reserved for the shift.
-// `axes` are the coordinate axes of `area`.
+// Sets the projection's rows for x and y, so that `area` fills a map of `size` texels. A border leaves room for the
+// subpixel `shift`. `axes` are the coordinate axes of `area`.
 void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& origin, Rectangle area, int size,
              const glm::dvec2& shift, double smallest) {
     const glm::dvec2 extent = glm::max(area.max - area.min, glm::dvec2(smallest));
@@ -241,8 +241,8 @@ glm::dvec3 faceDirection(int face) {
     return direction;
 }
 
-// Returns the bounds of `corners` projected to the plane at distance 1 from the light; none if a corner lies beside or
-// behind the light.
+// Returns the bounds of `corners`, projected to the plane at distance 1 from the light; nullopt if a corner's depth
+// from the light is at most `nearest`.
 std::optional<Rectangle> inFront(const Axes& axes, const glm::dvec3& origin, const std::vector<glm::dvec3>& corners,
                                  double nearest) {
     Rectangle area;
@@ -289,8 +289,8 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     return projection;
 }
 
-// Returns a point on the light. The points of one sample are consecutive in the sequence. The points of all samples
-// together are therefore evenly distributed.
+// Returns the position in [0, 1)² of a sample's `point` on the lights. The points of one sample are consecutive in the
+// sequence. The points of all samples together are therefore evenly distributed.
 glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint32_t point) {
     if (plan.shadows.points == 1) return glm::dvec2(sample.light);
     const std::uint64_t index = std::uint64_t{sample.index} * plan.shadows.points + point;
@@ -312,8 +312,7 @@ glm::dvec2 diskPoint(const glm::dvec2& point) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// ---- surroundings
-// ------------------------------------------------------------------------------------------------------
+// ---- surroundings ---------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -326,8 +325,8 @@ glm::dvec3 gridDirection(double u, double v) {
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-// Returns the mean radiance over a grid cell: of the map's pixels in the cell, or of one pixel if cells are smaller
-// than pixels.
+// Returns the mean radiance of the environment map's pixels in a grid cell, or the radiance of one pixel if cells are
+// smaller than pixels.
 glm::dvec3 meanRadiance(const Image& map, int column, int row) {
     const auto pixel = [&](int x, int y) {
         const float* value = map.at(std::min(x, map.width - 1), std::min(y, map.height - 1));
@@ -352,8 +351,8 @@ glm::dvec3 cellRadiance(const Environment& environment, int column, int row) {
     return glm::mix(glm::dvec3(environment.horizon), pole, std::abs(height));
 }
 
-// Inverts cumulative sums: returns the interval that contains `place` (a fraction of the last sum) and the position in
-// it.
+// Inverts cumulative sums. Returns the index of the interval that contains `place`, a fraction of the last sum, and the
+// position [0, 1] inside the interval.
 std::pair<std::size_t, double> inverted(std::span<const double> sums, double place) {
     const double target = place * sums.back();
     const auto found = std::ranges::upper_bound(sums, target);
@@ -387,7 +386,7 @@ EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point)
     const auto [row, down] = inverted(rowSums_, point.y);
     const auto cells = std::span(cellSums_).subspan(row * gridColumns, gridColumns);
     const auto [column, across] = inverted(cells, point.x);
-    // Uniform height within a cell covers its solid angle evenly.
+    // Points at uniform heights on the unit sphere cover the cell's solid angle uniformly.
     const double top = std::cos(std::numbers::pi * static_cast<double>(row) / gridRows);
     const double bottom = std::cos(std::numbers::pi * (static_cast<double>(row) + 1) / gridRows);
     const double polar = std::acos(std::clamp(glm::mix(top, bottom, down), -1.0, 1.0));
@@ -397,11 +396,10 @@ EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point)
             luminance > 0 ? radiance * (rowSums_.back() / luminance) : glm::dvec3(0)};
 }
 
-// ---- plan and projections
-// ----------------------------------------------------------------------------------------------
+// ---- plan and projections -------------------------------------------------------------------------------------------
 
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
-    // Bounding boxes of all shadow casters.
+    // Collect all shadow casters and their bounding boxes.
     ShadowPlan shadows;
     const glm::dmat4 fromView{glm::dmat3(plan.view.worldFromCamera)};
     std::vector<Bounds> boxes;
@@ -431,8 +429,8 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     shadows.points = pointsFor(plan.settings, shadows.maps.size());
     shadows.seen = seenCorners(plan);
 
-    // The map has as many texels across the scene as the image has pixels. Casters use levels whose error stays below a
-    // texel.
+    // The map has as many texels across the scene as the image has pixels. Casters use levels whose error is at most
+    // levelErrorTexels.
     shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), minMapSize, maxMapSize);
     const double texel = glm::length(boundsOfCorners(shadows.corners).size()) / shadows.size;
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());

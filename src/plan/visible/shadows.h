@@ -16,12 +16,12 @@
 namespace defocus::engine {
 
 inline constexpr int surroundings = -1;  // value of ShadowMap::light for the environment
-// Maximum number of shadow maps per sample. Weaker lights beyond it cast no shadow. If maps are left and there are few
-// samples, each light has several points.
+// Max number of shadow maps per sample. The weakest lights beyond this number cast no shadow. In frames with few
+// samples, spare maps give each light several points.
 inline constexpr std::size_t maxShadowMaps = 8;
 
-// Importance sampling of directions to the environment. Brighter cells of an equirectangular grid are chosen more
-// often.
+// Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
+// their light.
 class EnvironmentDirections {
 public:
     EnvironmentDirections() = default;
@@ -29,33 +29,33 @@ public:
 
     struct Choice {
         glm::dvec3 toLight{0, 1, 0};  // unit vector
-        glm::dvec3 radiance{0.0};     // radiance divided by its probability density, W/m²
+        glm::dvec3 radiance{0.0};     // radiance over the direction's probability density, W/m²
     };
-    // Returns the direction for `point` ∈ [0, 1)².
+    // Maps `point` ∈ [0, 1)² to a direction.
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
 
 private:
     std::vector<glm::dvec3> radiances_;
     std::vector<double> rowSums_;   // cumulative luminance times solid angle, from the top row down
-    std::vector<double> cellSums_;  // cumulative sums within each row
+    std::vector<double> cellSums_;  // cumulative luminance times solid angle within each row
 };
 
 // Projection of a shadow map. Positions are in metres from the camera along the world's axes.
 struct ShadowProjection {
     std::array<glm::vec4, 4>
-        clipRows{};            // clip space from (x, y, z, 1), reversed depth; w is 1, or metres from the light
+        clipRows{};            // matrix rows to clip space, reversed depth; w is 1 for parallel light, else depth in m
     glm::vec3 toLight{0.0f};   // unit vector to the light, for directional lights
     float texel = 0;           // m per texel at w = 1
     glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance over π, for the surroundings
 };
 
-// Returns the number of points on each light that keeps a sample within maxShadowMaps. `maps` is the number of maps
-// with one point per light.
+// Returns the max number of points on each light for which a sample needs at most maxShadowMaps maps. `maps` is the
+// number of maps for one point per light.
 std::uint32_t maxPointsPerSample(std::size_t maps);
 
-// Chooses lights, points, map size and casters. `objects` are all objects of the world in the plan's pose, drawn or
-// not.
+// Chooses the lights that cast shadows, the points on each light, the map size and the casters. `objects` are all
+// objects of the world in the plan's pose, including objects outside the image.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
 
 // Returns the projections of all maps, ordered by sample, then by point (plan.shadows.points per sample), then by map.

@@ -1,10 +1,10 @@
 #pragma once
 // Parts of the image, for frames that exceed memory or that several machines share.
 //
-// A tile is bit-identical to the same pixels of the whole image. It is drawn with the whole image's viewport, so window
-// coordinates and their rounding in the rasterizer stay the same. Only the tile's pixels are kept and summed. Window
-// coordinates and layers have a maximum size. Images larger than maxCellPixels therefore consist of cells with separate
-// window coordinates. Cells depend only on the image's size, so tiles of any size give the same bits.
+// A tile is bit-identical to the same pixels of the entire image. Tiles are drawn with the entire image's viewport, so
+// window coordinates and their rounding in the rasterizer stay the same. Only the tile's pixels are kept and summed.
+// Window coordinates and layers have a maximum size. Images larger than maxCellPixels therefore consist of cells with
+// separate window coordinates. Cells depend only on the image's size, so tiles of any size give the same bits.
 
 #include <vector>
 
@@ -43,8 +43,8 @@ struct RowRange {
 // Returns part `index` (0 … count − 1) of `count` nearly equal parts of the image's rows. `count` is at most `height`.
 RowRange rowsOfPart(int height, int index, int count);
 
-// Returns the plan of the tile alone. It omits objects that no lens sample shows there, unless a transmissive object
-// may show them. Levels, lens samples and everything else stay those of the whole frame.
+// Returns the plan of a tile. Objects that no lens sample shows in the tile are left out, unless the frame has
+// transmissive objects. Levels, lens samples and everything else are the same as in the entire frame.
 FramePlan tileOf(const FramePlan& plan, const Tile& tile);
 
 }  // namespace defocus::engine

@@ -19,43 +19,43 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double snapping = 1.0 / 128;      // px, max loss of a triangle's altitude with 8 subpixel bits
-constexpr double transformation = 0x1p-21;  // relative to a position's terms: single-precision error of their sum
+constexpr double snapping = 1.0 / 128;      // px, max change of a triangle's altitude by rounding to 8 subpixel bits
+constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
-constexpr int shutterParts = 4;             // parts of the way between two moments; each has its own motion bound
+constexpr int shutterParts = 4;             // parts of the time between two moments; each has its own motion bound
 constexpr std::size_t maxMoments = 64;      // max shutter moments for culling; with more, all clusters are drawn
-constexpr std::size_t maxPosedVertices = 100'000;  // per level, over all moments; this many take about 10 ms
+constexpr std::size_t maxPosedVertices = 100'000;  // per level, over all moments; posing these takes about 10 ms
 constexpr double minSaving = 1.0 / 8;              // fraction of a level's triangles; if less is culled, all are drawn
-constexpr std::uint32_t minGap = 128;              // triangles; culling fewer costs more than another index range
+constexpr std::uint32_t minGap = 128;              // triangles; drawing fewer costs less than another index range
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
-    glm::dvec3 eye{0};             // centre of the lens in the middle of the part
-    glm::dmat3 viewFromNormal{1};  // inverse transpose of the matrix
-    double inverseSize = 0;        // upper bound of the norm of the inverse matrix
-    double motion = 0;             // max distance of any lens point from its position in the middle of the part
+    glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
+    glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
+    double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
+    double motion = 0;             // max distance of any lens point from its position in the middle
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
     std::vector<glm::dmat4> viewFromObject;  // at the shutter's moments, and in the middle of the exposure
-    std::vector<LensRange> lenses;           // empty: facing is not tested, and all clusters may face the lens
+    std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
     double lensRadius = 0;                   // m, radius of the disk that bounds the lens
-    double shapeLoss = 1;      // max shrinking of a triangle's altitude in px by a tilted focus plane's shear
-    double minVolume = 0;      // m³, min volume of a unit cube of object space
-    double largestSize = 0;    // upper bound of the matrices' norms
-    double largestOffset = 0;  // m, max distance of the object's origin from the camera
-    OwnBlur own;               // bounds of the blur modifiers of the object's surfaces
+    double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
+    double minVolume = 0;                    // m³, min view-space volume of a unit cube of object space
+    double largestSize = 0;                  // upper bound of the matrices' norms
+    double largestOffset = 0;                // m, max distance of the object's origin from the camera
+    OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces
 };
 
 double frobeniusNorm(const glm::dmat3& m) {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
 
-// Returns bounds of the lens in object space while the matrix moves linearly from `from` to `to`. A point e of the lens
-// lies at x = A⁻¹(e − T). With τ the offset from the middle, x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns none
-// if the matrix may become singular or mirrored.
+// Returns bounds of the lens in object space while the object's matrix, A with translation T, moves linearly from
+// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I +
+// τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt if the matrix may become singular or mirrored.
 std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
     const glm::dmat4 middle = 0.5 * (from + to);
     const glm::dmat3 matrix(middle);
@@ -126,7 +126,7 @@ ObjectViews objectViews(const ObjectPlan& object, const World& world, const Fram
     return views;
 }
 
-// Returns a view-space box around the cluster's bounding sphere at all times.
+// Returns a view-space box around the cluster's bounding sphere over all times of the exposure.
 Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
     Bounds box;
     for (const glm::dmat4& matrix : views.viewFromObject) {
@@ -142,8 +142,8 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
 
 // Returns how far the lens must lie behind a plane, in object units, so that rounding flips no triangle of the cluster.
 // A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². f is the number of px
-// per unit at distance 1, and h the lens's distance from the triangle's plane. Its edges are at most
-// f·L·‖A‖·distance/w² long. Returns infinity if rounding may flip a triangle at any distance.
+// per unit at distance 1, and h the lens's distance from the triangle's plane. The triangle's edges are at most
+// f·L·‖A‖·distance/w² px long. Returns infinity if rounding may flip a triangle at any distance.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
@@ -167,14 +167,14 @@ bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius,
     const double across = glm::length(glm::cross(toCentre, axis));
     const double size = glm::length(toCentre);
     // n·toCentre is minimal for the normal n in the cone that points farthest away from toCentre. If the cone contains
-    // the opposite of toCentre, the min is −|toCentre|.
+    // the direction −toCentre, the min is −|toCentre|.
     const bool holdsOpposite = across * cosine + along * sine < 0;
     const double nearest = holdsOpposite ? -size : along * cosine - across * sine;
     const double disk = lensRadius * (glm::length(glm::dvec2(lens.viewFromNormal * axis)) + sine * lens.inverseSize);
     return nearest + cluster.planes - disk - lens.motion >= margin + storage * size;
 }
 
-// Returns true if no triangle in the box is clipped. Clipping adds corners with rounding errors of their own.
+// Returns true if no triangle in the box is clipped. Clipping would add corners with additional rounding errors.
 bool staysWhole(const CocBox& coc, const FramePlan& plan) {
     const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
                                          std::max(1.0, plan.coc.aspect);
@@ -202,13 +202,13 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
 
 // ---- cluster test by triangle corners -------------------------------------------------------------------------------
 
-// Corners of a level at moments of the exposure. They are needed if C is not linear or the vertices deform.
+// Triangle corners of a level at moments of the exposure, for culling if C is not linear or the vertices deform.
 struct LevelCorners {
     std::vector<ClipVertices> moments;  // a single moment: nothing moves
     bool apart = false;                 // true: one moment per sample; false: linear motion between moments
     double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
-    double lensRadius = 1;              // max radius of the samples on the unit disk
-    double sign = 1;                    // −1: mirrored
+    double lensRadius = 1;              // max distance of the lens samples from the lens's centre
+    double sign = 1;                    // −1 for mirrored objects
 };
 
 LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
@@ -226,7 +226,7 @@ LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const W
     for (std::size_t i = 0; i < object.motion.size(); ++i)
         add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
                                             : static_cast<double>(i) / static_cast<double>(last));
-    // A skin sums matrices. Each term is as large as the resulting position or the distance of the joint.
+    // A skin sums weighted matrices. Each term can be as large as the vertex's distance plus the joint's distance.
     const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
     corners.terms = 2 * (corners.terms + farthest);
     corners.lensRadius = lensReach(plan);
@@ -234,7 +234,7 @@ LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const W
     return corners;
 }
 
-// Returns true if the corners of a level are tested to cull its clusters. The level's triangles must be drawn
+// Returns true if the clusters of a level are culled by testing triangle corners. The level's triangles must be drawn
 // undivided. Large levels are excluded, because the test would take longer than it saves.
 bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
     const bool bends = object.deformed || object.skinned;
@@ -263,8 +263,8 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
 }
 
 // Returns the margin by which the determinant must be below 0, so that rounded corners can't flip the triangle. Twice
-// the triangle's area in px² is W·H/4·det/(w₀w₁w₂). Moving the corners by r px changes it by at most 2r·(sum of two
-// edges) + 8r².
+// the triangle's area in px² is W·H/4·det/(w₀w₁w₂). Moving the corners by r px changes this area by at most 2r·(sum of
+// two edges) + 8r².
 double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
     double min = infinity;
     double max = 0;
@@ -320,8 +320,8 @@ bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners
     return true;
 }
 
-// Returns true if each corner's C is linear between two moments. This holds for the thin lens, because w is linear, and
-// for a C that is one linear function.
+// Returns true if each corner's C is linear in time between two moments. This holds for the thin lens, because w is
+// linear, and for a C that is one linear function.
 bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
     if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
     if (object.blurMoves) return false;
@@ -377,7 +377,7 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;  // triangles since the last range
+    std::uint32_t away_ = 0;  // culled triangles since the last range
     std::uint32_t outside_ = 0;
 };
 
@@ -432,8 +432,8 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
 
 namespace {
 
-// Returns the largest |factor·(a + b·w) + added·w| over all wavelengths. The expression is linear in each parameter, so
-// the ends of the ranges bound it.
+// Returns the largest |C| = |factor·(a + b·w) + added·w| of the thin lens over all wavelengths. C is linear in each
+// parameter, so the ends of the ranges bound it.
 double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
     double reach = 0;
     for (const double factor : {own.factorMin, own.factorMax})

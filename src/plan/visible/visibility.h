@@ -35,18 +35,19 @@
 
 namespace defocus::engine {
 
-// Returns the part of `viewBox` in front of the near plane as the lens sees it. `own` bounds the blur modifiers of its
-// surfaces.
+// Returns the depths and image positions of `viewBox`, which must lie beyond the near plane. `own` bounds the blur
+// modifiers of the surfaces in the box.
 CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
-// Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of its surfaces. `largest`
-// (px) is an upper bound of the CoC in the box.
+// Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of the surfaces in the box.
+// `largest` (px) is an upper bound of their CoC.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
 // Returns true if no lens sample shows any part of the box in `area` of the image.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 
-// Culls clusters: fills object.visible and lowers the triangle counts of its draws.
+// Culls clusters that no lens sample can show. Fills object.visible and reduces the triangle counts of object.coarse
+// and object.fine.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus::engine
