@@ -12,7 +12,7 @@ namespace defocus::engine {
 glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for errors
 glm::vec3 viridis(float t);  // dark blue, green, yellow; for levels and other quantities
 
-// Maps a 1-channel image with values in [0, 1] through magma to linear RGB, for writeImage.
+// Maps a 1-channel image with values in [0, 1] to linear RGB by magma().
 Image colourMapped(const Image& values);
 
 }  // namespace defocus::engine

@@ -35,7 +35,7 @@ Image withoutAlpha(const ImageView& image) {
     return opaque;
 }
 
-// Adds metadata with EXR's types; PNG supports only text.
+// Adds one metadata value to `spec`, as text for PNG and with its EXR type for EXR.
 struct MetadataWriter {
     OIIO::ImageSpec& spec;
     FileKind kind;
