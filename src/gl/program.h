@@ -16,7 +16,7 @@ namespace defocus::engine {
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {
-    std::vector<std::string> shaders;  // paths under shaders/; extension sets the stage: .vert .tesc .tese .geom .frag .comp
+    std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .tesc .tese .geom .frag .comp
     ShaderDefines defines;
     std::filesystem::path overrideFolder;  // empty: embedded shaders only
 };

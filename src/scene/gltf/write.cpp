@@ -1,4 +1,4 @@
-// glTF 2.0 specification: buffers and accessors (3.6), meshes (3.7.2).
+// Source: glTF 2.0 specification, buffers and accessors (3.6) and meshes (3.7.2).
 
 #include "scene/gltf/write.h"
 
@@ -64,7 +64,7 @@ Written chooseTriangles(const Mesh& mesh) {
     return written;
 }
 
-// Returns the normal at unit length, computed in double precision; +y for zero or non-finite normals.
+// Normalises a vector in double precision; returns +y for a zero or non-finite vector.
 glm::vec3 unitNormal(const glm::vec3& normal) {
     const glm::dvec3 wide = normal;
     const double length = glm::length(wide);
@@ -124,7 +124,7 @@ std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices verti
     return attributes;
 }
 
-// Replaces invalid UTF-8, since nlohmann's writer throws on it.
+// Returns `text` with invalid UTF-8 bytes replaced, because nlohmann::json throws when it writes them.
 std::string utf8(const std::string& text) {
     using Json = nlohmann::json;
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
