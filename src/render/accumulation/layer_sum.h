@@ -79,8 +79,8 @@ private:
         Target target[2];
         int current = 0;  // index of the copy with the latest values
     };
-    // Returns the index of the copy of block_ that holds the block's final sum. If `asAdded`, the current copy has no
-    // blur of lens cells yet, and the blur is applied first.
+    // Returns the index of the copy of block_ with the block's sum. If `asAdded`, this is the sum as added to the
+    // frame: with the blur of lens cells, which is first drawn into the other copy.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
     // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.

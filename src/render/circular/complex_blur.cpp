@@ -24,7 +24,7 @@ constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
 constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
 constexpr int maxPublishedInHalf = 3;  // max of published kernels: large weights amplify rounding
-constexpr double outermostTap = 2;     // max tap offset in radii: taps are within radius + 1/2 px, and radii exceed 1/2 px
+constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // taps on each side
 

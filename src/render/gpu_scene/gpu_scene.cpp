@@ -12,7 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// A mesh is far from its origin if its centre's distance exceeds half its extent by this factor.
+// A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
+// side.
 constexpr double farFromOrigin = 4;
 
 template <typename T>

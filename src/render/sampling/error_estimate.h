@@ -1,5 +1,5 @@
 #pragma once
-// Estimates the error of the mean of N lens samples, from means of fewer samples of the same sequence.
+// Estimates the error of the mean of n lens samples from means of fewer samples of the same sequence.
 //
 // Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
 // blocks is not that of one divided by √n. The model is instead that the error of k successive blocks is proportional
@@ -22,27 +22,28 @@
 
 namespace defocus::engine {
 
-// The exponent a of lens samples in an image. Random points have 0.5, straight edges under a well distributed set have
-// 0.75. The mean over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
+// Exponent a for lens samples. It is 0.5 for random points, and 0.75 for straight edges with well distributed points.
+// The mean measured over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
 // (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
-// Returns |M(n) − truth| over |M(n) − M(m)|, as above; 0 < m < n.
+// Returns the ratio of the RMS errors |M(n) − truth| / |M(n) − M(m)| by the equations above; M(k) is the mean of k
+// blocks, 0 < m < n.
 double errorOverDifference(double m, double n, double exponent = lensSampleExponent);
 
-// Returns the RMS difference of two images of equal size, over the same pixels and encoded values as
+// Returns the RMS difference of two images of equal size, over the same pixels and display-encoded values as
 // ErrorEstimate::error.
 double encodedDifference(const ImageView& a, const ImageView& b);
 
 class ErrorEstimate {
 public:
     // Adds the mean of the first `samples` samples of a frame: linear, at least 3 channels (a fourth is ignored).
-    // `samples` must grow from call to call. Uses and keeps at most about a million pixels, one of each k × k tile.
-    // Throws Error if the image size changes.
+    // `samples` must increase from call to call. Uses at most about a million pixels: one of each k × k tile. Throws
+    // Error if the image size changes.
     void add(const ImageView& mean, std::uint32_t samples);
 
-    // Returns the RMS error of the latest image over its pixels and channels, in display-encoded values in [0, 1] at EV
-    // 0. Empty before there are two images.
+    // Returns the RMS error of the latest image over pixels and channels, in display-encoded values in [0, 1] at EV 0;
+    // nullopt for fewer than two images.
     [[nodiscard]] std::optional<double> error() const { return error_; }
     [[nodiscard]] std::uint32_t samples() const { return kept_.empty() ? 0 : kept_.back().samples; }
 
@@ -54,7 +55,7 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count on
+    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count
     std::optional<double> error_;
 };
 
