@@ -204,8 +204,8 @@ class Renderer:
         return json.loads(self._native.plan_json())
 
     def write(self, path: Path, image: Any) -> None:
-        """Writes an image with the metadata of the latest frame. PNG and JPEG files use the exposure and the tone map of
-        the settings."""
+        """Writes an image with the metadata of the latest frame. PNG and JPEG files use the settings' exposure and tone
+        map."""
         self._native.write(path, _pixels(image))
         self._warn()
 
@@ -236,8 +236,8 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
         for image, samples in defocus.progressive("scene.glb", samples=1024):
             ...
 
-    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. Invalid keywords
-    raise in the call; errors in the scene raise in the first step.
+    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. Invalid
+    keywords raise in the call; errors in the scene raise in the first step.
     """
     _request_of(scene, settings)
 

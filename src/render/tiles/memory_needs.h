@@ -37,7 +37,7 @@ TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const D
 TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
                           std::uint64_t limit);
 
-// Returns true only if a frame of this size fits into `limit` bytes without tiles, whatever its plan. `mapsPossible`
+// Returns true only if a frame of this size fits into `limit` bytes without tiles for any plan. `mapsPossible`
 // says whether the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
