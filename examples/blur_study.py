@@ -19,7 +19,7 @@ import numpy
 import defocus
 
 matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how to draw)
+import matplotlib.pyplot as plt  # noqa: E402 (must follow matplotlib.use)
 
 SCENE = Path(sys.argv[1] if len(sys.argv) > 1 else "meshes/chess.glb")
 OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")

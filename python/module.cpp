@@ -50,7 +50,7 @@ defocus::Progress listening(const Listener& listener) {
 
 using Array = py::array_t<float>;
 
-// Returns an array that owns the image's pixels: H×W, or H×W×channels for more than one channel.
+// Returns a NumPy array that owns the image's pixels: H×W for one channel, else H×W×channels.
 Array arrayOf(defocus::Image&& image) {
     auto owner = std::make_unique<defocus::Image>(std::move(image));
     std::vector<py::ssize_t> shape = {owner->height, owner->width};

@@ -1,5 +1,5 @@
 #pragma once
-// Choice of the focus distance of a lens.
+// Choices of a lens's focus distance.
 
 #include <string>
 #include <variant>
@@ -38,7 +38,7 @@ struct FocusPoints {
     bool operator==(const FocusPoints&) const = default;
 };
 
-// Focuses at the median depth of the surfaces in the middle of the image.
+// Focuses at the median depth of the surfaces around the image's centre.
 struct FocusAuto {
     bool operator==(const FocusAuto&) const = default;
 };

@@ -40,7 +40,7 @@ private:
     }
 };
 
-// Distances between neighbouring pixels of an ImageView, counted in floats.
+// Distances in memory between neighbouring pixels of an ImageView, in floats.
 struct ImageStrides {
     std::size_t pixel = 0;  // to the next pixel of the row
     std::size_t row = 0;    // to the same pixel of the next row
@@ -88,11 +88,11 @@ struct Pixel {
     bool operator==(const Pixel&) const = default;
 };
 
-// Curve from linear values to display values, applied before the sRGB encoding.
+// Tone curve that maps linear values to [0, 1] before the sRGB encoding.
 enum class ToneMap {
     none,     // clip to [0, 1]
-    aces,     // ACES filmic, fit by Stephen Hill (RRT and ODT)
-    agx,      // AgX by Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
+    aces,     // ACES filmic curve, Stephen Hill's fit of RRT and ODT
+    agx,      // AgX by Troy Sobotka, base look, Benjamin Wrensch's polynomial fit
     neutral,  // Khronos PBR Neutral: keeps colours up to 0.8, compresses highlights to white
 };
 

@@ -11,7 +11,7 @@ namespace defocus {
 struct LensSettings {
     // Camera.
     std::optional<double> focalLength;         // mm; sets the field of view. Default: that of the camera
-    std::optional<double> fStop;               // f-number, > 0. Default: 2.8
+    std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // mm, sensor width. Default: 36
     std::optional<bool> dofEnabled;            // false: pinhole camera, for any f-number
     std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1, physical
@@ -20,7 +20,7 @@ struct LensSettings {
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
 
     // Aperture.
-    std::optional<int> bladeCount;                   // 3 … 64, or 0 for a disk
+    std::optional<int> bladeCount;                   // 3 … 64; 0: circular aperture
     std::optional<double> bladeRotation;             // degrees
     std::optional<double> bladeCurvature;            // 0: straight blades, 1: a circle
     std::optional<double> anamorphicRatio;           // aperture height / width; > 1: tall ovals
@@ -32,7 +32,7 @@ struct LensSettings {
     std::optional<double> coma;                      // mm on the sensor, tail at left and right edges; > 0: outwards
     std::filesystem::path apertureImage;             // aperture as an image, replaces blades and rings; empty: none
 
-    // Artistic controls of the blur (Munkberg, Toth and Akenine-Möller 2012).
+    // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
     std::optional<double> foregroundLimit;    // px, max blur diameter in front of the focus plane
     std::optional<double> backgroundLimit;    // px, max blur diameter behind the focus plane
     std::optional<double> focusRangeFront;    // m; sharp range in front of the focus distance

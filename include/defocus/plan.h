@@ -25,7 +25,7 @@ struct PlannedDraw {
 
 struct PlannedObject {
     std::string name;
-    double nearestDepth = 0;   // m, of the bounding box
+    double nearestDepth = 0;   // m, min depth of the bounding box
     double farthestDepth = 0;  // m
     // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
     // depth, then min and max over the bounding box. Infinite for a box that extends to the camera.
@@ -34,7 +34,7 @@ struct PlannedObject {
     double smallestCoc = 0;
     double largestCoc = 0;
     double projectedEdge = 0;          // px, mean edge length of level 0, projected at the nearest depth
-    double lambda = 0;                 // fractional level
+    double lambda = 0;                 // fractional level of detail λ
     double pixelRate = 1;              // fraction of the resolution per axis needed with blurred lens cells
     bool blended = false;              // true if it has alpha-blended materials
     bool transmits = false;            // true if it has transmitting materials

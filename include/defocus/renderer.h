@@ -24,7 +24,7 @@ namespace defocus {
 
 // Cost of a frame. Times are wall-clock milliseconds.
 struct RenderStatistics {
-    std::uint32_t samples = 0;                // number of lens samples drawn
+    std::uint32_t samples = 0;                // lens samples drawn
     double loadMilliseconds = 0;              // reading the scene and posing it
     double pyramidMilliseconds = 0;           // building pyramids, or reading them from the cache
     double setupMilliseconds = 0;             // uploads and shader compilation

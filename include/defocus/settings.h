@@ -27,16 +27,16 @@ enum class LodMode {
     fractional,  // some samples draw level ⌊λ⌋, the others level ⌊λ⌋ + 1
     continuous,  // like fractional, but one sample may draw both levels, in different pixels
     nearest,     // all samples draw level round(λ)
-    off,         // full detail
+    off,         // level 0, full detail
 };
 
 // Criterion for the level of an object.
 enum class LodMetric {
     automatic,  // `size` if a blur or size threshold is set, else `measured`
     size,       // target edge length in px, compared with each level's mean edge length
-    error,      // target geometric deviation in px
+    error,      // target deviation of the surface in px
     halving,    // target edge length in px; assumes that each level halves the triangles (Jeong, Kim and Lee 2011)
-    measured,   // target error of the blurred light, relative to the light's variation
+    measured,   // target error of the object's light after the blur, relative to the light's variation
     // Target edge length from the blur only, compared with the edge length projected at the object's centre (Tzeng et
     // al. 2012).
     score,

@@ -51,7 +51,7 @@ class Setting(NamedTuple):
     """Description of a keyword of render() and of all other functions that take settings."""
 
     keyword: str
-    option: str  # on the command line
+    option: str  # command-line option
     group: str
     kind: str  # "number", "integer", "boolean", "text", "path", "choice" or "other"
     form: str  # syntax of the value on the command line: "PX", "X,Y,Z"

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owners of an OpenGL buffer of fixed size and of a vertex array.
+// Move-only owners of OpenGL objects: a buffer of fixed size, and a vertex array.
 
 #include <cstddef>
 #include <span>

@@ -23,7 +23,7 @@ public:
 // Creates a context and makes it current on this thread. Throws Error with the log if no display works.
 std::unique_ptr<GlContext> createHeadlessContext();
 
-// Restores the thread's current EGL context: saves it in the constructor and makes it current again in the destructor.
+// Saves the thread's current EGL context in the constructor and makes it current again in the destructor.
 class CurrentContextKeeper {
 public:
     CurrentContextKeeper();

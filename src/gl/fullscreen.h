@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Vertex shader of full-screen programs.
+// Vertex shader for programs of Fullscreen.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

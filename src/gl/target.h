@@ -1,6 +1,6 @@
 #pragma once
-// Framebuffer over textures that it does not own: colour attachments in order and an optional depth texture. Array
-// textures are attached with all layers; gl_Layer selects one.
+// Framebuffer with attached textures, which it does not own: colour textures in order, and an optional depth texture.
+// Array textures are attached with all layers; gl_Layer selects one.
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only buffer that shaders read as texels (samplerBuffer).
+// Move-only owner of a buffer that shaders read as texels (samplerBuffer).
 
 #include <span>
 

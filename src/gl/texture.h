@@ -25,7 +25,7 @@ struct TextureInfo {
     int width = 1;
     int height = 1;
     int layers = 0;  // 0: 2D texture; ≥ 1: 2D array
-    int levels = 1;  // mipmap levels
+    int levels = 1;  // number of mip levels
 };
 
 struct TexelRectangle {  // origin at the lower left corner

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Both functions map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
+// magma() and viridis() map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
 glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for errors
 glm::vec3 viridis(float t);  // dark blue, green, yellow; for levels and other quantities
 

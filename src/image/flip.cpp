@@ -133,7 +133,7 @@ FloatKernel balanced(const std::vector<double>& weights) {
 
 struct SpatialFilters {
     FloatKernel achromatic, redGreen;
-    std::array<FloatKernel, 2> blueYellow;   // each kernel sums to 1
+    std::array<FloatKernel, 2> blueYellow;   // the filter's two Gaussians; each sums to 1
     std::array<float, 2> blueYellowWeights;  // weights of the two kernels; sum to 1
 };
 
@@ -309,7 +309,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
         raiseToFlip(
             pair, pixelsPerDegree, [](float value) { return std::clamp(value, 0.0f, 1.0f); }, map);
     } else {
-        // Take the maximum over all exposures.
+        // Compute the maximum over all exposures.
         const double step = hdr->exposures > 1 ? (hdr->stopExposure - hdr->startExposure) / (hdr->exposures - 1) : 0.0;
         for (int i = 0; i < hdr->exposures; ++i) {
             const auto gain = static_cast<float>(std::exp2(hdr->startExposure + i * step));

@@ -17,7 +17,7 @@ Image copyOf(const ImageView& view) {
     return image;
 }
 
-// Divides colours by alpha; pixels with alpha 0 become black.
+// Returns an RGBA image with its colours divided by alpha; pixels with alpha 0 become black.
 Image withStraightAlpha(const ImageView& premultiplied) {
     Image image = copyOf(premultiplied);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {

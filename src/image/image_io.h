@@ -50,7 +50,7 @@ struct ImageLayer {
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 
-// Throws Error unless writeImage supports the extension of `path`.
+// Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);
 
 // Decodes a PNG or JPEG in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error messages.

@@ -96,7 +96,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
     if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
 
-    // Keep straight alpha: OpenImageIO would premultiply encoded values.
+    // Read straight alpha: OpenImageIO would premultiply values before they are decoded to linear.
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
@@ -114,7 +114,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     return image;
 }
 
-// Returns the indices of the channels that form grey, RGB or RGBA, in this order.
+// Returns the indices of the file's channels that form grey, RGB or RGBA, in this order.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
         const auto found = std::ranges::find(spec.channelnames, channel);
@@ -132,7 +132,7 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
     return channels;
 }
 
-// Returns the selected channels of all pixels, interleaved.
+// Returns the given channels of all pixels, interleaved.
 template <typename T>
 std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
     const int first = *std::ranges::min_element(channels);

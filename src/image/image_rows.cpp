@@ -45,7 +45,7 @@ std::vector<std::byte> beginOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-// File writer that remembers the first write error, for libraries that do not check each write.
+// File writer that stores the first write error, because image libraries do not check each write.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedFile(const std::filesystem::path& path)
@@ -179,7 +179,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     s.name = path.string();
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason
+        static_cast<void>(readFile(path));  // throws Error with the reason why it cannot be read
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("{}: cannot be read: {}", s.name, firstLine(OIIO::geterror()));

@@ -23,7 +23,7 @@ public:
     ~ImageRowWriter();  // deletes the temporary file unless finish() was called
     ImageRowWriter(ImageRowWriter&&) noexcept;
 
-    // Appends rows with the width and channels given to the constructor.
+    // Appends rows, which must have the width and channels given to the constructor.
     void write(const ImageView& rows);
     // Completes the file after the last row: flushes it to disk and renames it to `path`.
     void finish();

@@ -41,7 +41,7 @@ struct RendererOptions {
     MethodSettings settings;                 // values of Method::settings; missing: default
 };
 
-// Aperture features that a method reproduces.
+// Features of the aperture that a method reproduces.
 enum class ApertureShown { oval, shape, all };  // oval: anamorphic ratio only; shape: all except cat's eye
 
 struct Method {
@@ -63,7 +63,7 @@ struct Method {
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
 };
 
-// A method with complete settings.
+// Method with a value for each of its settings.
 struct MethodUse {
     const Method* method = nullptr;
     MethodSettings settings;

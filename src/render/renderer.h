@@ -30,7 +30,7 @@ struct RenderStats {
     double setupMilliseconds = 0;       // uploads and compilation of shaders
     double renderMilliseconds = 0;      // from the end of the setup to the complete image
     double gpuMilliseconds = 0;         // by timer queries; lacks vertex work with software drivers
-    std::uint64_t trianglesDrawn = 0;   // triangles of the plan
+    std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
     std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources
     std::uint32_t wave = 0;             // lens samples per wave K

@@ -18,7 +18,7 @@ struct PhysicalCamera {
 
 struct Camera {
     std::string name;
-    double yfov = 0.6911112;            // radians, full vertical angle
+    double yfov = 0.6911112;            // radians, full vertical field of view
     std::optional<double> aspectRatio;  // width / height of the image for which yfov was chosen
     double znear = 0.01;                // m
     // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1. The names with a

@@ -32,7 +32,7 @@ struct StudioLight {
     double azimuth = 0;
     double elevation = 0;
     glm::vec3 color{1.0f};
-    float illuminance = 1;       // lux
+    float illuminance = 1;       // lux on a surface that faces the light
     double angularDiameter = 0;  // rad, of the softbox
     // Returns the unit vector towards the light in camera axes: +x right, +y up, +z backwards.
     [[nodiscard]] glm::dvec3 toLight() const;

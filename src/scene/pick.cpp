@@ -130,7 +130,7 @@ public:
 
 private:
     const Mesh& mesh_;
-    Bounds bounds_;  // in object space, or in world space if the object is deformed
+    Bounds bounds_;  // object space; world space if the object is deformed
     Ball ball_{};
     const Object& object_;
     bool deformed_;

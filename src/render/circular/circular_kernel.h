@@ -47,7 +47,7 @@ std::complex<double> circularFactor(const CircularComponent& component, double o
 // Returns K(r) for r² = squaredRadius.
 double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius);
 
-// A quadrature node for functions of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
+// Quadrature node for functions f of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
 struct RadialNode {
     double squaredRadius;
     double weight;  // area

@@ -26,7 +26,7 @@ constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in ha
 constexpr int maxPublishedInHalf = 3;  // max of published kernels: large weights amplify rounding
 constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
 constexpr int bracketSteps = 4096;
-constexpr int publishedTaps = 8;  // taps on each side
+constexpr int publishedTaps = 8;  // taps on each side of the centre
 
 TextureFormat textureFormat(ComplexStorage storage) {
     switch (storage) {

@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Storage format of the complex sums of the row pass.
+// Storage format of the complex sums between the row pass and the column pass.
 enum class ComplexStorage {
     float32,
     // half float; kernels of more than five components (published: three) use float32 because of rounding errors

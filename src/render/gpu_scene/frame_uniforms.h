@@ -12,9 +12,9 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t blockSamples = 64;  // samples per block of the sum
+inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of the sum
 
-// A lens sample as per-instance vertex attributes.
+// Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v) on the unit disk; zw: jitter in normalised device coordinates
     glm::vec4 eyeAndDither;   // xy: lens point in m; z: dither offset; w: layer
@@ -42,7 +42,7 @@ public:
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // samples per wave K
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -59,7 +59,7 @@ private:
     Buffer samples_;        // one GpuSample per lens sample
     Buffer moments_;
     Buffer waves_;         // per wave: index of its first sample, and of the first sample of its block
-    Buffer sampleShifts_;  // vec4 per lens sample: offset of the sky
+    Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
     Buffer sampleBands_;  // SampleBlock in shaders/accumulation/add_layers.frag
     bool countsInAlpha_ = false;

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct GpuPoses {
     TexelBuffer texels;    // RGBA32F; empty if the object has a single matrix
-    glm::ivec4 layout{0};  // GpuObject::posing
+    glm::ivec4 layout{0};  // for GpuObject::posing
     bool skinned = false;
     bool moving = false;
     bool cameraMoves = false;

@@ -41,9 +41,9 @@ enum AttributeLocation : unsigned {
 struct GpuLevel {
     bool uploaded = false;
     GLenum colorType = GL_UNSIGNED_SHORT;   // of the four colour components: normalised shorts or half floats
-    std::size_t vectorOffset = 0;           // bytes, in the position and normal buffers
-    std::size_t colorOffset = 0;            // bytes, in the colour buffer
-    std::size_t uvOffset = 0;               // bytes, in the buffers uv0 and uv1
+    std::size_t vectorOffset = 0;           // bytes, in the buffers `positions` and `normals`
+    std::size_t colorOffset = 0;            // bytes, in the buffer `colors`
+    std::size_t uvOffset = 0;               // bytes, in the buffers `uv0` and `uv1`
     std::vector<std::size_t> indexOffsets;  // bytes, in the index buffer, per primitive
     glm::vec4 minColor{0.0f};               // min of the level's vertex colours per channel; 1 is white
     glm::vec4 maxColor{0.0f};

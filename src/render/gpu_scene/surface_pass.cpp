@@ -32,7 +32,7 @@ GLenum modeOf(Refinement refinement) {
 // firstSample + sampleCount).
 void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
                  std::uint32_t sampleCount) {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL expects the offset as a pointer
     const auto* const offset = reinterpret_cast<const void*>(std::size_t{first} * sizeof(std::uint32_t));
     glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset,
                                         static_cast<GLsizei>(sampleCount), firstSample);
@@ -372,7 +372,7 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
 void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {
     if (translucent_.empty()) return;
     glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    // Transmitting surfaces have already written their depth.
+    // Use GL_GEQUAL, because transmitting surfaces have already written their depth.
     drawSolid(translucent_, first, count, GL_GEQUAL, objects);
     glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }

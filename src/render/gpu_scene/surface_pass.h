@@ -58,7 +58,7 @@ public:
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
     // Draws all surfaces as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // Draws all surfaces, with both faces, into shadow map `slot` of each sample.
+    // Draws front and back faces of all surfaces into shadow map `slot` of each sample.
     void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
     // Draws all surfaces without depth test and adds each fragment to the target by blending.
     void drawTouched(std::uint32_t first, std::uint32_t count);
@@ -70,7 +70,7 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels
+        open,         // level drawn in all pixels
         coarseShare,  // pixels in which a boundary sample shows the coarser level
         fineShare,    // pixels in which a boundary sample shows the finer level
     };

@@ -20,7 +20,7 @@ namespace defocus::engine {
 FramePlan widened(const FramePlan& plan, int border);
 
 struct DepthLayersInfo {
-    int width = 1;  // px, including the border
+    int width = 1;  // size of the layers in px, including the border
     int height = 1;
     std::uint32_t layers = 1;                   // max number of layers
     LayerFormat format = LayerFormat::rgba16f;  // must have alpha
@@ -51,7 +51,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Draws the nearest surfaces behind front_ into a layer. Returns whether any pixel was drawn.
+    // Draws the nearest surfaces behind the depths in front_ into a layer. Returns whether any pixel was drawn.
     bool peelLayer(std::uint32_t index, std::uint32_t layer);
 
     DepthLayersInfo info_;

@@ -45,7 +45,7 @@ public:
 
 private:
     LensRaysInfo info_;
-    GlTexture extents_;  // min and max blur in squares of pixels
+    GlTexture extents_;  // per square of pixels: min and max blur of the surfaces in the layers
     GlTexture reach_;    // per pixel: range of the blurs that its rays may hit
     Program base_, extend_, bound_;
     Program trace_;

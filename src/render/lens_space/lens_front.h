@@ -126,7 +126,7 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer firstTriangles_, vertexLight_;  // allocated only with per-vertex lighting
+    Buffer firstTriangles_, vertexLight_;  // only with per-vertex lighting
     Buffer depths_;                        // sort key of each triangle
     Buffer tileCounts_, tileEnds_, entries_;
     std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band

@@ -78,7 +78,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
-    // List the records of each group.
+    // Count and list the records of each group.
     const GLuint zero = 0;
     glClearNamedBufferData(groups_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     front.bindTriangles();

@@ -10,7 +10,7 @@ namespace defocus::engine {
 // Bytes of a record (ray hit) in shaders/lens_space/records.glsl.
 inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);
 
-// Rays [first, first + count) of each pixel.
+// A wave: rays [first, first + count) of each pixel.
 struct RayWave {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

@@ -192,7 +192,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // frees the old buffer first: memory may not hold both
+            output_ = Buffer();  // free the old buffer first: memory may not hold both
             output_ = storage(bytes, "the lines of a wave");
         }
 
@@ -265,7 +265,7 @@ private:
     Program program_;
     Buffer boundBlock_, output_;
     RecordBuffer records_;
-    std::uint32_t maxRounds_ = 0;  // loop iterations per dispatch; 0: unlimited
+    std::uint32_t maxRounds_ = 0;  // max loop iterations of a shader invocation per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
 };

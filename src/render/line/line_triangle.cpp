@@ -49,7 +49,7 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
         beyondNear.slope += edges[i].slope * (corners[i].w - line.nearPlane);
     }
     std::vector<LineInterval> seen;
-    if (sum.at0 == 0 && sum.slope == 0) return seen;  // triangle without area
+    if (sum.at0 == 0 && sum.slope == 0) return seen;  // triangle has no area
     for (const bool front : {true, false}) {
         if (!front && !doubleSided) break;
         const double side = front ? 1 : -1;

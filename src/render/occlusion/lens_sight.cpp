@@ -12,7 +12,7 @@ namespace {
 
 constexpr double snapping = 0.25;           // px: upper bound of a rasterizer's rounding of vertex positions
 constexpr double transformation = 0x1p-20;  // relative single-precision error of a transformed position
-constexpr double interpolation = 0x1p-14;   // relative error of a triangle's interpolated depths
+constexpr double interpolation = 0x1p-14;   // relative error of depths that are interpolated in a triangle
 
 }  // namespace
 

@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Returns a phrase such as "the estimated error is below the target".
+// Returns a description such as "the estimated error is below the target".
 const char* stopReasonText(StopReason reason);
 
 // RMSE due to levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for
@@ -71,7 +71,7 @@ private:
     std::optional<LevelError> levels_;
     bool automatic_ = false;
     double levelErrorSum_ = 0;  // level errors of blocks, weighted by their samples
-    ErrorEstimate estimate_;    // sampling error only
+    ErrorEstimate estimate_;    // error due to sampling only
     std::uint32_t samples_ = 0;
     std::uint32_t nextEstimate_ = 0;  // sample count of the next estimate
     double expected_ = 0;             // expected final sample count, not rounded

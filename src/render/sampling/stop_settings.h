@@ -11,7 +11,8 @@ namespace defocus::engine {
 // With a target error or a time limit, blocks of 64 samples are added until the target or a limit is reached, and
 // RenderSettings::sampleCount is ignored. Levels of detail are finer for a larger expected number of samples.
 struct StopSettings {
-    // RMSE of the display-encoded image at EV 0, estimated from the differences between blocks; 1e-6 … 1.
+    // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. The error is estimated from differences between
+    // blocks.
     std::optional<double> targetError = {};
     // Seconds from the start of the frame, 0.001 … 1e6. At least one block is drawn. A block is not started if its
     // predicted end is after the limit.

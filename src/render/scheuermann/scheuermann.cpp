@@ -88,7 +88,7 @@ public:
         reduced_.attach(0);
         fullscreen_.draw(preblur_);
 
-        // Gather the taps.
+        // Draw the result by gathering the taps.
         output.bind();
         sharp_.attach(0);
         small_.attach(1);
@@ -187,7 +187,7 @@ private:
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
     const double radius = largest / width;  // in units of C/w
     BlurrinessPlanes planes;
-    // C(w)/w = a/w + b is −radius at the near plane and +radius at the far plane; a < 0.
+    // At depth w, C(w)/w = a/w + b with a < 0. It is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);
     if (std::isinf(focusDistance)) {  // nothing is behind the focus plane
         planes.focus = 2 * planes.near;

@@ -16,7 +16,7 @@ namespace defocus::engine {
 // Name of the metadata attribute with the frame's settings as text, which is equal for all parts of one frame.
 inline constexpr const char* settingsAttribute = "defocus:settings";
 
-// Lens samples [first, end) of a frame.
+// Range [first, end) of a frame's lens samples.
 struct SampleRange {
     std::uint32_t first = 0;
     std::uint32_t end = 0;

@@ -40,7 +40,7 @@ ImageRowWriter rowFileWriter(const std::filesystem::path& path, const RowFileHea
 // missing, or if settings differ.
 std::vector<RowFile> completeRows(const std::vector<std::filesystem::path>& paths);
 
-// Returns the row ranges that no file covers; `files` must be sorted by rows.
+// Returns the ranges of rows of a frame of `height` rows that are in no file; `files` must be sorted by rows.
 std::vector<RowRange> missingRows(const std::vector<RowFile>& files, int height);
 
 struct JoinedOutput {

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Needs of a frame and available memory, in bytes.
+// Memory needs of a frame and available memory.
 struct TilingNeeds {
     int width = 1;  // size of the image in px
     int height = 1;

@@ -17,7 +17,7 @@ namespace defocus::engine::gltf {
 void checkAccessors(const Source& source);
 
 std::size_t elementCount(const Source& source, int accessor);
-int componentCount(const Source& source, int accessor);  // 1 (SCALAR), 2 to 4 (vectors), 16 (MAT4) …
+int componentCount(const Source& source, int accessor);  // per element: 1 (SCALAR), 2 to 4 (VEC2 to VEC4), 16 (MAT4) …
 
 // Returns the divisor that maps the accessor's normalised integers to [0, 1] or [−1, 1]; 1 for an accessor that is not
 // normalised.

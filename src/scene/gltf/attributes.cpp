@@ -84,7 +84,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Returns vertex colours as RGBA, clamped to [0, 1] as the specification requires.
+// Returns vertex colours as RGBA, clamped to [0, 1] as glTF requires.
 std::vector<glm::vec4> readColors(const AttributeReader& reader) {
     std::vector<glm::vec4> result;
     if (!reader.has("COLOR_0")) return result;

@@ -23,7 +23,7 @@ constexpr std::uint32_t jsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
-constexpr std::size_t longestMessage = 400;  // bytes
+constexpr std::size_t longestMessage = 400;  // max bytes of an error message
 
 using Bytes = std::span<const std::byte>;
 

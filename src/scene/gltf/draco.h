@@ -1,6 +1,6 @@
 #pragma once
-// KHR_draco_mesh_compression: a primitive's triangles and attributes, decoded from one compressed buffer view. Internal
-// to the loader.
+// KHR_draco_mesh_compression: decodes a primitive's triangles and attributes from one compressed buffer view. Internal
+// to the glTF loader.
 
 #include <map>
 #include <memory>

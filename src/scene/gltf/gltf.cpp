@@ -38,7 +38,7 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
 // Takes each object's memory from the source's budget. Instances share a mesh but need memory of their own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;                   // measured per object, for its pose and its rendering
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // joint matrices in the pose and in the render plan
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // per joint, in the pose and in the frame's plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;

@@ -16,7 +16,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-constexpr double dielectricReflectance = 0.04;  // at normal incidence
+constexpr double dielectricReflectance = 0.04;  // reflectance at normal incidence
 constexpr double minShare = 1e-6;               // lower bound of divisors in the conversion from specular-glossiness
 
 // ---- materials ----------------------------------------------------------------------------------

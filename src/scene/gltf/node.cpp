@@ -27,7 +27,7 @@ std::vector<int> parentsOf(const Source& source) {
             parent = static_cast<int>(i);
         }
 
-    // Each node has at most one parent, so nodes that cannot be reached from a root form a cycle.
+    // Search for cycles: each node has at most one parent, so nodes that no root reaches are in or below a cycle.
     std::vector<bool> reached(nodes.size());
     std::vector<int> stack;
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -194,7 +194,7 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json
 // take precedence.
 void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
     constexpr double millimetres = 1e3;
-    constexpr double longest = 10;  // m; a larger focal length, such as 35, was probably meant in millimetres
+    constexpr double longest = 10;  // m; a larger focal length, such as 35, is probably in millimetres
     const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
     if (extension == nullptr) return;
     const auto number = [&](const nlohmann::json& value, const char* name) {

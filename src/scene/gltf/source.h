@@ -41,7 +41,7 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;                                             // JSON parsed by readStructure
+    tinygltf::Model model;                                             // from readStructure
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by view; EXT_meshopt_compression only
     UnpackBudget budget;

@@ -2,7 +2,7 @@
 // Includes tinygltf with its namespace renamed. structure.cpp compiles tinygltf into this library; the new name avoids
 // clashes with another copy in a program. Internal to the glTF loader.
 
-#include <fstream>  // tinygltf needs it, but does not include it with TINYGLTF_NO_FS
+#include <fstream>  // tinygltf needs <fstream>, but does not include it with TINYGLTF_NO_FS
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE

@@ -29,7 +29,7 @@ namespace tinygltf = gltf::tinygltf;
 
 constexpr std::uint32_t unused = 0xffffffffu;
 
-// Vertices and triangles to write.
+// Vertices and triangles of the mesh that are written.
 struct Written {
     std::vector<std::uint32_t> vertices;                // indices into the mesh's vertices, in output order
     std::vector<std::vector<std::uint32_t>> triangles;  // output vertex indices; one list per primitive with triangles
@@ -119,7 +119,7 @@ std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices verti
         if (!uv.empty()) attributes[name] = appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
-    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF requires consecutive set numbers
+    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF does not allow set 1 without set 0
     if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
     return attributes;
 }
