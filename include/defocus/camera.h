@@ -1,5 +1,5 @@
 #pragma once
-// Choice of a picture's camera.
+// Ways to select the camera of a picture.
 
 #include <array>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Choices of a lens's focus distance.
+// Ways to set the focus distance of a lens.
 
 #include <string>
 #include <variant>

@@ -43,7 +43,7 @@ struct LensSettings {
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;
-    std::optional<double> radialBlurGain;  // κ of the factor 1 + κr² on the blur; r as for fieldCurvature
+    std::optional<double> radialBlurGain;  // κ of the factor 1 + κr² on the blur; r = 1 at left and right edges
 
     bool operator==(const LensSettings&) const = default;
 };

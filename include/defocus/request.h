@@ -44,10 +44,10 @@ using Background = std::variant<EnvironmentBackground, TransparentBackground, Co
 struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
-    int fishCount = 20;             // of the school, 1 … 10,000
+    int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate
-    std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed from its size
-    double time = 0;                // s, within the animation
+    std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
+    double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first
     bool loop = false;              // true: the animation repeats; false: first and last pose hold
     double shutter = 0;             // s, duration of the exposure; > 0 gives motion blur

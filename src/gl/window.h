@@ -78,7 +78,7 @@ public:
     // If `on`, covers the window's current screen; otherwise restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Sizes read together during the latest poll().
+    // Return sizes that were both read during the latest poll().
     [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
     [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
     [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen

@@ -68,7 +68,7 @@ bool isChannelList(Bytes value) {
 }  // namespace
 
 void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name) {
-    // A multi-part file has one header per part, then an empty header. Bit 4 of byte 5 marks such files.
+    // Bit 4 of byte 5 marks multi-part files, which have one header per part, then an empty header.
     const bool parts = head.size() > 5 && (head[5] & std::byte{0x10}) != std::byte{0};
     const int last = parts ? 2 : 1;
     int empty = 0;  // consecutive empty names; each ends a header

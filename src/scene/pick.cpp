@@ -65,8 +65,9 @@ double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const P
     return nearest;
 }
 
-// Same, for an object that is not deformed. The ray is transformed to object space if the matrix is invertible;
-// otherwise the triangles are transformed to world space.
+// Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
+// ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
+// space.
 double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject, const Ray& world,
                        double nearest) {
     const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);

@@ -44,7 +44,7 @@ struct Pose {
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give
 // its first or last pose.
 Pose poseAt(const Scene& scene, double time, int clip = 0);
-// Returns the same pose but with empty `bounds`, whose computation takes most of the time of poseAt.
+// Returns the pose of poseAt but with empty `bounds`, whose computation takes most of the time of poseAt.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 
 // Returns the pose's lights with the angular diameters and radii of the lights `before`, matched by index. Returns

@@ -36,7 +36,7 @@ bool deformed(const Object& object);
 // transformed bounding box of the mesh.
 Bounds posedBounds(const Mesh& mesh, const Object& object);
 
-// Same, with `meshBounds` = mesh.bounds() computed in advance.
+// Same as posedBounds(mesh, object), where `meshBounds` is mesh.bounds(), computed in advance.
 Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object);
 
 }  // namespace defocus::engine

@@ -177,14 +177,14 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // node property, as the next three
+    translation,  // property of a node, as the next three
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; camera property (KHR_animation_pointer), as the next two
+    cameraYfov,   // radians; property of a camera (KHR_animation_pointer), as the next two
     cameraZnear,  // m
     cameraLens,   // entry `lensValue` of Camera::lens
-    lightColor,   // light property (KHR_animation_pointer), as the next two
+    lightColor,   // property of a light (KHR_animation_pointer), as the next two
     lightIntensity,
     lightRange,  // m
 };

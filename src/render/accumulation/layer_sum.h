@@ -49,8 +49,8 @@ public:
     // Return the colour and depth textures of layers().
     [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
     [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
-    // Composites layers [0, count) over the environment and adds them to the sum. They show samples [first, first +
-    // count) of `frame`, which must belong to the same block; count ≤ K.
+    // Composites layers [0, count) over the environment and adds them to the sum. The layers show samples [first, first
+    // + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.

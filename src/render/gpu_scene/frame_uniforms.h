@@ -16,7 +16,7 @@ inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of 
 
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
-    glm::vec4 lensAndJitter;  // xy: lens point (u, k·v) on the unit disk; zw: jitter in normalised device coordinates
+    glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
     glm::vec4 eyeAndDither;   // xy: lens point in m; z: dither offset; w: layer
 };
 
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] const Buffer& samples() const { return samples_; }
     // Returns one SampleMoment per lens sample, as a vec3; empty if nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
-    // Returns one float per lens sample: the offset of b in C(w) for the sample's wavelength. Empty without chromatic
-    // aberration.
+    // Returns one float per lens sample: the change of b in the circle of confusion C = a + b·w (depth w) for the
+    // sample's wavelength. Empty without chromatic aberration.
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.

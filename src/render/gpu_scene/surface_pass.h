@@ -70,7 +70,7 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // level drawn in all pixels
+        open,         // all pixels show the same level
         coarseShare,  // pixels in which a boundary sample shows the coarser level
         fineShare,    // pixels in which a boundary sample shows the finer level
     };

@@ -11,15 +11,15 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
-// Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations, so a dispatch must stay
-// below.
+// Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations, so longer work needs
+// several dispatches.
 constexpr std::uint32_t maxTilesAtOnce = 50'000;             // max tiles that an invocation visits per dispatch
 constexpr std::uint32_t maxSortedAtOnce = 65'536;            // max triangles of a tile; takes 136 · 256 iterations
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // matches shaders/lens_space/shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // matches shaders/lens_space/vertex.vert
 
-// Returns the end of a level's range of samples, which are rays here. If two levels of an object share a boundary
-// sample, the level with the larger share gets the sample.
+// Returns the end of the range of rays that hit a level of an object. If two levels share a boundary sample, the level
+// with the larger share gets the sample's ray.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -191,7 +191,7 @@ void LensFront::pose(std::uint32_t part) {
     const bool moving = static_cast<bool>(clipsAtEnd_);
     makeVertices(clips_, clipBytes, false, part, 0);
     if (moving) makeVertices(clipsAtEnd_, clipBytes, false, part + 1, 0);
-    // Moving surfaces have the lighting of the middle of this part of the exposure.
+    // Light moving surfaces at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     makeDepths();

@@ -25,7 +25,7 @@ struct RaySets {
     std::uint32_t rays = 0;             // rays per pixel
     std::uint32_t variants = 1;         // a power of two, at most 64
     std::vector<GpuRay> table;          // index: ray · variants + variant
-    std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v
+    std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
 };
 
 // Returns the number of variants for sets of `rays` rays: as many as have at most 262,144 rays in total, but at least 4

@@ -15,8 +15,9 @@
 namespace defocus::engine {
 
 struct LineSets {
-    // GpuRay::lensAndPixel.xy is the vector (u, k·v) from the lens centre to the rim; GpuRay::values are
-    // LineLight::backward, LineLight::forwardShare and the position of the shading point in a segment, [0, 1).
+    // GpuRay::lensAndPixel.xy is the vector (u, k·v) from the lens centre to the rim, where k = image width / height.
+    // GpuRay::values are LineLight::backward, LineLight::forwardShare and the position of the shading point in a
+    // segment, [0, 1).
     RaySets sets;
     // Per line: xy is the unit vector in (u, v) across the mean of the line's variants; z is the max distance of a
     // variant from that mean line.

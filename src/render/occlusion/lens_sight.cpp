@@ -26,8 +26,8 @@ bool seesBoxes(const ObjectPlan& object) {
            object.refinement == Refinement::none;
 }
 
-// Uses the formula of throughLens in shaders/include/lens.glsl: the pinhole's clip position (x, y) plus (a + b·w)·(u,
-// k·v) + w·jitter.
+// Uses the formula of throughLens in shaders/include/lens.glsl: clip position (x, y) in a pinhole view, plus the circle
+// of confusion a + b·w times lens point (u, k·v), plus w·jitter.
 LensSight::LensSight(const FramePlan& plan, const ObjectPlan& object, std::uint32_t sample)
     : nearPlane_(plan.view.nearPlane) {
     const LensSample& lens = plan.samples[sample];

@@ -76,7 +76,7 @@ private:
     };
     struct Sorted {
         OccludableDraw draw;
-        std::vector<Piece> pieces;  // in the plan's visible clusters
+        std::vector<Piece> pieces;  // pieces of the clusters that the plan draws
         bool canHide = false;
     };
 

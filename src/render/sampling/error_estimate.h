@@ -2,17 +2,18 @@
 // Estimates the error of the mean of n lens samples from means of fewer samples of the same sequence.
 //
 // Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
-// blocks is not that of one divided by √n. The model is instead that the error of k successive blocks is proportional
-// to k^(−a). Two stretches of blocks then differ by a known multiple of the error of their mean, for any scene. Let
-// s(k) = k^(−2a), with m blocks followed by n − m others. The covariance of the two stretches' errors is
+// blocks is not the error of one block divided by √n. Model: the error of the mean of k successive blocks is
+// proportional to k^(−a). The difference of the means of two successive ranges of blocks is then a known multiple of the
+// error of their common mean, for any scene. Let s(k) = k^(−2a) and M(k) the mean of the first k blocks. For a range of m
+// blocks and the next n − m blocks, the covariance of the errors of the two means is
 //   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)).
 // Then, in units of the squared error of one block,
 //   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c), E|M(n) − truth|² = s(n).
-// Random samples (a = 1/2) give the familiar σ/√n.
+// Random samples (a = 1/2) give σ/√n.
 //
-// The stretches compared are as long as possible, about half of the samples each. The extrapolation from their
-// difference to the error is then short: an exponent that is off by 0.1 changes the result by an eighth. An estimate
-// from single blocks would depend far more on the exponent.
+// The ranges compared are as long as possible, about half of the samples each. Thus the estimate depends little on the
+// exponent: an error of 0.1 in a changes the result by an eighth. An estimate from single blocks would depend on it far
+// more.
 
 #include <cstdint>
 #include <optional>
@@ -27,8 +28,8 @@ namespace defocus::engine {
 // (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
-// Returns the ratio of the RMS errors |M(n) − truth| / |M(n) − M(m)| by the equations above; M(k) is the mean of k
-// blocks, 0 < m < n.
+// Returns the expected ratio of RMS differences |M(n) − truth| / |M(n) − M(m)|, where M(k) is the mean of the first k
+// blocks, 0 < m < n, and the error of k blocks is proportional to k^(−exponent).
 double errorOverDifference(double m, double n, double exponent = lensSampleExponent);
 
 // Returns the RMS difference of two images of equal size, over the same pixels and display-encoded values as
