@@ -1,8 +1,8 @@
 #pragma once
 // Renders the image of a view, with a fixed number of lens samples or until stop conditions are met:
 //   FrameRun run(world, renderer); run.start(view, settings, stop); while (run.advance()) {} renderer.image();
-// Without stop conditions, a frame is one plan and one Renderer::start. With StopSettings, blocks of samples are added to
-// one sum until the error or time limit is reached. Each block is planned for the expected final number of samples.
+// Without stop conditions, a frame is one plan and one Renderer::start. With StopSettings, blocks of samples are added
+// to one sum until the error or time limit is reached. Each block is planned for the expected final number of samples.
 
 #include <chrono>
 #include <optional>

@@ -164,8 +164,8 @@ struct Node {
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
-    double cocScale = 1;                // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
-    bool ground = false;                // true if addGround added this node
+    double cocScale = 1;  // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
+    bool ground = false;  // true if addGround added this node
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
 };
 

@@ -3,9 +3,9 @@
 //
 // Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
 // blocks is not the error of one block divided by √n. Model: the error of the mean of k successive blocks is
-// proportional to k^(−a). The difference of the means of two successive ranges of blocks is then a known multiple of the
-// error of their common mean, for any scene. Let s(k) = k^(−2a) and M(k) the mean of the first k blocks. For a range of m
-// blocks and the next n − m blocks, the covariance of the errors of the two means is
+// proportional to k^(−a). The difference of the means of two successive ranges of blocks is then a known multiple of
+// the error of their common mean, for any scene. Let s(k) = k^(−2a) and M(k) the mean of the first k blocks. For a
+// range of m blocks and the next n − m blocks, the covariance of the errors of the two means is
 //   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)).
 // Then, in units of the squared error of one block,
 //   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c), E|M(n) − truth|² = s(n).
