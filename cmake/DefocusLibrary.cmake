@@ -1,8 +1,9 @@
-# The library, one file made of the rooms' objects, and cmake --install with find_package(defocus), defocus::defocus and
-# pkg-config.
+# Links the object files of all modules into one library, and installs it with CMake's find_package(defocus), target
+# defocus::defocus, and pkg-config.
 #
-# BUILD_SHARED_LIBS chooses between static and shared. With the tests the other one is linked too, from the same objects:
-# `cmake --install BUILD --component static` and `--component shared` install one of them, without the program.
+# BUILD_SHARED_LIBS selects a static or a shared library. If tests are built, the other kind is linked too, from the
+# same objects. `cmake --install BUILD --component static` or `--component shared` installs one kind, without the
+# program.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -14,7 +15,7 @@ endforeach()
 
 function(defocus_library TARGET KIND)
     add_library(${TARGET} ${KIND} ${LIBRARY_OBJECTS})
-    # What links against one minor version needn't work with another before 1.0.
+    # Before 1.0, minor versions may be binary-incompatible, so the soname contains the minor version.
     set_target_properties(${TARGET} PROPERTIES OUTPUT_NAME defocus EXPORT_NAME defocus LINKER_LANGUAGE CXX
                                                VERSION "${PROJECT_VERSION}"
                                                SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
@@ -32,7 +33,7 @@ function(defocus_library TARGET KIND)
     target_link_libraries(${TARGET} PRIVATE "$<BUILD_INTERFACE:defocus_options>" ${LIBRARIES} ${FLAGS})
 endfunction()
 
-# Rules for one of the two. `IN_ALL`: a plain cmake --install has it.
+# Adds the install rules of one kind of library. If IN_ALL is false, `cmake --install` without --component omits it.
 function(defocus_install_library TARGET KIND IN_ALL)
     string(TOLOWER ${KIND} COMPONENT)
     set(RULE COMPONENT ${COMPONENT})
@@ -42,13 +43,14 @@ function(defocus_install_library TARGET KIND IN_ALL)
     set(PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/defocus")
     set(GENERATED "${PROJECT_BINARY_DIR}/package/${COMPONENT}")
 
-    # The library and its headers.
+    # Install the library and its headers.
     install(TARGETS ${TARGET} EXPORT ${TARGET}Targets
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE})
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/defocus" "${PROJECT_BINARY_DIR}/include/defocus"
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${RULE} FILES_MATCHING PATTERN "*.h")
 
-    # find_package(defocus). The two kinds' targets stand in files of their own: CMake generates one for each name.
+    # Install the CMake package. The targets of each kind are in a separate file, because CMake generates one file per
+    # export name.
     install(EXPORT ${TARGET}Targets FILE defocusTargets-${COMPONENT}.cmake NAMESPACE defocus:: DESTINATION "${PACKAGE_FOLDER}" ${RULE})
     configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/defocusConfig-${COMPONENT}.cmake.in"
                                   "${GENERATED}/defocusConfig.cmake" INSTALL_DESTINATION "${PACKAGE_FOLDER}"
@@ -57,7 +59,7 @@ function(defocus_install_library TARGET KIND IN_ALL)
     install(FILES "${GENERATED}/defocusConfig.cmake" "${GENERATED}/defocusConfigVersion.cmake"
             DESTINATION "${PACKAGE_FOLDER}" ${RULE})
 
-    # pkg-config defocus, which finds the prefix from where the file lies.
+    # Install defocus.pc for pkg-config, in which the prefix is relative to the location of the file.
     file(RELATIVE_PATH PREFIX_FROM_PC "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
     set(PRIVATE_LIBRARIES "")
     if(KIND STREQUAL "STATIC")

@@ -1,6 +1,6 @@
-# defocus_module(NAME [FOLDER folder] [ONLY file] [WITHOUT file] LINK ...): the folder src/NAME (or src/FOLDER), with the
-# folders in it, as one static library defocus_NAME. ONLY, WITHOUT: the one .cpp that it is made of, or that is left out.
-# A module links only the modules above it in the layout, so that an include against the order fails to build.
+# defocus_module(NAME [FOLDER folder] [ONLY file] [WITHOUT file] LINK ...) builds static library defocus_NAME from
+# folder src/NAME (or src/FOLDER) and its subfolders. ONLY builds a single .cpp file of the folder; WITHOUT omits one. A
+# module links only modules that src/CMakeLists.txt lists before it, so that includes of later modules fail to build.
 
 include(CheckIPOSupported)
 
@@ -10,7 +10,8 @@ target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wnon-
 if(NOT CMAKE_UNITY_BUILD)  # there, a local name may be that of another file's helper
     target_compile_options(defocus_options INTERFACE -Wshadow)
 endif()
-# Of large sources GCC's own collection of garbage takes up to a fifth of the time, long before memory is short.
+# In unity builds, GCC's garbage collection takes up to a fifth of the compile time; start it only at a larger heap
+# size.
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(defocus_options INTERFACE --param=ggc-min-heapsize=1000000)  # kB
 endif()
@@ -26,8 +27,9 @@ if(DEFOCUS_FUZZ)
     target_compile_options(defocus_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# Whole builds read the headers that most sources include once. The first room makes them, the others share them: all
-# rooms are compiled with the same options. Builds of single sources do without, and so find an include that is missing.
+# Unity builds precompile the headers that most sources include. The first module builds them; the others reuse them,
+# because all modules have the same compile options. Other builds have no precompiled headers, so that they detect
+# missing includes.
 function(defocus_precompiled TARGET)
     if(NOT CMAKE_UNITY_BUILD)
         return()
@@ -55,7 +57,7 @@ function(defocus_module NAME)
         set(SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}/${ARG_ONLY}.cpp")
     endif()
     add_library(defocus_${NAME} STATIC ${SOURCES})
-    # Of the shared library nothing is seen but what is declared DEFOCUS_API.
+    # The shared library exports only declarations with DEFOCUS_API.
     set_target_properties(defocus_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                                                      VISIBILITY_INLINES_HIDDEN ON)
     target_include_directories(defocus_${NAME} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include"

@@ -1,4 +1,5 @@
-# defocus_embed_shaders(TARGET DIR): every file under DIR becomes a string of TARGET, so that nothing is searched for at run time.
+# defocus_embed_shaders(TARGET DIR) embeds every shader file under DIR as a string in TARGET, so that no files are
+# needed at run time.
 
 function(defocus_embed_shaders TARGET DIR)
     file(GLOB_RECURSE SHADERS CONFIGURE_DEPENDS RELATIVE "${DIR}" "${DIR}/*.glsl" "${DIR}/*.vert" "${DIR}/*.frag"

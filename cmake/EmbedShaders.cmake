@@ -1,4 +1,4 @@
-# Script: writes OUTPUT, a C++ file with the text of each of SHADERS (names relative to DIR).
+# Script that writes OUTPUT, a C++ file with the text of all files in SHADERS (paths relative to DIR).
 set(TEXT "// Generated from the shaders folder.\n#include \"gl/shader_source.h\"\n\nnamespace defocus::engine {\n\n")
 string(APPEND TEXT "const std::map<std::string_view, std::string_view>& embeddedShaders() {\n")
 string(APPEND TEXT "    static const std::map<std::string_view, std::string_view> shaders = {\n")

@@ -1,5 +1,5 @@
-# Script: writes OUTPUT, a C++ file with the commit that SOURCE is checked out at, unless it says so already. It only reads
-# the repository: no lock is taken from a git that works there.
+# Script that writes OUTPUT, a C++ file with the checked-out commit of repository SOURCE, if the commit has changed. It
+# takes no git locks, so that it does not disturb concurrent git commands.
 execute_process(COMMAND git --no-optional-locks -C "${SOURCE}" rev-parse --short=12 HEAD
                 OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE FAULT)
 if(FAULT)

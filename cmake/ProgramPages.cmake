@@ -1,4 +1,5 @@
-# Completions for shells and the manual page, which the program writes itself, installed where shells and man look.
+# Generates shell completions and the manual page with the built program, and installs them in the standard folders of
+# shells and man.
 include(GNUInstallDirs)
 set(PAGES "${PROJECT_BINARY_DIR}/pages")
 file(MAKE_DIRECTORY "${PAGES}")

@@ -1,4 +1,4 @@
-# What the program and the library are built with. DEFOCUS_VIEWER: with the window.
+# Packages that the program and the library need; with DEFOCUS_VIEWER also those of the window.
 
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
@@ -25,7 +25,8 @@ if(NOT TARGET PkgConfig::egl)
     pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 endif()
 
-# Debian's OpenImageIO names include folders of packages that it doesn't need (OpenCV); CMake refuses those that don't exist.
+# Debian's OpenImageIO lists include folders of packages that it does not need (OpenCV). Remove folders that do not
+# exist, because CMake rejects them.
 get_target_property(DEFOCUS_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 foreach(FOLDER IN LISTS DEFOCUS_OIIO_INCLUDES)
     if(NOT EXISTS "${FOLDER}")

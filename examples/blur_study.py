@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How the f-number changes a picture, and how many lens samples its blur needs.
+"""Shows how the f-number changes an image, and how many lens samples its blur needs.
 
-Renders a scene over f-numbers, shows the pictures with their circles of confusion, and plots the error of each against
-the number of lens samples. The cells (# %%) run one by one in editors that know them, and all at once by
+Renders a scene with several f-numbers, shows the images with their circles of confusion, and plots the error of each
+against the number of lens samples. Editors that support cells (# %%) can run them one by one. To run all:
 
     python3 examples/blur_study.py meshes/chess.glb blur-study.png
 
-It needs the package `defocus` (docs/python.md) and matplotlib.
+The script needs the package `defocus` (docs/python.md) and matplotlib.
 """
 
-# %% What is studied.
+# %% Scene, f-numbers and numbers of samples.
 import sys
 from pathlib import Path
 
@@ -19,16 +19,16 @@ import numpy
 import defocus
 
 matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how to draw)
+import matplotlib.pyplot as plt  # noqa: E402 (must follow matplotlib.use)
 
 SCENE = Path(sys.argv[1] if len(sys.argv) > 1 else "meshes/chess.glb")
 OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
 SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail, and lens points that no other picture has
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail; other lens points than in the images
 
-# %% Pictures, references and blur: one renderer, so that the scene is read and simplified once.
+# %% Render images, references and blur with one renderer, so that the scene is read and simplified only once.
 pictures, blurs, references = {}, {}, {}
 errors = {f_stop: [] for f_stop in F_STOPS}
 with defocus.Renderer(SCENE, size=SIZE) as renderer:
@@ -42,9 +42,9 @@ with defocus.Renderer(SCENE, size=SIZE) as renderer:
               f"largest blur {numpy.abs(blurs[f_stop]).max(where=numpy.isfinite(blurs[f_stop]), initial=0):.1f} px")
 
 
-# %% A contact sheet: the picture, and the signed diameter of its circle of confusion.
+# %% Draw a contact sheet: the image, and the signed diameter of the circle of confusion of each pixel.
 def encoded(linear):
-    """As a display shows it: sRGB (IEC 61966-2-1)."""
+    """Returns the colour channels of a linear image, encoded for display with sRGB (IEC 61966-2-1)."""
     colour = numpy.clip(linear[..., :3], 0, 1)
     return numpy.where(colour <= 0.0031308, 12.92 * colour, 1.055 * colour ** (1 / 2.4) - 0.055)
 
@@ -60,7 +60,8 @@ top.colorbar(shown, ax=list(axes[1]), label="circle of confusion, px\n(> 0: behi
 for axis in axes.flat:
     axis.set_axis_off()
 
-# %% Error against samples. Small bright lamps need the most: until the samples fill their discs, each draws a dot.
+# %% Plot the error against the number of samples. Small bright lamps need the most samples, because each sample draws a
+# dot of their disk.
 left, right = bottom.subplots(1, 2)
 for marker, f_stop in zip("osd^", F_STOPS):
     left.loglog(SAMPLES, [error.rmse for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")
@@ -76,6 +77,6 @@ for axis in (left, right):
     axis.grid(alpha=0.3)
     axis.legend()
 
-# %% To a file.
+# %% Write the figure.
 figure.savefig(OUTPUT, dpi=110)
 print(f"wrote {OUTPUT}")

@@ -1,5 +1,5 @@
-// progressive [SCENE [IMAGE]]: an image that can be looked at while it grows; Ctrl-C ends it early, with what there is.
-// Beside it, the depth of each pixel.
+// progressive [SCENE [IMAGE]]: renders an image and writes it after each step; Ctrl-C ends the rendering early and
+// keeps the latest image. Also writes the depth of each pixel.
 
 #include <defocus/defocus.h>
 
@@ -21,7 +21,7 @@ int main(int count, char** words) try {
     if (count > 1) request.scene = words[1];
     request.size = {480, 270};
     request.toneMap = defocus::ToneMap::agx;
-    request.wave = 8;  // lens samples a step
+    request.wave = 8;  // lens samples per step
 
     defocus::SceneRenderer renderer(request);
     for (const std::string& line : renderer.warnings()) std::cerr << line << '\n';

@@ -1,4 +1,4 @@
-// render [SCENE [IMAGE]]: one image. Without a scene, the built-in school of fish.
+// render [SCENE [IMAGE]]: renders one image. The default scene is the built-in school of fish.
 
 #include <defocus/defocus.h>
 

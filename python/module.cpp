@@ -1,8 +1,8 @@
-// The native module `_defocus` of the Python package `defocus`: a one-to-one binding of the public API.
-// defocus/__init__.py adds the convenient interface.
+// Native module `_defocus` of the Python package `defocus`: a one-to-one binding of the C++ API. defocus/__init__.py
+// adds the Python interface.
 //
-// Images are passed without copies: returned arrays own the pixels that C++ allocated, and arguments are read in place.
-// The GIL is released during all work.
+// Images are passed without copies: returned arrays own pixels allocated in C++, and arguments are read in place. The
+// GIL is released during all calls that take long.
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -33,11 +33,11 @@ namespace {
 
 // ---- progress and signals -------------------------------------------------------------------------------------------
 
-// The caller's progress function; empty for None.
+// Progress function of the Python caller; empty for None.
 using Listener = std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)>;
 
-// Returns a progress function that calls the listener and lets Ctrl-C end the work: Python handles a signal only when
-// PyErr_CheckSignals is called.
+// Returns a progress function that calls `listener`, and that lets Ctrl-C cancel the operation: Python handles signals
+// only in PyErr_CheckSignals.
 defocus::Progress listening(const Listener& listener) {
     return [listener](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         const py::gil_scoped_acquire lock;
@@ -50,19 +50,19 @@ defocus::Progress listening(const Listener& listener) {
 
 using Array = py::array_t<float>;
 
-// Returns an array that owns the image's pixels: H×W, or H×W×channels for more than one channel.
+// Returns a NumPy array that owns the image's pixels: H×W for one channel, else H×W×channels.
 Array arrayOf(defocus::Image&& image) {
     auto owner = std::make_unique<defocus::Image>(std::move(image));
     std::vector<py::ssize_t> shape = {owner->height, owner->width};
     if (owner->channels > 1) shape.push_back(owner->channels);
     float* const pixels = owner->pixels.data();
     const py::capsule keeper(owner.get(), [](void* kept) { delete static_cast<defocus::Image*>(kept); });
-    static_cast<void>(owner.release());  // the capsule owns the image
+    static_cast<void>(owner.release());  // now owned by the capsule
     return Array(shape, pixels, keeper);
 }
 
-// Returns a view of the array's pixels without a copy; it is valid as long as the array. The package passes arrays with 2
-// or 3 axes whose strides are positive and whose channels are neighbours.
+// Returns a view of the array's pixels, valid as long as the array. The Python code passes only arrays with 2 or 3
+// axes, positive strides and contiguous channels.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
     if (array.size() == 0) return {};
@@ -78,20 +78,20 @@ defocus::ImageView viewOf(const Array& array) {
 
 // ---- scenes and renderers -------------------------------------------------------------------------------------------
 
-// An open scene with its info, which is read once.
+// Scene with its info, which is computed only once.
 struct OpenScene {
     defocus::Scene scene;
     defocus::SceneInfo info = scene.info();
 };
 
-// A SceneRenderer that Python threads share; they take turns.
+// SceneRenderer that several Python threads may use; a mutex serializes their calls.
 class SharedRenderer {
 public:
     SharedRenderer(const OpenScene* scene, const defocus::Request& request, const Listener& listener)
         : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->scene, request, listening(listener))
                                      : defocus::SceneRenderer(request, listening(listener))) {}
 
-    // Calls `use` with the renderer, without the GIL.
+    // Calls `use` with the renderer while the GIL is released. Throws UsageError if the renderer is closed.
     template <typename Use>
     auto with(const Use& use) {
         const Turn turn(*this);
@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    // Throws UsageError if this thread already uses the renderer, because waiting for itself would deadlock.
+    // Throws UsageError if this thread already uses the renderer, which would be a deadlock.
     void refuseReentry() const {
         if (user_ == std::this_thread::get_id())
             throw defocus::UsageError("a renderer cannot be used from its own progress function");
@@ -129,10 +129,11 @@ private:
     std::atomic<std::thread::id> user_ = std::thread::id();
 };
 
-// ---- the module -----------------------------------------------------------------------------------------------------
+// ---- module ---------------------------------------------------------------------------------------------------------
 
 void defineErrors(py::module_& package) {
-    // UsageError also derives from TypeError and ValueError, which Python callers expect for a wrong keyword or value.
+    // UsageError also derives from TypeError and ValueError, which Python callers expect for unknown keywords and
+    // invalid values.
     const auto& error = py::register_exception<defocus::Error>(package, "Error", PyExc_RuntimeError);
     const auto& usageError = py::register_exception<defocus::UsageError>(
         package, "UsageError",

@@ -1,5 +1,5 @@
 #pragma once
-// Choice of the camera that a picture is taken with.
+// Ways to select the camera of a picture.
 
 #include <array>
 #include <string>
@@ -9,18 +9,18 @@ namespace defocus {
 
 using Vector3 = std::array<double, 3>;
 
-// Selects the file's first camera, or a camera that frames the scene if the file has no camera.
+// Selects the first camera of the scene file; if the file has no camera, a camera that frames the scene.
 struct FirstCamera {
     bool operator==(const FirstCamera&) const = default;
 };
 
-// Selects the camera with this name in the file.
+// Selects the camera with this name in the scene file.
 struct NamedCamera {
     std::string name;
     bool operator==(const NamedCamera&) const = default;
 };
 
-// Selects a camera that frames the scene; cameras in the file are ignored.
+// Selects a camera that frames the scene, even if the scene file has cameras.
 struct FramingCamera {
     bool operator==(const FramingCamera&) const = default;
 };

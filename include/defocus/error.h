@@ -1,6 +1,6 @@
 #pragma once
-// Exceptions of the library. Every runtime failure (file, setting, shader, driver) throws Error. The text of an Error
-// is one line: the failed action, the file or name concerned, and what to do about it.
+// Exceptions of the library. Every runtime failure (file, setting, shader, driver) throws Error. Its message is one
+// line: what failed, which file or name, and what to do.
 
 #include <stdexcept>
 
@@ -13,7 +13,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// An invalid request, whatever the files contain: a value out of its range or an unknown name.
+// Thrown for an invalid request: an unknown name or a value out of range, independent of the scene file.
 class DEFOCUS_API UsageError : public Error {
 public:
     using Error::Error;

@@ -1,5 +1,5 @@
 #pragma once
-// Symbol visibility: the shared library exports only what is marked DEFOCUS_API.
+// Symbol visibility: the shared library exports only declarations with DEFOCUS_API.
 
 #if defined(__GNUC__)
 #define DEFOCUS_API __attribute__((visibility("default")))

@@ -5,17 +5,18 @@
 
 namespace defocus {
 
-// Follows the lens's exposure time if it is set. Otherwise the scene is metered if it has lights, or else 0 EV applies.
+// Exposure from the lens's exposure time and ISO if an exposure time is set; otherwise metered if the scene has lights;
+// otherwise 0 EV.
 struct DefaultExposure {
     bool operator==(const DefaultExposure&) const = default;
 };
 
 struct ExposureValue {
-    double ev = 0;  // [−60, 60]; each step doubles the brightness
+    double ev = 0;  // EV, [−60, 60]; + 1 doubles the brightness
     bool operator==(const ExposureValue&) const = default;
 };
 
-// Exposure metered from the scene, once for all frames of a video.
+// Exposure metered from the image; for a video, once for all frames.
 struct MeteredExposure {
     bool operator==(const MeteredExposure&) const = default;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Choice of the focus distance of a lens.
+// Ways to set the focus distance of a lens.
 
 #include <string>
 #include <variant>
@@ -9,36 +9,36 @@
 
 namespace defocus {
 
-// Uses the focus distance of the file's camera, or FocusAuto if the file gives none.
+// Uses the focus distance of the camera in the scene file; if there is none, FocusAuto.
 struct CameraFocus {
     bool operator==(const CameraFocus&) const = default;
 };
 
 struct FocusDistance {
-    double metres = 1;  // m along the view axis, > 0
+    double metres = 1;  // distance along the view axis, > 0
     bool operator==(const FocusDistance&) const = default;
 };
 
-// Focuses on the centre of a node.
+// Focuses on the centre of the node with this name.
 struct FocusNode {
     std::string name;
     bool operator==(const FocusNode&) const = default;
 };
 
-// Focuses on the surface that a pixel shows.
+// Focuses on the surface that is visible in a pixel.
 struct FocusPixel {
     Pixel pixel;
     bool operator==(const FocusPixel&) const = default;
 };
 
-// Focuses on the surfaces at 3 to 16 pixels. Three pixels define a focus plane; more pixels define a curved focus
-// surface that passes near the points.
+// Focuses on the surfaces visible in 3 to 16 pixels. Three pixels define a tilted focus plane; more pixels define a
+// curved focus surface that passes near the points.
 struct FocusPoints {
     std::vector<Pixel> pixels;
     bool operator==(const FocusPoints&) const = default;
 };
 
-// Focuses at the median depth of the surfaces in the middle of the image.
+// Focuses at the median depth of the surfaces around the image's centre.
 struct FocusAuto {
     bool operator==(const FocusAuto&) const = default;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Float images: functions to read, write and compare them.
+// Float images, and functions to read, write and compare them.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace defocus {
 
-// An image of linear Rec.709 colour. Row 0 is the top row, channels are interleaved, and alpha is premultiplied
-// coverage.
+// Image of linear Rec.709 colour. Row 0 is the top row, and channels are interleaved. Alpha is coverage, and colours
+// are premultiplied by it.
 struct Image {
     int width = 0;
     int height = 0;
@@ -29,7 +29,7 @@ struct Image {
                  static_cast<std::size_t>(imageChannels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
-    // Returns a pointer to the first channel of the pixel in column x (from the left) and row y (from the top).
+    // Return a pointer to the first channel of the pixel in column x (from the left) and row y (from the top).
     [[nodiscard]] float* at(int x, int y) { return pixels.data() + offset(x, y); }
     [[nodiscard]] const float* at(int x, int y) const { return pixels.data() + offset(x, y); }
 
@@ -40,27 +40,27 @@ private:
     }
 };
 
-// Distances between neighbouring pixels of an ImageView, counted in floats.
+// Distances in memory between neighbouring pixels of an ImageView, in floats.
 struct ImageStrides {
     std::size_t pixel = 0;  // to the next pixel of the row
     std::size_t row = 0;    // to the same pixel of the next row
     bool operator==(const ImageStrides&) const = default;
 };
 
-// Read-only view of pixels that are stored elsewhere. The channels of a pixel are neighbours; strides give the positions
-// of pixels. The view must not outlive the pixels.
+// Read-only view of pixels in memory that the view does not own and must not outlive. The channels of a pixel are
+// contiguous; the positions of pixels follow from `strides`.
 struct ImageView {
     int width = 0;
     int height = 0;
     int channels = 0;
-    std::span<const float> pixels;  // begins with the top left pixel
+    std::span<const float> pixels;  // starts at the top left pixel
     ImageStrides strides;
 
     ImageView() = default;
-    // Views packed pixels in the layout of an Image.
+    // Creates a view of pixels in the layout of Image::pixels, without gaps.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
         : ImageView(viewWidth, viewHeight, viewChannels, values, packedStrides(viewWidth, viewChannels)) {}
-    // Views a part of a larger image, or pixels with padding.
+    // Creates a view of pixels at arbitrary distances, such as a part of a larger image.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values, ImageStrides between)
         : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values), strides(between) {}
     // NOLINTNEXTLINE(google-explicit-constructor): implicit, so that functions that only read pixels accept an Image
@@ -68,9 +68,9 @@ struct ImageView {
         : ImageView(image.width, image.height, image.channels, std::span<const float>(image.pixels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
-    // Returns whether the pixels follow each other without gaps.
+    // Returns whether there are no gaps between pixels and between rows.
     [[nodiscard]] bool isPacked() const { return strides == packedStrides(width, channels); }
-    // Returns a pointer to the first channel of a pixel, like Image::at.
+    // Returns a pointer to the first channel of the pixel in column x and row y.
     [[nodiscard]] const float* at(int x, int y) const {
         return pixels.data() + static_cast<std::size_t>(y) * strides.row + static_cast<std::size_t>(x) * strides.pixel;
     }
@@ -81,19 +81,19 @@ private:
     }
 };
 
-// A pixel of an image: column from the left, row from the top.
+// Position of a pixel in an image: column from the left, row from the top, from 0.
 struct Pixel {
     int column = 0;
     int row = 0;
     bool operator==(const Pixel&) const = default;
 };
 
-// Curve from linear values to display values, applied before the sRGB encoding.
+// Tone curve that maps linear values to [0, 1] before the sRGB encoding.
 enum class ToneMap {
     none,     // clip to [0, 1]
-    aces,     // ACES filmic, fit by Stephen Hill (RRT and ODT)
-    agx,      // AgX by Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
-    neutral,  // Khronos PBR Neutral: keeps colours up to 0.8 and rolls highlights off to white
+    aces,     // ACES filmic curve, Stephen Hill's fit of RRT and ODT
+    agx,      // AgX by Troy Sobotka, base look, Benjamin Wrensch's polynomial fit
+    neutral,  // Khronos PBR Neutral: keeps colours up to 0.8, compresses highlights to white
 };
 
 struct WriteOptions {
@@ -101,10 +101,10 @@ struct WriteOptions {
     double exposure = 0;              // EV; PNG and JPEG only
 };
 
-// Reads PNG, JPEG, OpenEXR, Radiance HDR or TIFF as linear float with 1, 3 or 4 channels. The content, not the
+// Reads a PNG, JPEG, OpenEXR, Radiance HDR or TIFF file as linear float with 1, 3 or 4 channels. The content, not the
 // extension, determines the format. Integer formats are decoded from sRGB, straight alpha is premultiplied, and grey
-// with alpha becomes RGBA. From an EXR file with more channels, only R, G, B and A are read. Throws Error naming the
-// file and the fault.
+// with alpha becomes RGBA. From an EXR file with more channels, only R, G, B and A are read. Throws Error, with the
+// path in its message, if the file cannot be read.
 DEFOCUS_API Image readImage(const std::filesystem::path& path);
 
 // Writes an image in the format of the file's extension:
@@ -115,22 +115,22 @@ DEFOCUS_API Image readImage(const std::filesystem::path& path);
 DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& image,
                             const WriteOptions& options = {});
 
-// Error metrics between two images. They apply to display-encoded values in [0, 1]: EV 0, sRGB, clipped. A pixel that
-// is NaN or infinite in only one of the images counts as the largest possible difference.
+// Error metrics of two images, computed from display-encoded values in [0, 1] (EV 0, sRGB, clipped). A pixel that is
+// NaN or infinite in only one of the images counts as the maximum difference.
 struct Difference {
     double mae = 0;                // mean absolute error over pixels and colour channels
     double rmse = 0;               // root mean squared error over pixels and colour channels
     double psnr = 0;               // dB; infinity for equal images
     double ssim = 1;               // mean structural similarity (Wang et al. 2004), on luma
     double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels per degree
-    double maxError = 0;           // largest absolute difference in any channel
-    Pixel maxErrorPixel;           // first pixel with maxError, in reading order
+    double maxError = 0;           // max absolute difference of a colour channel
+    Pixel maxErrorPixel;           // first pixel with maxError, row by row
     std::uint64_t pixelCount = 0;  // number of compared pixels
-    std::uint64_t nonFinite = 0;   // compared pixels with NaN or infinity in either image
+    std::uint64_t nonFinite = 0;   // compared pixels that are NaN or infinite in at least one image
 };
 
-// Compares two linear images of the same size. RGBA is composited over black; grey is expanded to RGB. Throws Error if
-// the sizes differ or if a view reaches beyond its pixels.
+// Returns the difference of two linear images of the same size. RGBA is composited over black; grey is expanded to RGB.
+// Throws Error if the sizes differ or if a view extends beyond ImageView::pixels.
 DEFOCUS_API Difference compareImages(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus

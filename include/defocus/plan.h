@@ -1,5 +1,5 @@
 #pragma once
-// The plan of a frame: which levels of detail each lens sample draws, and what is left out with the reason.
+// Plan of a frame: the levels of detail that each lens sample draws, and the omitted parts with the reason.
 
 #include <cstdint>
 #include <optional>
@@ -15,68 +15,68 @@
 
 namespace defocus {
 
-// One level of an object and the consecutive lens samples that draw it.
+// A level of detail of an object, and the range of lens samples that draw this level.
 struct PlannedDraw {
     std::uint32_t level = 0;
-    std::uint32_t triangles = 0;    // per sample, without triangles that no lens point can see
+    std::uint32_t triangles = 0;    // drawn per sample; triangles invisible from all lens points are culled
     std::uint32_t firstSample = 0;  // index into the frame's samples
     std::uint32_t sampleCount = 0;
 };
 
 struct PlannedObject {
     std::string name;
-    double nearestDepth = 0;   // m, of the bounding box
+    double nearestDepth = 0;   // m, min depth of the bounding box
     double farthestDepth = 0;  // m
-    // Circle of confusion over the bounding box, as diameters in px. The first two are signed, > 0 behind the focus. A box
-    // that reaches the camera has infinite values.
+    // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
+    // depth, then min and max over the bounding box. Infinite for a box that extends to the camera.
     double nearestCoc = 0;
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;          // px, mean edge length of level 0 at the nearest depth
-    double lambda = 0;                 // fractional level
-    double pixelRate = 1;              // share of the resolution along an axis that the object needs as a lens cell
-    bool blended = false;              // has alpha-blended parts
-    bool transmits = false;            // has transmitting parts
-    bool moves = false;                // moves during the exposure
+    double projectedEdge = 0;          // px, mean edge length of level 0, projected at the nearest depth
+    double lambda = 0;                 // fractional level of detail λ
+    double pixelRate = 1;              // fraction of the resolution per axis needed with blurred lens cells
+    bool blended = false;              // true if it has alpha-blended materials
+    bool transmits = false;            // true if it has transmitting materials
+    bool moves = false;                // true if it moves during the exposure
     std::vector<PlannedDraw> draws;    // 1 or 2, the coarser level first
-    // LodMode::continuous: the share of pixels that draw the coarser level in the sample that draws both.
+    // With LodMode::continuous, one sample may draw both levels: fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
 
 struct PlannedShadowMap {
-    int light = 0;         // index of the light
-    int face = -1;         // face of a cube around the light, +x −x +y −y +z −z; −1: one map for the light
+    int light = 0;         // index of the light in the frame
+    int face = -1;         // face 0 … 5 (+x −x +y −y +z −z) of a cube around the light; −1: single map
     double lightSize = 0;  // directional light: angular diameter in radians; other lights: radius in m
 };
 
 struct LeftOutPart {
-    std::string what;  // such as "object Fish 3" or "texture path"
+    std::string what;  // e.g. "object Fish 3" or "texture path"
     std::string reason;
 };
 
 struct Plan {
     ImageSize size;
-    bool transparent = false;  // the image has alpha
-    // Camera: position in m, and unit directions.
+    bool transparent = false;  // true if the image has alpha
+    // Camera: position in m, and axes as unit vectors, in world space.
     Vector3 cameraPosition{};
     Vector3 cameraRight{};
     Vector3 cameraUp{};
     Vector3 cameraBack{};
-    // Lens. All its numbers have a value, whether they come from the request, the file or the defaults.
+    // Lens. All its numbers have a value, which comes from the request, the scene file or the defaults.
     LensSettings lens;
     bool hasApertureImage = false;
-    double focusDistance = 0;     // m; may be infinite
+    double focusDistance = 0;     // m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
-    bool usesLens = true;         // false: no blur reaches half a pixel
+    bool usesLens = true;         // false: all blurs are smaller than half a pixel
     // Samples.
     std::uint32_t samples = 0;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // px
-    std::uint64_t moments = 0;        // moments at which the exposure is posed; 0: nothing moves
-    std::uint64_t movingObjects = 0;  // objects that move
-    // Levels of detail. The thresholds are those of Request, with their defaults filled in.
+    std::uint64_t moments = 0;        // moments of the exposure at which the scene is posed; 0: nothing moves
+    std::uint64_t movingObjects = 0;  // objects that move during the exposure
+    // Levels of detail. Thresholds are those of Request, or their defaults.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
@@ -87,24 +87,25 @@ struct Plan {
     // Shadows.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // px per side
-    std::uint32_t shadowPoints = 0;            // points on each light per lens sample
-    // Method multirate: σ of the blur of a sample's image, relative to the circle of confusion. 0 if the frame cannot be
-    // blurred, with the reason.
+    std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
+    // Method "multirate": standard deviation of the blur of a sample's image, relative to the circle of confusion. 0 if
+    // images cannot be blurred; lensCellReason is then the reason.
     double lensCellBlur = 0;
     std::string lensCellReason;
     std::vector<PlannedObject> objects;  // front to back
     std::vector<LeftOutPart> leftOut;
-    // Triangles, as sums over all samples. The two middle ones were culled from the drawn levels.
+    // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.
     std::uint64_t trianglesDrawn = 0;
     std::uint64_t trianglesFacingAway = 0;
     std::uint64_t trianglesOutside = 0;
     std::uint64_t trianglesAtFullDetail = 0;
 };
 
-// Plans the frame of a request. Needs no GPU and renders nothing. Throws Error like SceneRenderer.
+// Returns the plan for a request, without rendering and without a GPU. Throws Error under the conditions of
+// SceneRenderer's constructor.
 DEFOCUS_API Plan plan(const Request& request, const Progress& progress = {});
 
-// Returns the plan as `defocus plan --json` prints it. Infinite values are null.
+// Returns the plan as JSON, like `defocus plan --json`. Infinite values are null.
 DEFOCUS_API std::string toJson(const Plan& plan);
 
 }  // namespace defocus

@@ -7,9 +7,9 @@
 
 namespace defocus {
 
-// Receives the name of the stage ("fish", "pyramids", "samples" …) and its progress, `done` of `total`. An empty
-// function disables reporting. Calls may come from several threads, but never two at once. An exception from the
-// callback cancels the operation and propagates to the caller.
+// Called with the name of the current stage ("fish", "pyramids", "samples" …) and its progress: `done` of `total`. An
+// empty function disables progress reports. Calls may come from different threads, but never concurrently. An exception
+// from the callback cancels the operation and propagates to the caller.
 using Progress = std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace defocus

@@ -1,5 +1,5 @@
 #pragma once
-// Pyramids: the levels of detail of each mesh of a scene.
+// Pyramids: the levels of detail of a scene's meshes.
 
 #include <cstdint>
 #include <string>
@@ -11,28 +11,28 @@
 
 namespace defocus {
 
-// One level of detail. Lengths are in the mesh's units.
+// Level of detail. Lengths are in the mesh's units.
 struct PyramidLevel {
     std::uint32_t triangles = 0;
     std::uint32_t vertices = 0;
     double meanEdge = 0;
-    double error = 0;  // upper bound of the 99th percentile of the distance to level 0
+    double error = 0;  // upper bound of the 99th percentile of distances to level 0
 };
 
 struct Pyramid {
     std::string name;           // name of the mesh
     std::uint64_t mesh = 0;     // index of the mesh in the file
-    double diagonal = 0;        // diagonal of the mesh's bounding box, in its units
-    std::uint32_t repairs = 0;  // faces that were repaired
-    std::string end;            // reason why there is no further level: "minTriangles", "topology" …
+    double diagonal = 0;        // diagonal of the mesh's bounding box, in mesh units
+    std::uint32_t repairs = 0;  // number of repaired faces
+    std::string end;            // why the last level is the last: "minTriangles", "topology" …
     std::vector<PyramidLevel> levels;  // level 0 is the full mesh
 };
 
-// Returns the pyramids of a request's scene, built or read from the cache. Needs no GPU. Throws Error like
-// SceneRenderer.
+// Returns the pyramids of a request's scene: builds them or reads them from the cache. Needs no GPU. Throws Error under
+// the conditions of SceneRenderer's constructor.
 DEFOCUS_API std::vector<Pyramid> pyramids(const Request& request, const Progress& progress = {});
 
-// Returns the pyramids as a JSON object with the array `meshes`.
+// Returns the pyramids as JSON: an object with the array `meshes`.
 DEFOCUS_API std::string toJson(const std::vector<Pyramid>& pyramids);
 
 }  // namespace defocus

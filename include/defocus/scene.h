@@ -1,5 +1,5 @@
 #pragma once
-// glTF scenes that are opened once and rendered many times.
+// Scenes that are read once and rendered many times.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,28 +17,28 @@ namespace engine {
 struct Scene;
 }
 
-// Contents of a scene. The names are those that a Request accepts.
+// Contents of a scene, with the names that a Request accepts.
 struct SceneInfo {
     std::string name;
-    std::vector<std::string> cameras;  // an unnamed camera has an empty string
+    std::vector<std::string> cameras;  // empty string for an unnamed camera
     std::vector<std::string> nodes;
-    std::vector<std::string> clips;    // animations
-    std::uint64_t triangles = 0;       // sum over all meshes; instances are not counted again
-    std::vector<std::string> ignored;  // parts of the file that are not drawn, one line each with the reason
+    std::vector<std::string> clips;    // names of animations
+    std::uint64_t triangles = 0;       // sum over all meshes, independent of the number of instances
+    std::vector<std::string> ignored;  // parts of the file that are not drawn, and the reason; one line each
 };
 
-// An immutable scene. Copies share their data. Any number of renderers and threads may use a scene concurrently.
+// Immutable scene. Copies share their data. Any number of renderers and threads may use a scene concurrently.
 class DEFOCUS_API Scene {
 public:
-    // Reads a glTF 2.0 file (.gltf or .glb). Throws Error naming the file and the fault.
+    // Reads a glTF 2.0 file (.gltf or .glb). Throws Error, with the path in its message, if the file is invalid.
     static Scene load(const std::filesystem::path& path, const Progress& progress = {});
-    // Creates the built-in school of `fishCount` fish (1 … 10,000). Each fish has about `trianglesPerFish` triangles
+    // Returns the built-in school of `fishCount` fish (1 … 10,000) with approximately `trianglesPerFish` triangles each
     // (200 … 10,000,000).
     static Scene schoolOfFish(int fishCount = 20, int trianglesPerFish = 90'000, const Progress& progress = {});
 
     [[nodiscard]] SceneInfo info() const;
 
-    // Internal access to the scene data, for the library only.
+    // Internal: for the library only.
     explicit Scene(std::shared_ptr<const engine::Scene> scene) : scene_(std::move(scene)) {}
     [[nodiscard]] const std::shared_ptr<const engine::Scene>& engineScene() const { return scene_; }
 

@@ -7,8 +7,8 @@
 
 namespace defocus {
 
-inline constexpr std::uint32_t maxSamples = 65'536;  // maximum number of lens samples per frame
-inline constexpr int maxImageSide = 16'384;          // px, maximum width and height of an image
+inline constexpr std::uint32_t maxSamples = 65'536;  // max lens samples per frame
+inline constexpr int maxImageSide = 16'384;          // px, max width and height of an image
 
 // Low-discrepancy sequences for sample points on the lens, in the pixel and in the exposure. All are infinite, and
 // every prefix is well distributed.
@@ -16,35 +16,36 @@ enum class Sequence {
     // Halton points: bases 2, 3 on the lens and 5, 7 in the pixel (Jeong, Kim and Lee 2011), then 11, 13, 17 and 19 in
     // the exposure time, in the spectrum and on the lights.
     halton,
-    scrambledHalton,  // Halton with random digit permutations; each depends on the digits before it
+    scrambledHalton,  // Halton with random permutations of each digit, which depend on the digits before
     sobol,            // Owen-scrambled Sobol points
-    r2,               // additive recurrence based on powers of the plastic number
+    r2,               // additive recurrence with powers of the plastic number (R2 sequence)
 };
 
-// Level-of-detail mode. Simplified meshes replace objects whose blur or size hides the difference (Jeong, Kim and Lee
-// 2011). λ is the fractional level of an object.
+// Level-of-detail mode. Objects whose blur or size hides the difference are drawn with simplified meshes (Jeong, Kim
+// and Lee 2011). λ is the fractional level of an object.
 enum class LodMode {
-    fractional,  // samples are divided between levels ⌊λ⌋ and ⌊λ⌋ + 1
-    continuous,  // like fractional, but the sample at the boundary draws both levels, each at some pixels
+    fractional,  // some samples draw level ⌊λ⌋, the others level ⌊λ⌋ + 1
+    continuous,  // like fractional, but one sample may draw both levels, in different pixels
     nearest,     // all samples draw level round(λ)
-    off,         // full detail
+    off,         // level 0, full detail
 };
 
-// Measure by which the level of an object is chosen.
+// Criterion for the level of an object.
 enum class LodMetric {
-    automatic,  // `size` if a blur or size threshold is given, else `measured`
+    automatic,  // `size` if a blur or size threshold is set, else `measured`
     size,       // target edge length in px, compared with each level's mean edge length
-    error,      // target geometric deviation in px
+    error,      // target deviation of the surface in px
     halving,    // target edge length in px; assumes that each level halves the triangles (Jeong, Kim and Lee 2011)
-    measured,   // target error of the blurred light, relative to the light's variation
-    // Target edge length from the blur alone, compared with the edges at the object's centre (Tzeng et al. 2012).
+    measured,   // target error of the object's light after the blur, relative to the light's variation
+    // Target edge length from the blur only, compared with the edge length projected at the object's centre (Tzeng et
+    // al. 2012).
     score,
 };
 
 // Circle of confusion that determines an object's level.
 enum class LodCoc {
-    smallest,  // smallest one in the object's bounding box
-    centre,    // that of the bounding box's centre (Jeong, Kim and Lee 2011)
+    smallest,  // min over the object's bounding box
+    centre,    // at the bounding box's centre (Jeong, Kim and Lee 2011)
 };
 
 // Source of the vertices of coarser levels.
@@ -56,7 +57,7 @@ enum class LevelVertices {
 
 // Shadows from lights and from the environment.
 enum class Shadows {
-    automatic,  // on if the request has a ground
+    automatic,  // on if Request::ground is set
     on,
     off,
 };
@@ -64,7 +65,7 @@ enum class Shadows {
 // Position of the frame's time within the exposure.
 enum class ShutterPosition { start, centre, end };
 
-// Exact motion: the scene is posed separately for each lens sample. Vertices do not follow straight segments.
+// Exact motion: the scene is posed separately for each lens sample, so that the paths of vertices are exact.
 struct ExactMotion {
     bool operator==(const ExactMotion&) const = default;
 };
@@ -72,19 +73,19 @@ struct ExactMotion {
 // Number of straight segments in a vertex's path during the exposure, 1 … 64, or ExactMotion.
 using MotionSegments = std::variant<std::uint32_t, ExactMotion>;
 
-// Pixel format of the layer that each lens sample is drawn into.
+// Pixel format of the layers, which hold the image of one lens sample each.
 enum class LayerFormat {
     automatic,  // rgba16f, or rgba32f if the scene's radiance may exceed 6e4
-    rgba16f,    // half floats: relative error 2⁻¹¹ per sample
+    rgba16f,    // half floats: relative rounding error 2⁻¹¹ per sample
     rgba32f,    // floats, for reference images
 };
 
-// Reason why a frame stopped adding samples.
+// Reason why no further samples were added to a frame.
 enum class StopReason {
     sampleCount,     // all requested samples are drawn
     targetError,     // the estimated error is below Request::targetError
     timeLimit,       // Request::timeLimit has elapsed
-    nothingBlurred,  // nothing is blurred, and more samples would only smooth edges
+    nothingBlurred,  // nothing is blurred, so more samples would only antialias edges
 };
 
 }  // namespace defocus

@@ -6,15 +6,15 @@
     defocus.write_image("out.exr", image)
 
 Keywords are the settings of `defocus render` in snake_case: `defocus.settings()` and docs/settings.md list them with
-their units, ranges and defaults. Numbers, booleans, strings, paths and choices are passed as such. A size, a pixel, a
-point or a colour is a tuple, and `node_blur` is a dictionary. None leaves a setting unset.
+their units, ranges and defaults. Numbers, booleans and paths have Python's types; choices are strings. A size, a pixel,
+a point or a colour is a tuple, and `node_blur` is a dictionary. None leaves a setting unset.
 
 Images are C-contiguous float32 arrays: H×W×4 (or H×W×3, or H×W for data), row 0 at the top, linear Rec.709, alpha
 premultiplied. Rendered arrays are writable and own the renderer's pixels without a copy. Functions that take images
 read such arrays without a copy.
 
-Work runs without the GIL, so that other threads continue, and Ctrl-C ends it. A function passed as `progress` is called
-as progress(stage, done, total). An exception that it raises ends the work and reaches the caller.
+Calls release the GIL, so that other threads run, and Ctrl-C cancels them. A function passed as `progress` is called as
+progress(stage, done, total). An exception that it raises cancels the call and propagates to the caller.
 """
 
 from __future__ import annotations
@@ -48,18 +48,18 @@ Progress = Callable[[str, int, int], object]
 
 
 class Setting(NamedTuple):
-    """A keyword of render() and of all other functions that take settings."""
+    """Description of a keyword of render() and of all other functions that take settings."""
 
     keyword: str
-    option: str  # on the command line
+    option: str  # command-line option
     group: str
     kind: str  # "number", "integer", "boolean", "text", "path", "choice" or "other"
-    form: str  # form of the value on the command line: "PX", "X,Y,Z"
+    form: str  # syntax of the value on the command line: "PX", "X,Y,Z"
     unit: str  # empty: none
-    range: Optional[Tuple[float, float]]  # range of numbers, else None
+    range: Optional[Tuple[float, float]]  # min and max of a number; None for other kinds
     choices: Tuple[str, ...]
     default: Optional[str]  # None: unset
-    methods: Tuple[str, ...]  # methods that take the setting; empty: not specific to methods
+    methods: Tuple[str, ...]  # rendering methods with this setting; empty: all
     help: str
 
 
@@ -68,25 +68,25 @@ class Difference(NamedTuple):
 
     mae: float  # mean absolute error
     rmse: float  # root mean squared error
-    psnr: float  # dB; infinite for equal images
+    psnr: float  # dB; infinity for equal images
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
     flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
-    max_error: float  # largest absolute difference of a channel
-    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error
+    max_error: float  # max absolute difference of a colour channel
+    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, row by row
     pixel_count: int
-    non_finite: int  # pixels with NaN or infinity in either image
+    non_finite: int  # pixels that are NaN or infinite in at least one image
 
 
 class Aovs(NamedTuple):
-    """Data of the nearest surface at each pixel's centre, seen through a pinhole: H×W each."""
+    """Per-pixel data of the nearest surface at the pixel's centre in a pinhole view: H×W each."""
 
-    depth: numpy.ndarray  # m along the view axis; infinity without a surface
-    coc: numpy.ndarray  # signed diameter of the circle of confusion, px, > 0 behind the focus plane
-    level: numpy.ndarray  # the object's fractional level of detail; −1 without a surface
+    depth: numpy.ndarray  # m along the view axis; infinity for pixels without a surface
+    coc: numpy.ndarray  # signed diameter of the circle of confusion in px, > 0 behind the focus plane
+    level: numpy.ndarray  # fractional level of detail of the object; −1 for pixels without a surface
 
 
 class Statistics(NamedTuple):
-    """Time, memory and amount of work of a frame; times are wall-clock times."""
+    """Time, memory and triangle counts of a frame; times are wall-clock times."""
 
     samples: int
     load_milliseconds: float
@@ -97,7 +97,7 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
-    stopped: str  # why sampling stopped: "samples", "target error", "time limit" or "nothing blurred"
+    stopped: str  # why the frame ended: "samples", "target error", "time limit" or "nothing blurred"
     estimated_error: Optional[float]  # with target_error or time_limit: RMSE of the display-encoded image at EV 0
 
 
@@ -120,7 +120,8 @@ class Renderer:
                 image = renderer.render(f_stop=f_stop)
 
     Settings given to `render` and `start` replace those of the constructor for that frame; None unsets a setting.
-    Threads may share a renderer: they take turns. `close()`, or the end of the `with` block, frees its memory.
+    Threads may share a renderer; its calls run one after another. `close()`, or the end of the `with` block, frees its
+    memory.
     """
 
     @_takes_settings
@@ -148,7 +149,7 @@ class Renderer:
 
     @_takes_settings
     def progressive(self, **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
-        """Yields the image so far and its number of samples repeatedly, until the frame is done."""
+        """Renders a frame in steps. After each step, yields the image so far and its number of samples."""
         self.start(**settings)
         more = True
         while more:
@@ -157,16 +158,16 @@ class Renderer:
 
     @_takes_settings
     def start(self, **settings: Any) -> None:
-        """Starts a frame; `advance` draws it."""
+        """Starts a frame, which advance() draws."""
         self._native.start(self._request(settings))
         self._warn()
 
     def advance(self) -> bool:
-        """Draws more samples. Returns False once the frame is done."""
+        """Draws further samples. Returns False once the frame is complete."""
         return self._native.advance()
 
     def image(self) -> numpy.ndarray:
-        """Returns the image of the samples drawn so far."""
+        """Returns the mean of the samples drawn so far: H×W×4."""
         return self._native.image()
 
     @property
@@ -176,7 +177,7 @@ class Renderer:
 
     @property
     def sample_total(self) -> int:
-        """Number of samples of the finished frame."""
+        """Number of samples of the complete frame."""
         return self._native.sample_total()
 
     @property
@@ -187,7 +188,7 @@ class Renderer:
 
     @property
     def warnings(self) -> List[str]:
-        """Warnings about the file and the request, which have also been issued as Python warnings."""
+        """Warnings about the scene file and the request; each is also issued once as a Python warning."""
         return self._native.warnings()
 
     @property
@@ -203,8 +204,8 @@ class Renderer:
         return json.loads(self._native.plan_json())
 
     def write(self, path: Path, image: Any) -> None:
-        """Writes an image of this renderer's frame with its metadata. The settings define the exposure and the tone map
-        of PNG and JPEG files."""
+        """Writes an image with the metadata of the latest frame. PNG and JPEG files use the settings' exposure and tone
+        map."""
         self._native.write(path, _pixels(image))
         self._warn()
 
@@ -221,8 +222,8 @@ class Renderer:
 @_takes_settings
 def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
            **settings: Any) -> numpy.ndarray:
-    """Renders a scene, a glTF file or an open one, with depth of field and returns the image: H×W×4 float32, linear.
-    Default scene: the built-in school of fish."""
+    """Renders a scene (path of a glTF file, or a Scene) with depth of field and returns the image: H×W×4 float32,
+    linear. Default scene: the built-in school of fish."""
     with Renderer(scene, progress=progress, **settings) as renderer:
         return renderer.render(progress=progress)
 
@@ -230,13 +231,13 @@ def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progres
 @_takes_settings
 def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
                 **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
-    """Yields the image as it converges, with its number of lens samples:
+    """Renders an image in steps. After each step, yields the image so far and its number of lens samples:
 
         for image, samples in defocus.progressive("scene.glb", samples=1024):
             ...
 
-    Each image is a new array. The renderer is freed with the generator; the generator's `close()` frees it at once. The
-    call reports wrong keywords, and the first step reports errors in the scene.
+    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. Invalid
+    keywords raise in the call; errors in the scene raise in the first step.
     """
     _request_of(scene, settings)
 
@@ -249,14 +250,14 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
 
 @_takes_settings
 def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
-    """Returns the plan of a render, without drawing and without a GPU, as `defocus plan --json` prints it. The plan
-    lists blur, level and samples of each object, and omitted objects with the reason."""
+    """Returns the plan of a frame as `defocus plan --json` prints it: blur, levels and samples of each object, and
+    omitted parts with the reason. Needs no GPU and renders nothing."""
     return json.loads(_defocus.plan_json(_request_of(scene, settings), _listener(progress)))
 
 
 @_takes_settings
 def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
-    """Returns the levels of detail of each mesh of a scene: triangles, mean edge and error, in the mesh's units."""
+    """Returns the levels of detail of each mesh of a scene: number of triangles; mean edge and error in mesh units."""
     return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
 
 
@@ -286,7 +287,7 @@ def _listener(progress: Optional[Progress]) -> Optional[Progress]:
 
 
 def _pixels(image: Any) -> numpy.ndarray:
-    """Returns float32 pixels that C++ can read in place, and copies only if it must."""
+    """Returns an image (array or path) as float32 pixels that C++ can read in place; copies only if necessary."""
     if isinstance(image, (str, os.PathLike)):
         return read_image(image)
     array = numpy.asarray(image)
@@ -301,7 +302,7 @@ def _pixels(image: Any) -> numpy.ndarray:
 
 
 def _warn(lines: List[str]) -> None:
-    """Issues warnings at the first caller outside this package."""
+    """Issues `lines` as Python warnings, attributed to the first caller outside this package."""
     level = 1
     while sys._getframe(level).f_globals.get("__name__", "").split(".")[0] == __name__:
         level += 1

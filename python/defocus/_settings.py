@@ -1,4 +1,4 @@
-"""Converts Python keywords and values to the settings of a request, as defined by the settings table."""
+"""Converts Python keywords and values to the settings of a request."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 # Settings by keyword, in the order of `defocus render --help`.
 INFOS = {info.keyword: info for info in _defocus.setting_infos()}
 
-# Settings of the built-in school only.
+# Keywords that apply only to the built-in school of fish.
 SCHOOL = ("fish_count", "triangles_per_fish")
 
 
 def text(value: Any, separator: str = ",") -> str:
-    """Returns the value in the command line's syntax."""
+    """Returns a value in the command line's syntax; `separator` is put between elements of a sequence."""
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
@@ -60,12 +60,12 @@ def set_value(request: _defocus.Request, keyword: str, value: Any) -> None:
         for part in texts(info, value):
             request.set(info.name, part)
     except _defocus.UsageError as error:
-        # Replace the table's name by the keyword that the caller used.
+        # Replace the setting's name in the message by the Python keyword.
         raise _defocus.UsageError(str(error).replace(f"{info.name}: ", f"{keyword}: ", 1)) from None
 
 
 def check_exclusions(given: Mapping[str, Any]) -> None:
-    """Refuses settings that cannot be given together."""
+    """Raises UsageError if settings are given that exclude each other."""
     by_name = {info.name: keyword for keyword, info in INFOS.items()}
     for keyword in given:
         for name in INFOS[keyword].excludes if keyword in INFOS else ():
@@ -74,7 +74,7 @@ def check_exclusions(given: Mapping[str, Any]) -> None:
 
 
 def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
-    """Returns the request for a path (or None, or an open scene) and keywords, except those with the value None."""
+    """Returns the request for a scene (a path, a Scene or None) and keywords. Keywords with the value None are ignored."""
     request = _defocus.Request()
     given = {keyword: value for keyword, value in settings.items() if value is not None}
     if scene is not None:
@@ -86,7 +86,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
     elif scene is not None and not isinstance(scene, _defocus.Scene):
         raise _defocus.UsageError(f"scene: {scene!r} is neither a path nor a Scene")
     check_exclusions(given)
-    # In the table's order, so that explicit settings override those of a preset or a method.
+    # Set values in the order of INFOS, so that explicit settings override those of a preset or a method.
     order = {keyword: place for place, keyword in enumerate(INFOS)}
     for keyword, value in sorted(given.items(), key=lambda item: order.get(item[0], 0)):
         set_value(request, keyword, value)
@@ -94,7 +94,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
 
 
 def takes_settings(function: Function) -> Function:
-    """Adds the settings to the signature of a function with **settings, for help() and completion."""
+    """Decorates a function with **settings: adds all keywords to its signature, for help() and completion."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     names = {parameter.name for parameter in own}

@@ -21,8 +21,8 @@ void Buffer::update(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes > 0) glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
-// Reads through a staging buffer in main memory. Drivers may move a buffer that is read directly to main memory, where
-// shader writes are slow.
+// Reads through a staging buffer in main memory. If a buffer is read directly, some drivers move it to main memory,
+// where shader writes are slow.
 void Buffer::read(std::size_t offset, std::size_t bytes, void* data) const {
     if (bytes == 0) return;
     GLuint name = 0;

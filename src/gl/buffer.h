@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owners of an OpenGL buffer of fixed size and of a vertex array.
+// Move-only owners of OpenGL objects: a buffer of fixed size, and a vertex array.
 
 #include <cstddef>
 #include <span>
@@ -37,13 +37,13 @@ private:
 class VertexArray {
 public:
     VertexArray();
-    // Attribute `location` reads `components` values of GL type `type` from binding point `location`. `normalized` maps
-    // integers to [0, 1] or [−1, 1]. With `perInstance`, the attribute advances once per instance.
+    // Enables attribute `location`, which reads `components` values of GL type `type` from binding point `location`.
+    // `normalized` maps integers to [0, 1] or [−1, 1]. With `perInstance`, the attribute advances once per instance.
     void attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance = false);
-    // Attaches a buffer to the binding point of `location`: starts at byte `offset`, `stride` bytes per vertex.
+    // Attaches `buffer` to binding point `location`. Data start at byte `offset`; `stride` is the bytes per vertex.
     void bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride);
     void indices(const Buffer& buffer);
-    // Binds the vertex array for later draws. Call before Program::use: in the reverse order, NVIDIA driver 580
+    // Binds the vertex array for later draws. Call it before Program::use: in the reverse order, NVIDIA driver 580
     // sometimes skips a program's first draw.
     void use() const { glBindVertexArray(name()); }
 

@@ -1,6 +1,6 @@
 #include "gl/context.h"
 
-// epoxy must precede EGL's headers
+// include epoxy before EGL's headers
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -52,15 +52,17 @@ bool listed(const char* extensions, std::string_view name) {
     return false;
 }
 
-// Display to try. The display is created only when tried, because creating it may already load a driver.
+// EGL display on which a context can be attempted. Creating a display may load a driver, so it is created only for the
+// attempt.
 struct Candidate {
     std::string name;
     EGLenum platform = EGL_NONE;  // EGL_NONE: default display
     void* native = nullptr;
-    std::string missing = {};  // reason why it cannot be tried; empty: it can
+    std::string missing = {};  // reason why this display is unavailable; empty if available
 };
 
-// Returns the EGL devices, GPUs before software. Without devices, returns one candidate that holds the reason.
+// Returns the EGL devices, GPUs before software rasterizers. Without devices, returns one candidate with the reason in
+// `missing`.
 std::vector<Candidate> devices(const char* extensions) {
     const auto none = [](std::string why) {
         return std::vector<Candidate>{{"EGL devices", EGL_PLATFORM_DEVICE_EXT, nullptr, std::move(why)}};
@@ -103,7 +105,7 @@ public:
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext() override { close(); }
 
-    // Tries one display. Returns an empty string on success; otherwise cleans up and returns the reason.
+    // Creates a context on one display. Returns an empty string on success; otherwise cleans up and returns the reason.
     std::string open(const Candidate& candidate) {
         const std::string reason = tryOpen(candidate);
         if (!reason.empty()) close();
@@ -125,7 +127,7 @@ public:
 private:
     std::string tryOpen(const Candidate& candidate) {
         const auto failed = [](const char* call) { return fmt::format("{}: {}", call, eglErrorName(eglGetError())); };
-        // Use the EXT function: libepoxy cannot resolve the core function before a display exists.
+        // Use eglGetPlatformDisplayEXT: libepoxy cannot resolve eglGetPlatformDisplay before a display exists.
         display_ = candidate.platform == EGL_NONE
                        ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
                        : eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
@@ -165,7 +167,7 @@ private:
                 eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display_, context_);
         }
-        // Do not terminate the display: the process shares it, and other contexts may use it.
+        // Do not terminate the display: EGL displays are shared by the process, so other contexts may use this one.
         context_ = EGL_NO_CONTEXT;
         display_ = EGL_NO_DISPLAY;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Headless OpenGL 4.5 core context through EGL. It tries enumerated devices (GPUs before software), then the
-// surfaceless platform, then the default display. The reasons of failed attempts are kept in a log.
+// Headless OpenGL 4.5 core context through EGL. Displays are tried in this order: enumerated devices (GPUs before
+// software rasterizers), the surfaceless platform, the default display. Reasons of failed attempts are logged.
 
 #include <memory>
 #include <string>
@@ -15,15 +15,15 @@ public:
     virtual void makeCurrent() = 0;
     [[nodiscard]] virtual const std::string& device() const = 0;  // GL_RENDERER
     [[nodiscard]] virtual const std::string& driver() const = 0;  // GL_VERSION
-    [[nodiscard]] virtual bool software() const = 0;              // rasterizes on the CPU, such as llvmpipe
-    // Log of the attempts, one line each: the display, and why it failed or was chosen.
+    [[nodiscard]] virtual bool software() const = 0;              // true if it rasterizes on the CPU, e.g. llvmpipe
+    // Returns one line per attempted display: its name, and why it failed or was chosen.
     [[nodiscard]] virtual const std::vector<std::string>& log() const = 0;
 };
 
-// Creates a context and makes it current on this thread. Throws Error with all reasons if no context can be created.
+// Creates a context and makes it current on this thread. Throws Error with the log if no display works.
 std::unique_ptr<GlContext> createHeadlessContext();
 
-// Restores the thread's current EGL context: saves it in the constructor and makes it current again in the destructor.
+// Saves the thread's current EGL context in the constructor and makes it current again in the destructor.
 class CurrentContextKeeper {
 public:
     CurrentContextKeeper();
@@ -32,7 +32,7 @@ public:
     CurrentContextKeeper& operator=(const CurrentContextKeeper&) = delete;
 
 private:
-    unsigned api_;  // EGL types are not used, to keep EGL headers out
+    unsigned api_;  // EGLenum; plain types keep EGL's headers out of this header
     void* display_;
     void* context_;
     void* draw_;

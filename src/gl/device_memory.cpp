@@ -23,7 +23,7 @@ std::optional<std::uint64_t> freeDeviceMemory() {
     if (currentIsSoftware()) return {};
     return freeDeviceMemoryOf([](const char* extension) { return epoxy_has_gl_extension(extension); },
                               [](unsigned name) {
-                                  std::array<GLint, 4> numbers{};  // GL_ATI_meminfo returns four values
+                                  std::array<GLint, 4> numbers{};  // GL_ATI_meminfo writes four values
                                   glGetIntegerv(name, numbers.data());
                                   return numbers[0];
                               });

@@ -11,7 +11,7 @@ namespace defocus::engine {
 // main memory.
 std::optional<std::uint64_t> freeDeviceMemory();
 
-// Same for a driver given by two functions. `has` tests for an extension; `query` returns the first value of
+// Same as freeDeviceMemory, for an emulated driver: `has` tests for an extension; `query` returns the first value of
 // glGetIntegerv(name). Returns nullopt if the driver reports no plausible value.
 std::optional<std::uint64_t> freeDeviceMemoryOf(const std::function<bool(const char* extension)>& has,
                                                 const std::function<int(unsigned name)>& query);

@@ -6,14 +6,14 @@
 
 namespace defocus::engine {
 
-// Vertex shader of full-screen programs.
+// Vertex shader for programs of Fullscreen.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {
 public:
     // Runs `program` on every pixel of the bound target, without depth test, culling or blending.
     void draw(const Program& program) const;
-    // Runs `program` on `count` point sprites only. Its vertex shader sets their positions and sizes.
+    // Draws `count` point sprites with `program`, whose vertex shader sets their positions and sizes.
     void drawSquares(const Program& program, int count) const;
     // Same as draw(), with additive blending.
     void drawAdding(const Program& program) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owner of one OpenGL object name.
+// Move-only owner of an OpenGL object, by its name.
 
 #include <epoxy/gl.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Limits the work that is submitted but not finished. Mesa's llvmpipe keeps all submitted triangles in memory until its
-// rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
+// Limits the draw calls that are submitted but not finished. Mesa's llvmpipe keeps all submitted triangles in memory
+// until its rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
 
 #include <cstdint>
 #include <deque>
@@ -18,7 +18,8 @@ public:
 
     // Returns the maximum triangles per draw call; 0: unlimited.
     [[nodiscard]] std::uint64_t maxTriangles() const { return batch_; }
-    // Call after each draw call. Waits for earlier draws if too many are pending.
+    // Records a draw call of `triangles` triangles; call it after each. Waits for earlier draw calls if too many are
+    // pending.
     void submitted(std::uint64_t triangles);
 
 private:

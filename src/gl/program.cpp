@@ -38,7 +38,8 @@ std::string sourceOf(const std::string& path, const std::filesystem::path& overr
     return std::string(found->second);
 }
 
-// Returns a shader's source with includes expanded. `including` holds the files being expanded, to detect cycles.
+// Returns the source of shader `path` with includes expanded. `including` holds the files being expanded, to detect
+// cycles.
 std::string expanded(const std::string& path, const std::filesystem::path& overrideFolder,
                      std::set<std::string>& including) {
     if (!including.insert(path).second) fail("shader {}: includes itself", path);
@@ -61,7 +62,7 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Joins the lines of a log, since an Error is one line.
+// Joins the lines of a log with " | ", since Error messages are one line.
 std::string oneLine(std::string log) {
     while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
     for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");
@@ -101,7 +102,7 @@ Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {
     for (const std::string& path : info.shaders) {
         const GLuint shader = compiled(path, info);
         glAttachShader(name(), shader);
-        glDeleteShader(shader);  // the program keeps the shader alive
+        glDeleteShader(shader);  // marks it: the driver deletes it with the program
         names += (names.empty() ? "" : ", ") + path;
     }
     glLinkProgram(name());

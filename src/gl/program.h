@@ -1,8 +1,8 @@
 #pragma once
-// Linked shader program. Sources are embedded in the library, or come from a folder that overrides them.
+// Linked shader program. Shader sources are embedded in the library; files in an override folder replace them.
 //
-// `#include "path"` (relative to shaders/) is expanded at every occurrence. `#line` directives keep each file's line
-// numbers, so that driver logs are readable.
+// `#include "path"` (relative to shaders/) is expanded at every occurrence, without include guards. `#line` directives
+// keep each file's line numbers, so that driver logs are readable.
 
 #include <filesystem>
 #include <string>
@@ -16,15 +16,15 @@ namespace defocus::engine {
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {
-    std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .geom .frag .comp
+    std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .tesc .tese .geom .frag .comp
     ShaderDefines defines;
-    std::filesystem::path overrideFolder;  // empty: use the embedded shaders only
+    std::filesystem::path overrideFolder;  // empty: embedded shaders only
 };
 
 class Program {
 public:
     Program() = default;
-    // Throws Error with the stage, the shader's name and the driver's log.
+    // Compiles and links the shaders. Throws Error with the shader's name and the driver's log if this fails.
     explicit Program(const ProgramInfo& info);
 
     void use() const { glUseProgram(handle_.name()); }
@@ -35,11 +35,12 @@ private:
     GlHandle<destroyProgram> handle_;
 };
 
-// Returns a shader's source with includes and defines expanded, for tests and messages.
+// Returns the complete source that the driver gets: version, defines and the shader with includes expanded.
 std::string shaderText(const std::string& path, const ShaderDefines& defines,
                        const std::filesystem::path& overrideFolder);
 
-// Returns whether vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array or AMD_vertex_shader_layer).
+// Returns whether vertex shaders may write gl_Layer, by GL_ARB_shader_viewport_layer_array or
+// GL_AMD_vertex_shader_layer.
 bool vertexShaderMayPickLayer();
 
 }  // namespace defocus::engine

@@ -1,15 +1,15 @@
 #pragma once
-// Transfers between textures and images. Only this code converts between OpenGL's bottom-up rows and top-down images.
+// Transfers between textures and images. All conversions between OpenGL's bottom-up rows and top-down images are here.
 
 #include "gl/texture.h"
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// Returns layer 0 of a float or normalised texture as floats with 1, 3 or 4 channels.
+// Returns layer 0 of a float or normalised texture as an image with 1, 3 or 4 channels.
 Image readBack(const GlTexture& texture, int channels);
 
-// Uploads an image into the texture's only mip level. Size and channels must match.
+// Uploads an image into a texture with one mip level, the same size and the same channels.
 void upload(GlTexture& texture, const Image& image);
 
 }  // namespace defocus::engine

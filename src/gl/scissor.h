@@ -1,5 +1,6 @@
 #pragma once
-// Scoped scissor test: restricts drawing to a rectangle in px from the lower left corner; nullopt: no restriction.
+// Scissor test for the lifetime of the object: restricts drawing to a rectangle in px from the lower left corner.
+// nullopt means no restriction.
 
 #include <optional>
 

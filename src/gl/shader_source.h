@@ -1,5 +1,5 @@
 #pragma once
-// Shaders embedded in the library at build time, by their path under shaders/.
+// Sources of the shaders embedded in the library at build time, by path relative to shaders/.
 
 #include <map>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
-// Framebuffer over textures that it does not own: colour attachments in order and an optional depth texture. Array
-// textures are attached with all layers; gl_Layer selects one.
+// Framebuffer with attached textures, which it does not own: colour textures in order, and an optional depth texture.
+// Array textures are attached with all layers; gl_Layer selects one.
 
 #include <cstdint>
 #include <optional>
@@ -13,15 +13,17 @@ namespace defocus::engine {
 class Target {
 public:
     Target() = default;
-    // At most 8 colours; none for depth only. Throws Error if the driver cannot render to this combination.
+    // Attaches 0 to 8 colour textures and optionally `depth`. Throws Error if the driver cannot render to this
+    // combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
-    // Attaches each layer of an array texture (at most 8) as a colour.
+    // Attaches each layer of an array texture (at most 8) as a colour attachment.
     static Target ofLayers(const GlTexture& array);
-    // Attaches an image and the first `layers` layers of an array texture of equal size, at most 8 colours in total.
+    // Attaches a 2D texture and the first `layers` layers of an array texture of equal size: at most 8 colour
+    // attachments.
     static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);
-    // Attaches only layer `layer` and mip level `level` of array textures of equal size.
+    // Attaches only layer `layer` and mip level `level` of each array texture; their sizes must be equal.
     static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
-    // Attaches only layer `layer` of array textures; `depth` is not layered.
+    // Attaches only layer `layer` of each array texture; `depth` is a 2D texture.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
     // Binds the framebuffer and sets the viewport to its full size.

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only buffer that shaders read as texels (samplerBuffer).
+// Move-only owner of a buffer that shaders read as texels (samplerBuffer).
 
 #include <span>
 
@@ -10,8 +10,8 @@ namespace defocus::engine {
 class TexelBuffer {
 public:
     TexelBuffer() = default;
-    // Texels have `format` (GL_RGBA32F, GL_RGB32F) and `components` floats each. Throws Error that names `what` if they
-    // exceed the driver's limit.
+    // Uploads texels of `format` (GL_RGBA32F, GL_RGB32F) with `components` floats each. Throws Error, with `what` as
+    // the name of the data, if the number of texels exceeds the driver's limit.
     TexelBuffer(std::span<const float> values, GLenum format, int components, const char* what);
 
     void attach(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only immutable OpenGL texture: 2D, or a 2D array.
+// Move-only owner of an OpenGL texture with immutable storage: 2D, or a 2D array.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class TextureFormat {
     rgba8,
     rgb10A2,
     srgb8Alpha8,
-    r32ui,  // integer with 32 packed bits
+    r32ui,  // unsigned integer
     depth32f,
 };
 
@@ -25,7 +25,7 @@ struct TextureInfo {
     int width = 1;
     int height = 1;
     int layers = 0;  // 0: 2D texture; ≥ 1: 2D array
-    int levels = 1;  // mipmap levels
+    int levels = 1;  // number of mip levels
 };
 
 struct TexelRectangle {  // origin at the lower left corner
@@ -38,17 +38,17 @@ struct TexelRectangle {  // origin at the lower left corner
 class GlTexture {
 public:
     GlTexture() = default;
-    // Throws Error if the size exceeds the driver's limits or memory.
+    // Allocates the texture. Throws Error if the size exceeds the driver's limits or memory.
     explicit GlTexture(const TextureInfo& info);
 
-    // Fills mip level `level` from tightly packed pixels: bytes (rgba8, srgb8Alpha8) or floats in the format's
-    // channels.
+    // Fills mip level `level` from tightly packed pixels: 4 bytes each (rgba8, srgb8Alpha8), or one float per channel
+    // of the format.
     void upload(int level, int width, int height, const void* pixels);
     void generateMipmaps();
     void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
-    // Clears a layer to zero: transparent black, or depth 0.
+    // Clears layer `layer` to zeros: transparent black, or depth 0.
     void clearLayer(std::uint32_t layer);
-    // Copies a rectangle of layer `layer` to the same position in layer `toLayer` of a texture of the same format.
+    // Copies a rectangle of layer `layer` to the same position in layer `toLayer` of `to`, which has the same format.
     void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
     // Copies layers [0, count), or the image of a 2D texture, to the same layers of array texture `to`. Formats and
     // sizes must match.
@@ -65,9 +65,8 @@ private:
     TextureInfo info_;
 };
 
-// Returns the number of mip levels of a full chain.
+// Returns the number of mip levels down to 1 × 1 px.
 int mipmapLevels(int width, int height);
-// Returns the bytes per pixel.
 std::size_t pixelBytes(TextureFormat format);
 
 }  // namespace defocus::engine

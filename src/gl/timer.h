@@ -1,6 +1,6 @@
 #pragma once
-// GPU time between pairs of GL_TIMESTAMP queries; llvmpipe's GL_TIME_ELAPSED is wrong by orders of magnitude. Software
-// drivers omit vertex work from these timestamps.
+// GPU time between pairs of GL_TIMESTAMP queries, because llvmpipe's GL_TIME_ELAPSED is wrong by orders of magnitude.
+// With software drivers, the time lacks the vertex work.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ class GpuTimer {
 public:
     void begin();
     void end();
-    // Returns the milliseconds of all begin–end spans since the last reset; waits for the GPU.
+    // Waits for the GPU. Returns the total of all begin–end spans since the last reset.
     [[nodiscard]] double milliseconds();
     void reset();
 

@@ -1,7 +1,7 @@
 #include "gl/window.h"
 
 #include <epoxy/gl.h>
-// must follow epoxy
+// include GLFW after epoxy
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Window* owner(GLFWwindow* window) {
     return static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-// Returns the screen that overlaps the rectangle most; nullptr if none does.
+// Returns the screen with the largest overlap with a rectangle in screen coordinates; nullptr if none overlaps.
 GLFWmonitor* screenOf(const glm::ivec2& position, const glm::ivec2& size) {
     int count = 0;
     GLFWmonitor* const* const screens = glfwGetMonitors(&count);
@@ -138,7 +138,7 @@ void Window::installCallbacks() {
 WindowEvent& Window::add(WindowEvent::Type type) {
     WindowEvent& event = events_.emplace_back();
     event.type = type;
-    event.position = mouse_;  // position at the time of the event, which GLFW does not keep
+    event.position = mouse_;  // latest position; GLFW passes none with key and button events
     return event;
 }
 
@@ -210,7 +210,7 @@ double Window::contentScale() const {
     float x = 1;
     float y = 1;
     glfwGetWindowContentScale(window_, &x, &y);
-    // Divide by pixels per window unit: on some systems, window units already follow the screen's scale.
+    // Divide by the pixels per window unit: on some systems, window units already follow the screen's scale.
     const double pixels = static_cast<double>(framebufferSize().x) / std::max(1, size().x);
     return std::clamp(pixels > 0 ? static_cast<double>(x) / pixels : 1.0, 0.5, 4.0);
 }

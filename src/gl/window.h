@@ -1,6 +1,6 @@
 #pragma once
-// Window with an OpenGL 4.5 core context (GLFW), current on the creating thread. Input arrives as a queue of events in
-// order, so that slow frames lose nothing.
+// Window (GLFW) with an OpenGL 4.5 core context, current on the creating thread. Input events are queued in order, so
+// that slow frames lose none.
 
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -15,7 +15,8 @@ struct GLFWwindow;
 
 namespace defocus::engine {
 
-// Key codes. Letters (upper case), digits and punctuation are ASCII codes on a US keyboard; other keys follow.
+// Key codes, equal to GLFW's. Keys of letters, digits and punctuation have the ASCII code (upper case) of a US
+// keyboard; these constants are other keys.
 namespace key {
 inline constexpr int escape = 256;
 inline constexpr int enter = 257;
@@ -44,22 +45,22 @@ struct WindowEvent {
     MouseButton button = MouseButton::left;
     bool pressed = false;    // for button and key events
     bool repeated = false;   // for key events: the key is held down
-    glm::dvec2 scroll{0.0};  // > 0: away from the user, to the left
-    int key = 0;             // key code, see above
-    char32_t letter = 0;     // Unicode character from the keyboard layout, for text
+    glm::dvec2 scroll{0.0};  // wheel steps; x > 0: left, y > 0: away from the user
+    int key = 0;             // key code, for key events
+    char32_t letter = 0;     // Unicode character, for text events
     bool shift = false, control = false, alt = false;
-    std::vector<std::filesystem::path> paths;  // dropped files, for drop events
+    std::vector<std::filesystem::path> paths;  // dropped files and folders, for drop events
 };
 
 struct WindowOptions {
-    int width = 1280;  // interface units; a high-density screen has more pixels
+    int width = 1280;  // in px of a standard screen; enlarged on high-density screens
     int height = 800;
     std::string title = "defocus";
 };
 
 class Window {
 public:
-    // Throws Error without a display or without OpenGL 4.5. Only one window per process.
+    // Opens the window; at most one per process. Throws Error without a display or without OpenGL 4.5.
     explicit Window(const WindowOptions& options);
     ~Window();
     Window(const Window&) = delete;
@@ -70,19 +71,19 @@ public:
     [[nodiscard]] bool closing() const;
     void close();
     [[nodiscard]] bool keyHeld(int keyCode) const;
-    [[nodiscard]] bool hovered() const;  // mouse is over the window
-    [[nodiscard]] bool focused() const;  // window has keyboard focus
+    [[nodiscard]] bool hovered() const;  // true if the mouse is over the window
+    [[nodiscard]] bool focused() const;  // true if the window has the keyboard focus
 
     [[nodiscard]] bool fullscreen() const;
-    // Covers the window's current screen, or restores the previous position and size.
+    // If `on`, covers the window's current screen; otherwise restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Sizes as of the latest poll(); both belong to the same moment.
+    // Return sizes that were both read during the latest poll().
     [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
     [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
-    [[nodiscard]] double contentScale() const;  // window units per interface unit; 1 on a standard screen
+    [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen
 
-    // Binds the window's framebuffer and clears it to a display-encoded colour.
+    // Binds the window's framebuffer and clears it to the display-encoded `color`.
     void beginFrame(const glm::vec3& color);
     void endFrame();
     // Returns the current framebuffer as linear RGB.
@@ -92,11 +93,12 @@ public:
     void setClipboard(const std::string& text);
     [[nodiscard]] GLFWwindow* native() const { return window_; }
     [[nodiscard]] const std::string& device() const { return device_; }
-    [[nodiscard]] bool software() const { return software_; }  // renders on the CPU
+    [[nodiscard]] bool software() const { return software_; }  // true if it renders on the CPU
 
 private:
     void installCallbacks();
-    // Reads both sizes consistently: while the window is resized, GLFW may report an old and a new size.
+    // Sets size_ and framebufferSize_ to values of the same moment: during a resize, GLFW may report one old and one
+    // new.
     void readSizes();
     WindowEvent& add(WindowEvent::Type type);
 
@@ -104,7 +106,7 @@ private:
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
     glm::ivec2 size_{0}, framebufferSize_{0};
-    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // position and size to restore after full screen
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored after full screen
     std::string device_;
     bool software_ = false;
 };

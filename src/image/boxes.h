@@ -1,12 +1,13 @@
 #pragma once
-// Difference of two images after a box blur: the error that a blur does not hide.
+// Difference of two images after box filtering, which ignores noise finer than the boxes.
 
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// Returns the RMS difference of the means of `size` x `size` px boxes, over the first three channels in linear light.
-// Incomplete boxes at the right and bottom edges are ignored. Both images must have the same size, at least one box.
+// Divides both images into boxes of `size` x `size` px and returns the RMS difference between the boxes' means, over
+// the first three channels in linear light. Incomplete boxes at the right and bottom edges are ignored. Both images
+// must have the same size and contain at least one complete box.
 double boxDifference(const ImageView& reference, const ImageView& test, int size);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Linear colours at 0, 1/255, …, 1.
+// Linear colours of a colour map at 0, 1/255, …, 1.
 using Table = std::array<glm::vec3, 256>;
 
 Table tableOf(const char* name) {

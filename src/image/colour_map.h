@@ -8,11 +8,11 @@
 
 namespace defocus::engine {
 
-// Both functions map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
+// magma() and viridis() map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
 glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for errors
 glm::vec3 viridis(float t);  // dark blue, green, yellow; for levels and other quantities
 
-// Maps a 1-channel image with values in [0, 1] through magma to linear RGB, for writeImage.
+// Maps a 1-channel image with values in [0, 1] to linear RGB by magma().
 Image colourMapped(const Image& values);
 
 }  // namespace defocus::engine

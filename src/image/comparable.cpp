@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Copies a pixel's colour as RGB. Returns false if a channel is NaN or infinite.
+// Copies a pixel's grey or RGB colour to `rgb`. Returns false if a channel is NaN or infinite.
 bool copyColour(const float* pixel, int channels, float* rgb) {
     for (int c = 0; c < 3; ++c) rgb[c] = pixel[channels == 1 ? 0 : c];
     return std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]);

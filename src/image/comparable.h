@@ -1,7 +1,7 @@
 #pragma once
-// Two images prepared for all metrics: equal size, RGB and finite. Grey is replicated; alpha is dropped, which leaves
-// the premultiplied colour over black. Non-finite pixels are marked and replaced, so that filters do not spread them.
-// The replacement is the other image's colour, or black if both are non-finite.
+// Two images prepared for image metrics: equal size, RGB and finite. Grey is copied to all three channels. Alpha is
+// dropped, so premultiplied colours appear over black. A pixel with NaN or infinity is marked and replaced by the other
+// image's pixel, or by black if both are non-finite, so that filters do not spread it.
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +15,11 @@ enum class PixelState : std::uint8_t { finite, nonFiniteInOne, nonFiniteInBoth }
 struct ComparablePair {
     Image reference;                // 3 channels, linear
     Image test;                     // 3 channels, linear
-    std::vector<PixelState> state;  // width · height entries
+    std::vector<PixelState> state;  // width · height entries, top row first
 };
 
-// Throws Error if the sizes differ, or if an image is empty or has the wrong number of values.
+// Returns the prepared images. Throws Error if the sizes differ, or if an image is empty or has the wrong number of
+// values.
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus::engine

@@ -1,5 +1,6 @@
-// OpenEXR "File Layout": eight bytes, then headers, each a list of attributes that ends with an empty name. An
-// attribute is a zero-terminated name, a zero-terminated type, a 32-bit little-endian byte count, and the value.
+// EXR files ("OpenEXR File Layout") start with eight bytes, then headers. A header is a list of attributes that ends
+// with an empty name. An attribute is a zero-terminated name, a zero-terminated type, a 32-bit little-endian byte
+// count, and the value.
 
 #include "image/exr_structure.h"
 
@@ -18,8 +19,8 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t headersBegin = 8;
-constexpr std::size_t channelBytes = 16;     // bytes per channel after its name, in a channel list
-constexpr std::int64_t widestRow = 1 << 20;  // px; OpenEXR allocates several rows at once
+constexpr std::size_t channelBytes = 16;     // bytes after each channel's name in a channel list
+constexpr std::int64_t widestRow = 1 << 20;  // max px; OpenEXR allocates several rows at once
 
 // Attribute types with a fixed size in bytes.
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{
@@ -47,13 +48,13 @@ std::uint32_t number(Bytes bytes, std::size_t at) {
     return value;
 }
 
-// Returns the width of a box2i (xMin, yMin, xMax, yMax); its bounds are inclusive.
+// Returns the width in px of a box2i attribute (xMin, yMin, xMax, yMax), whose bounds are inclusive.
 std::int64_t widthOf(Bytes box) {
     const auto column = [&](std::size_t at) { return std::int64_t{static_cast<std::int32_t>(number(box, at))}; };
     return column(8) - column(0) + 1;
 }
 
-// Returns whether the value is a valid channel list; an empty name as last byte ends the list.
+// Returns whether an attribute's value is a valid channel list, which ends with an empty name.
 bool isChannelList(Bytes value) {
     for (std::size_t at = 0; at < value.size();) {
         const auto channel = textAt(value, at);
@@ -67,10 +68,10 @@ bool isChannelList(Bytes value) {
 }  // namespace
 
 void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name) {
-    // A multi-part file has one header per part, then an empty header.
+    // Bit 4 of byte 5 marks multi-part files, which have one header per part, then an empty header.
     const bool parts = head.size() > 5 && (head[5] & std::byte{0x10}) != std::byte{0};
     const int last = parts ? 2 : 1;
-    int empty = 0;  // consecutive empty names
+    int empty = 0;  // consecutive empty names; each ends a header
     for (std::size_t at = headersBegin; at < head.size() && empty < last;) {
         const auto attribute = textAt(head, at);
         if (!attribute) return;

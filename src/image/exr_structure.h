@@ -1,6 +1,6 @@
 #pragma once
-// Checks EXR header attributes before OpenEXR reads them. OpenEXR ignores the stored size of most types, and allocates
-// up to 2 GiB for a damaged size.
+// Checks the attributes of an EXR header before OpenEXR reads them. OpenEXR ignores the stored byte count of most
+// attribute types, and allocates up to 2 GiB if a byte count is damaged.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace defocus::engine {
 
-// `head` is the start of a file of `fileBytes` bytes; it may be incomplete. Throws Error that names `name` if an
-// attribute exceeds the file, has the wrong size for its type, or rows exceed 2²⁰ px. Other faults are left to OpenEXR.
+// Throws Error, with `name` in its message, if an attribute exceeds the file or has the wrong size for its type, or if
+// rows exceed 2²⁰ px. `head` is the start of a file of `fileBytes` bytes and may end within the header. OpenEXR detects
+// other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
 }  // namespace defocus::engine

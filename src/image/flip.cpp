@@ -26,7 +26,7 @@ constexpr std::array<float, 9> xyzToRgb = {3.241003233f, -1.537398969f, -0.49861
                                            0.041554226f, 0.055639420f,  -0.204011206f, 1.057148977f};
 constexpr std::array<float, 3> white = {0.950428545f, 1.000000000f, 1.088900371f};
 
-// Section 4.1: contrast sensitivity as a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
+// Contrast sensitivity (section 4.1) as a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
 struct SensitivityTerm {
     double a;
     double b;
@@ -35,7 +35,8 @@ constexpr SensitivityTerm achromaticTerm{1.0, 0.0047};
 constexpr SensitivityTerm redGreenTerm{1.0, 0.0053};
 constexpr std::array<SensitivityTerm, 2> blueYellowTerms = {{{34.1, 0.04}, {13.5, 0.025}}};
 
-// Section 4.1: exponent of the colour difference, and the knee that maps 0.4 of the maximum to 0.95.
+// Section 4.1: exponent of the colour difference, and the knee of the piecewise linear curve, which maps 0.4 times the
+// maximum difference to 0.95.
 constexpr float colourExponent = 0.7f;
 constexpr float kneeIn = 0.4f;
 constexpr float kneeOut = 0.95f;
@@ -57,7 +58,7 @@ Colour transformed(const std::array<float, 9>& m, const Colour& c) {
             m[6] * c.x + m[7] * c.y + m[8] * c.z};
 }
 
-// Converts to YCxCz, the opponent colour space of the spatial filters. The conversion is linear in RGB.
+// Converts linear RGB to YCxCz, the opponent colour space of the spatial filters. The conversion is linear.
 Colour opponentFromRgb(const Colour& rgb) {
     const Colour xyz = transformed(rgbToXyz, rgb);
     const float x = xyz.x / white[0], y = xyz.y / white[1], z = xyz.z / white[2];
@@ -76,7 +77,7 @@ float labCurve(float t) {
     return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0f / 29.0f;
 }
 
-// Converts to L*a*b* with the Hunt effect: dark colours appear less colourful.
+// Converts linear RGB to L*a*b* with the Hunt effect: dark colours appear less colourful.
 Colour huntLabFromRgb(const Colour& rgb) {
     const Colour xyz = transformed(rgbToXyz, rgb);
     const float x = labCurve(xyz.x / white[0]), y = labCurve(xyz.y / white[1]), z = labCurve(xyz.z / white[2]);
@@ -84,8 +85,8 @@ Colour huntLabFromRgb(const Colour& rgb) {
     return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
 }
 
-// Returns the HyAB distance: absolute difference in lightness plus Euclidean distance in chroma. It suits large
-// differences better than CIE formulas.
+// Returns the HyAB distance of two L*a*b* colours: absolute difference in lightness plus Euclidean distance in chroma.
+// HyAB suits large differences better than CIE formulas.
 float colourDistance(const Colour& p, const Colour& q) {
     return std::abs(p.x - q.x) + std::hypot(p.y - q.y, p.z - q.z);
 }
@@ -94,14 +95,14 @@ Colour clamped(const Colour& c) {
     return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
 
-// ACES curve of K. Narkowicz with an exposure factor of 0.6. Inputs are clamped far above saturation, so that squares
-// stay finite.
+// Applies K. Narkowicz's ACES curve with an exposure factor of 0.6. Inputs are clamped far above saturation, so that
+// squares stay finite.
 float acesCurve(float value) {
     const float x = 0.6f * std::clamp(value, 0.0f, 1e6f);
     return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-// Returns unnormalised weights exp(−x²·falloff), x in pixels.
+// Returns the weights exp(−falloff·x²) for x = −radius … radius in px; they are not normalised.
 std::vector<double> gaussian(int radius, double falloff) {
     std::vector<double> weights;
     for (int i = -radius; i <= radius; ++i) weights.push_back(std::exp(-falloff * i * i));
@@ -120,7 +121,7 @@ FloatKernel scaled(const std::vector<double>& weights, double scale) {
     return kernel;
 }
 
-// Normalises a derivative filter: positive weights sum to 1, negative weights to −1.
+// Normalises a derivative filter so that its positive weights sum to 1 and its negative weights to −1.
 FloatKernel balanced(const std::vector<double>& weights) {
     double positive = 0, negative = 0;
     for (const double weight : weights) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -132,7 +133,7 @@ FloatKernel balanced(const std::vector<double>& weights) {
 
 struct SpatialFilters {
     FloatKernel achromatic, redGreen;
-    std::array<FloatKernel, 2> blueYellow;   // each kernel sums to 1
+    std::array<FloatKernel, 2> blueYellow;   // the filter's two Gaussians; each sums to 1
     std::array<float, 2> blueYellowWeights;  // weights of the two kernels; sum to 1
 };
 
@@ -147,7 +148,8 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
         const std::vector<double> weights = weightsOf(term);
         return scaled(weights, 1 / sum(weights));
     };
-    // A 2D sum of two Gaussians is separable term by term; `share` is the 2D weight of each term.
+    // The blue-yellow filter is a sum of two Gaussians. Each is separable; `share` is its weight, the sum over its 2D
+    // kernel.
     std::array<double, 2> share;
     for (std::size_t i = 0; i < share.size(); ++i) {
         const double total = sum(weightsOf(blueYellowTerms[i]));
@@ -161,7 +163,7 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
 }
 
 struct FeatureFilters {
-    FloatKernel smooth, edge, point;  // Gaussian, its first and its second derivative
+    FloatKernel smooth, edge, point;  // a Gaussian, its first derivative and its second derivative
 };
 
 FeatureFilters featureFilters(double pixelsPerDegree) {
@@ -177,7 +179,7 @@ FeatureFilters featureFilters(double pixelsPerDegree) {
     return {scaled(smooth, 1 / sum(smooth)), balanced(edge), balanced(point)};
 }
 
-template <typename ToDisplay>  // ToDisplay: float(float), maps a linear channel to displayed light in [0, 1]
+template <typename ToDisplay>  // float(float): maps a linear channel to displayed light in [0, 1]
 ColourPlanes opponentPlanes(const Image& rgb, const ToDisplay& toDisplay) {
     ColourPlanes planes(rgb.width, rgb.height);
     forEachRow(rgb.height, [&](int y) {
@@ -196,7 +198,7 @@ FloatPlane filtered(const FloatPlane& in, const FloatKernel& alongRows, const Fl
     return filteredAlongColumns(filteredAlongRows(in, alongRows), alongColumns);
 }
 
-// Filters with the eye's contrast sensitivity and converts to L*a*b* with the Hunt effect.
+// Filters an image in YCxCz with the eye's contrast sensitivity. Returns L*a*b* with the Hunt effect.
 ColourPlanes perceived(const ColourPlanes& opponent, const SpatialFilters& filters) {
     const FloatPlane achromatic = filtered(opponent.x, filters.achromatic, filters.achromatic);
     const FloatPlane redGreen = filtered(opponent.y, filters.redGreen, filters.redGreen);
@@ -218,7 +220,7 @@ ColourPlanes perceived(const ColourPlanes& opponent, const SpatialFilters& filte
 }
 
 struct Features {
-    FloatPlane edges, points;  // feature strengths
+    FloatPlane edges, points;  // magnitudes of the filter responses
 };
 
 Features features(const FloatPlane& achromatic, const FeatureFilters& filters) {
@@ -239,7 +241,7 @@ Features features(const FloatPlane& achromatic, const FeatureFilters& filters) {
     return {strength(filters.edge), strength(filters.point)};
 }
 
-// Maps colour differences to [0, 1]: a power function, then a piecewise linear curve with a knee.
+// Maps the difference of two L*a*b* colours to [0, 1] by a power function, then a piecewise linear curve with one knee.
 class ColourDifference {
 public:
     ColourDifference()
@@ -252,25 +254,25 @@ public:
     }
 
 private:
-    float largest_;  // distance between green and blue
+    float largest_;  // difference between green and blue, the maximum
 };
 
-// Computes LDR-FLIP for the images as displayed by `toDisplay`. Stores the maximum of the result and the previous value
-// in `map`.
+// Computes LDR-FLIP of the images mapped by `toDisplay`. Raises each pixel of `map` to the result if the result is
+// larger.
 template <typename ToDisplay>
 void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDisplay& toDisplay, Image& map) {
-    // Displayed light in the opponent space.
+    // Convert displayed light to the opponent space.
     const ColourPlanes opponentA = opponentPlanes(pair.reference, toDisplay);
     const ColourPlanes opponentB = opponentPlanes(pair.test, toDisplay);
-    // Colour pipeline.
+    // Run the colour pipeline.
     const SpatialFilters spatial = spatialFilters(pixelsPerDegree);
     const ColourPlanes labA = perceived(opponentA, spatial);
     const ColourPlanes labB = perceived(opponentB, spatial);
-    // Feature pipeline: edges and points that only one image has.
+    // Run the feature pipeline, which detects edges and points.
     const FeatureFilters filters = featureFilters(pixelsPerDegree);
     const Features featuresA = features(opponentA.x, filters);
     const Features featuresB = features(opponentB.x, filters);
-    // Feature differences amplify colour differences.
+    // Combine: feature differences amplify colour differences.
     const ColourDifference colourDifference;
     forEachRow(map.height, [&](int y) {
         for (int x = 0; x < map.width; ++x) {
@@ -307,7 +309,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
         raiseToFlip(
             pair, pixelsPerDegree, [](float value) { return std::clamp(value, 0.0f, 1.0f); }, map);
     } else {
-        // Take the maximum over all exposures.
+        // Compute the maximum over all exposures.
         const double step = hdr->exposures > 1 ? (hdr->stopExposure - hdr->startExposure) / (hdr->exposures - 1) : 0.0;
         for (int i = 0; i < hdr->exposures; ++i) {
             const auto gain = static_cast<float>(std::exp2(hdr->startExposure + i * step));
@@ -315,7 +317,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
                 pair, pixelsPerDegree, [gain](float value) { return acesCurve(gain * value); }, map);
         }
     }
-    // Overwrite non-finite pixels.
+    // Set pixels that are NaN or infinite: 1 if only one image is non-finite, 0 if both are.
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
         if (pair.state[i] == PixelState::nonFiniteInOne) map.pixels[i] = 1;
         if (pair.state[i] == PixelState::nonFiniteInBoth) map.pixels[i] = 0;

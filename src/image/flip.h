@@ -6,7 +6,8 @@
 //
 // HDR: Andersson, Nilsson, Shirley, Akenine-Möller: "Visualizing Errors in Rendered High Dynamic Range Images",
 // Eurographics Short Papers 2021. HDR-FLIP is the maximum of LDR-FLIP over several exposures, tone-mapped with the ACES
-// curve of K. Narkowicz. Exposures are explicit, because the automatic ones fail on mostly black images.
+// curve of K. Narkowicz. Exposures are given by the caller, because the paper's automatic exposures fail on mostly
+// black images.
 
 #include <optional>
 
@@ -20,12 +21,13 @@ struct HdrFlipOptions {
     int exposures = 4;          // evenly spaced from start to stop; 1 (start only) to 64
 };
 
-// Default of the FLIP papers: a 3840 px wide, 0.7 m wide monitor at 0.7 m distance.
+// Default of the FLIP papers: a monitor of 3840 px and 0.7 m width, seen from a distance of 0.7 m.
 inline constexpr double defaultPixelsPerDegree = 67.0;
 
-// Returns FLIP per pixel in [0, 1] with 1 channel. Images are linear, of equal size, with 1, 3 or 4 channels; alpha is
-// ignored. LDR-FLIP clips colours to [0, 1]. A pixel that is NaN or infinite gets 1 if only one image has it, or 0 if
-// both do. It does not affect its neighbours. Throws Error if sizes differ or options are out of range.
+// Returns FLIP per pixel in [0, 1] with 1 channel: HDR-FLIP if `hdr` is set, else LDR-FLIP, which clips colours to [0,
+// 1]. Images are linear, of equal size, with 1, 3 or 4 channels; alpha is ignored. A pixel that is NaN or infinite in
+// only one image gets 1; in both, 0. Such pixels do not affect their neighbours. Throws Error if sizes differ or
+// options are out of range.
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr = {},
                    double pixelsPerDegree = defaultPixelsPerDegree);
 

@@ -17,7 +17,7 @@ Image copyOf(const ImageView& view) {
     return image;
 }
 
-// Divides colours by alpha; pixels with alpha 0 become black.
+// Returns an RGBA image with its colours divided by alpha; pixels with alpha 0 become black.
 Image withStraightAlpha(const ImageView& premultiplied) {
     Image image = copyOf(premultiplied);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
@@ -35,7 +35,7 @@ Image withoutAlpha(const ImageView& image) {
     return opaque;
 }
 
-// Adds metadata with EXR's types; PNG supports only text.
+// Adds one metadata value to `spec`, as text for PNG and with its EXR type for EXR.
 struct MetadataWriter {
     OIIO::ImageSpec& spec;
     FileKind kind;

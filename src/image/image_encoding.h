@@ -1,5 +1,5 @@
 #pragma once
-// File kinds and pixel encoding, shared by writing complete images and writing rows. Private to src/image.
+// File kinds and pixel encoding, shared by image_write.cpp and image_rows.cpp. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 
@@ -17,11 +17,11 @@ enum class FileKind { exr, png, jpeg };
 FileKind fileKind(const std::filesystem::path& path);
 const char* formatName(FileKind kind);  // name in OpenImageIO
 
-// Returns the OpenImageIO description of a file. JPEG drops alpha and all metadata except `comments`.
+// Returns OpenImageIO's description of an image file. JPEG files drop alpha and all metadata except `comments`.
 OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, const Metadata& metadata);
 
-// Encodes linear rows as PNG or JPEG bytes. `firstRow` is the index of the first row in the file, which determines the
-// dither pattern.
+// Converts linear rows to the 8-bit values of a PNG or JPEG file. `firstRow` is the file's index of the first row; the
+// dither pattern depends on it.
 std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
                                        int firstRow);
 

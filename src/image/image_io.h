@@ -1,6 +1,6 @@
 #pragma once
-// Image files through OpenImageIO: linear float EXR with metadata, tone-mapped PNG and JPEG, textures, and HDR
-// environment maps.
+// Reads and writes image files through OpenImageIO: linear float EXR with metadata, tone-mapped PNG and JPEG, textures,
+// and HDR environment maps.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +20,9 @@ namespace defocus::engine {
 
 // Metadata by EXR attribute name. Standard names (OpenEXR "Standard Attributes") are used where they exist: isoSpeed,
 // aperture (f-number), focus (m), nominalFocalLength (mm), expTime, comments, worldToCamera …. Other names have the
-// prefix "defocus:". EXR requires floats under standard names, so doubles are stored as float there, and as double
-// under prefixed names. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal glm's
-// column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
+// prefix "defocus:". EXR requires floats under standard names, so a double is stored as float under a standard name,
+// and as double under a prefixed name. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal
+// glm's column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
 using MetadataValue = std::variant<int, double, std::string, glm::mat4>;
 using Metadata = std::map<std::string, MetadataValue>;
 
@@ -30,8 +30,8 @@ using defocus::compareImages;
 using defocus::readImage;
 using defocus::writeImage;
 
-// Same as readImage of the public API, and also returns the file's attributes under EXR names. PNG files store numbers
-// as text.
+// Same as readImage of the public API, and sets `metadata` to the file's attributes under EXR names. Numbers from PNG
+// files are strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
 // Same as writeImage of the public API, with metadata. EXR files store all metadata and add capDate if it is missing.
@@ -40,9 +40,9 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
                 const WriteOptions& options = {});
 
 // Named images of equal size in one EXR file, such as partial sums of a frame. Layer NAME has the channels NAME.R,
-// NAME.G, NAME.B and NAME.A: 32-bit float, lossless ZIP. Names must not end with a dot. Reading returns the layers in
-// alphabetical order. Both functions throw Error like readImage and writeImage, and reading throws for a file without
-// layers.
+// NAME.G, NAME.B and NAME.A: 32-bit float, lossless ZIP. Names must not end with a dot. readLayers returns the layers
+// in alphabetical order. Both functions throw Error under the conditions of readImage and writeImage; readLayers also
+// throws if the file has no layers.
 struct ImageLayer {
     std::string name;
     Image image;  // 3 or 4 channels
@@ -50,11 +50,11 @@ struct ImageLayer {
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 
-// Throws Error unless writeImage supports the extension of `path`.
+// Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);
 
-// Decodes a PNG or JPEG in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in errors. `take`
-// receives the pixel count before memory is allocated, and may throw.
+// Decodes a PNG or JPEG in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error messages.
+// `take` is called with the pixel count before memory is allocated; it may throw.
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
                            const std::function<void(std::uint64_t pixels)>& take = {});
 

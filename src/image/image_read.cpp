@@ -26,10 +26,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Maximum size: 268 million pixels, a 16384 × 16384 texture. A larger header is probably damaged.
+// Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with more is probably damaged.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
 // Maximum pixels per byte of a JPEG file: each 8 × 8 block takes at least one bit. For shorter files, libjpeg would
-// spend a long time inventing the missing pixels.
+// spend a long time filling the missing pixels.
 constexpr std::uint64_t maxJpegPixels = 2 * 8 * 8 * 8;
 
 struct Format {
@@ -54,7 +54,7 @@ std::optional<std::string_view> formatOf(std::span<const std::byte> encoded) {
     return std::nullopt;
 }
 
-// In-memory file with checked bounds. For damaged files, OpenImageIO's own reader may read before the start of the
+// In-memory file with bounds checks. For damaged files, OpenImageIO's IOMemReader may read before the start of its
 // buffer.
 class CheckedMemory final : public OIIO::Filesystem::IOMemReader {
 public:
@@ -75,7 +75,7 @@ public:
     }
 };
 
-// Image reader and its data, which must outlive the reader.
+// Open image reader with the encoded bytes, which must outlive the reader.
 struct OpenImage {
     std::vector<unsigned char> bytes;
     std::unique_ptr<CheckedMemory> memory;
@@ -96,7 +96,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
     if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
 
-    // Keep straight alpha: OpenImageIO would premultiply encoded values.
+    // Read straight alpha: OpenImageIO would premultiply values before they are decoded to linear.
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
@@ -114,7 +114,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     return image;
 }
 
-// Returns the indices of the channels that form grey, RGB or RGBA, in this order.
+// Returns the indices of the file's channels that form grey, RGB or RGBA, in this order.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
         const auto found = std::ranges::find(spec.channelnames, channel);
@@ -132,7 +132,7 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
     return channels;
 }
 
-// Returns the selected channels of all pixels, interleaved.
+// Returns the given channels of all pixels, interleaved.
 template <typename T>
 std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
     const int first = *std::ranges::min_element(channels);
@@ -142,7 +142,7 @@ std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, 
     std::vector<T> read(pixels * stride);
     const bool complete =
         image.input->read_image(0, 0, first, end, OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value), read.data());
-    // libjpeg only warns about truncated data and fills the gap.
+    // For truncated data, libjpeg only warns and fills the missing pixels.
     const std::string message = image.input->geterror();
     if (!complete || message.find("Premature end") != std::string::npos)
         fail("{}: cannot be read: {}", name, firstLine(message));
@@ -162,7 +162,7 @@ bool isEncoded(const OIIO::ImageSpec& spec) {
            !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
 }
 
-// Converts sRGB to linear values, and straight to premultiplied alpha.
+// Converts sRGB values to linear if `encoded`, and straight alpha to premultiplied if `straightAlpha`.
 void linearise(Image& image, bool encoded, bool straightAlpha) {
     if (!encoded && !(straightAlpha && image.channels == 4)) return;
     const int colours = std::min(image.channels, 3);
@@ -180,7 +180,7 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     if (type == OIIO::TypeString) return attribute.get_string();
     if (type == OIIO::TypeInt) return attribute.get_int();
     if (type == OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE)) return *static_cast<const double*>(attribute.data());
-    if (type == OIIO::TypeFloat)  // shortest decimal of the float: 1.4 instead of 1.39999998
+    if (type == OIIO::TypeFloat)  // by the shortest decimal, so that 1.4f gives 1.4 instead of 1.39999998
         return std::stod(fmt::format("{}", attribute.get_float()));
     if (type == OIIO::TypeMatrix) {
         glm::mat4 matrix;
@@ -232,7 +232,7 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
     OpenImage file = openImage(encoded, "openexr", name);
 
     // Group channels by layer.
-    std::map<std::string, std::vector<int>> channels;  // channel indices of R, G, B, A by layer
+    std::map<std::string, std::vector<int>> channels;  // indices of R, G, B, A by layer name; −1 if missing
     const std::vector<std::string>& names = file.spec.channelnames;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::size_t dot = names[i].rfind('.');

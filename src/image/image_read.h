@@ -1,5 +1,5 @@
 #pragma once
-// Code shared by reading complete images and reading rows. Private to src/image.
+// Code shared by image_read.cpp and image_rows.cpp. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Returns a file's attributes under EXR names.
+// Returns the attributes of an opened file under their EXR names.
 Metadata metadataOf(const OIIO::ImageSpec& spec);
 
 }  // namespace defocus::engine

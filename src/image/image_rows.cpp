@@ -24,7 +24,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int rowsAtOnce = 64;  // encoded per call; multiple of EXR's 16-row blocks
+constexpr int rowsAtOnce = 64;  // max rows encoded per call; a multiple of EXR's 16-row blocks
 
 ImageView rowsOf(const ImageView& image, int first, int count) {
     const std::size_t row = image.strides.row;
@@ -34,7 +34,7 @@ ImageView rowsOf(const ImageView& image, int first, int count) {
     return rows;
 }
 
-// Returns the first 64 KiB of a file, enough for the checked part of a header.
+// Returns the first 64 KiB of a file, enough for checkExrHeader.
 std::vector<std::byte> beginOf(const std::filesystem::path& path) {
     std::vector<std::byte> head(std::size_t{1} << 16);
     std::ifstream file(path, std::ios::binary);
@@ -45,7 +45,7 @@ std::vector<std::byte> beginOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-// File writer that remembers the first write error, for libraries that do not check each write.
+// File writer that stores the first write error, because image libraries do not check each write.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedFile(const std::filesystem::path& path)
@@ -101,7 +101,8 @@ struct ImageRowWriter::State {
         fail("{}: cannot be written: {}", name, reason);
     }
 
-    // Called with the first rows: libpng prints a message if a file ends without rows.
+    // Starts the file. Called only when the first rows are available: libpng prints a message if a file ends without
+    // rows.
     void open() {
         output = OIIO::ImageOutput::create(formatName(kind), &file);
         if (!output) fail("{}: cannot be written: {}", name, firstLine(OIIO::geterror()));
@@ -116,8 +117,8 @@ struct ImageRowWriter::State {
     CheckedFile file;
     std::unique_ptr<OIIO::ImageOutput> output;
     OIIO::ImageSpec spec;
-    int channels = 0;  // channels of the input rows
-    int written = 0;   // number of rows written
+    int channels = 0;  // of the rows passed to write()
+    int written = 0;   // rows written so far
 };
 
 ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels,
@@ -178,7 +179,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     s.name = path.string();
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason
+        static_cast<void>(readFile(path));  // throws Error with the reason why it cannot be read
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("{}: cannot be read: {}", s.name, firstLine(OIIO::geterror()));

@@ -1,6 +1,6 @@
 #pragma once
-// Row-wise access to image files that do not fit into memory. EXR, PNG and JPEG are written from the top row down, with
-// the same pixels as writeImage. Only EXR can be read by rows.
+// Row-wise access to image files that do not fit into memory. EXR, PNG and JPEG files are written from the top row
+// down, with the same pixels as writeImage. Only EXR files can be read row by row.
 
 #include <filesystem>
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Position of a file's rows in a larger image; in EXR, the data window within the display window.
+// Position of a file's rows in a larger image. EXR stores it as the data window within the display window.
 struct RowPlace {
     int firstRow = 0;
     int imageHeight = 0;  // px; 0: the file holds the complete image
@@ -17,15 +17,15 @@ struct RowPlace {
 
 class ImageRowWriter {
 public:
-    // Throws Error that names the path. `place` applies to EXR only.
+    // Throws Error, with the path in its message, if the file cannot be created. `place` is ignored except for EXR.
     ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels, const Metadata& metadata,
                    const WriteOptions& options = {}, const RowPlace& place = {});
-    ~ImageRowWriter();  // removes an unfinished file
+    ~ImageRowWriter();  // deletes the temporary file unless finish() was called
     ImageRowWriter(ImageRowWriter&&) noexcept;
 
-    // Appends rows with the width and channels given to the constructor.
+    // Appends rows, which must have the width and channels given to the constructor.
     void write(const ImageView& rows);
-    // Call after the last row: flushes the file to disk and renames it to `path`.
+    // Completes the file after the last row: flushes it to disk and renames it to `path`.
     void finish();
 
 private:
@@ -35,7 +35,8 @@ private:
 
 class ImageRowReader {
 public:
-    // Throws Error that names the path, also if the file is not an EXR file with channels R, G, B and optionally A.
+    // Throws Error, with the path in its message, if the file cannot be read or is not EXR with channels R, G, B and
+    // optionally A.
     explicit ImageRowReader(const std::filesystem::path& path);
     ~ImageRowReader();
     ImageRowReader(ImageRowReader&&) noexcept;

@@ -27,8 +27,8 @@ void checkImage(const ImageView& image, const std::string& name) {
         fail("{}: cannot be written: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
-// Encodes the complete file in memory, which avoids late or silent write errors of a library. The disk then gets one
-// plain write.
+// Returns the complete encoded file, so that one checked write stores it. Image libraries report write errors late or
+// not at all.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
                                   const void* pixels) {
     std::vector<unsigned char> bytes;

@@ -41,8 +41,8 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
                       static_cast<std::size_t>(x)];
 }
 
-// Computes MAE, RMSE, PSNR, the maximum error and the pixel counts. Each row is summed separately and rows are added in
-// order, so that the result does not depend on the number of cores.
+// Sets MAE, RMSE, PSNR, the maximum error and the pixel counts of `difference`. Sums are formed per row and added in
+// row order, so that the result does not depend on the number of cores.
 void measureErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask,
                    Difference& difference) {
     std::vector<ErrorSums> rows(static_cast<std::size_t>(displayA.height));
@@ -115,7 +115,7 @@ DoublePlane product(const DoublePlane& a, const DoublePlane& b) {
     return result;
 }
 
-// Returns SSIM per pixel; edge pixels are repeated outside the image.
+// Returns SSIM per pixel. Windows that reach outside the image use repeated edge pixels.
 DoublePlane similarityMap(const ComparablePair& pair, const Image& displayA, const Image& displayB) {
     const Kernel<double> window = ssimWindow();
     const auto mean = [&](const DoublePlane& plane) {
@@ -174,7 +174,7 @@ double meanValue(const Image& map, const Image* mask) {
 }  // namespace
 
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
-    // Convert to finite RGB over black, then to display-encoded values.
+    // Convert both images to finite RGB over black, then to display-encoded values.
     const ComparablePair pair = comparablePair(reference, test);
     const Image* mask = options.mask;
     if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height || mask->channels != 1))
@@ -183,11 +183,11 @@ Difference compareImages(const ImageView& reference, const ImageView& test, cons
     const Image displayA = displayEncoded(pair.reference);
     const Image displayB = displayEncoded(pair.test);
 
-    // Per-channel errors.
+    // Compute per-channel errors.
     Difference difference;
     measureErrors(pair, displayA, displayB, mask, difference);
 
-    // Neighbourhood metrics.
+    // Compute the metrics that use a neighbourhood of each pixel.
     difference.ssim = meanSimilarity(similarityMap(pair, displayA, displayB), mask);
     Image flip = flipErrorMap(reference, test, options.hdrFlip);
     difference.flip = meanValue(flip, mask);

@@ -1,18 +1,18 @@
 #pragma once
-// Image difference metrics, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped) unless stated otherwise.
+// Image difference metrics. Unless stated otherwise, they use display-encoded values in [0, 1] at EV 0 (sRGB, clipped).
 //
-// PSNR: peak 1.
+// PSNR: the peak value is 1.
 //
 // SSIM: Wang, Bovik, Sheikh, Simoncelli: "Image Quality Assessment: From Error Visibility to Structural Similarity",
 // 2004. Gaussian window 11×11, σ 1.5, on Rec.709 luma; K1 0.01, K2 0.03, dynamic range 1. The mean covers the pixels
-// whose window lies inside the image. If there are none (images under 11 px, masks at the edge), it covers all pixels,
-// with repeated edges.
+// whose window lies inside the image. If there are none (images under 11 px, masks at the edge), the mean covers all
+// pixels, with repeated edge pixels outside the image.
 //
 // FLIP: see flip.h; 67 pixels per degree.
 //
 // Non-finite values: a pixel that is NaN or infinite in only one image counts as the maximum difference (1 per channel,
-// SSIM 0, FLIP 1). If it is non-finite in both images, it counts as equal. It does not affect the windows of its
-// neighbours. The number of such pixels is reported.
+// SSIM 0, FLIP 1). If it is non-finite in both images, it counts as equal. Such pixels do not affect the windows of
+// their neighbours. Their number is reported.
 
 #include <optional>
 
@@ -22,13 +22,13 @@
 namespace defocus::engine {
 
 struct CompareOptions {
-    std::optional<HdrFlipOptions> hdrFlip;  // HDR-FLIP (ACES) over these exposures instead of LDR-FLIP
-    const Image* mask = nullptr;            // 1 channel; only pixels > 0 count, e.g. those covered by geometry
-    Image* flipMap = nullptr;               // receives FLIP per pixel of the full image, 1 channel
+    std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
+    const Image* mask = nullptr;            // 1 channel; only pixels where the mask is > 0 are compared
+    Image* flipMap = nullptr;               // if set: receives FLIP per pixel, regardless of the mask; 1 channel
 };
 
-// Same as compareImages of the public API, with options. A mask without pixels > 0 gives the values of equal images and
-// pixelCount 0.
+// Same as compareImages of the public API, with options. If no mask pixel is > 0, returns the values of equal images
+// and pixelCount 0.
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options);
 
 }  // namespace defocus::engine

@@ -1,8 +1,9 @@
 #pragma once
-// Moments of an image: centroid and spread of its light, to measure blurred points.
+// Moments of an image: the centroid and the variance of its light, for measuring the blur of a point.
 //
-// Variances per axis: R²/4 for a uniform disk of radius R, and R²/12·(2 + cos(2π/n)) for a regular n-gon with
-// circumradius R. A square of w px adds w²/12, and the pixel's box filter adds 1/12 (Sheppard's correction).
+// The variance along an axis is R²/4 for a uniform disk of radius R, and R²/12·(2 + cos(2π/n)) for a regular n-gon with
+// circumradius R. If the blurred object is a square of w px, it adds w²/12. The pixel's box filter adds 1/12 px²
+// (Sheppard's correction).
 
 #include <glm/vec2.hpp>
 
@@ -10,7 +11,7 @@
 
 namespace defocus::engine {
 
-struct Moments {             // moments of the first channel
+struct Moments {             // of the first channel
     double energy = 0;       // sum over all pixels
     glm::dvec2 mean{0};      // px from the top left corner; NaN if energy is 0
     glm::dvec2 variance{0};  // px²
@@ -18,8 +19,8 @@ struct Moments {             // moments of the first channel
 
 Moments momentsOf(const Image& image);
 
-// Returns the (circum)radius in px of the blur of a square of `square` px, from the second moment. `bladeCount` 0 means
-// a disk.
+// Returns the blur's radius in px (circumradius for a polygon) from the second moment of the image of a blurred square.
+// The sharp square's side is `square` px. `bladeCount` 0 means a disk.
 double radiusBySecondMoment(const Moments& moments, int bladeCount, double square);
 
 }  // namespace defocus::engine

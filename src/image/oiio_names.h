@@ -1,5 +1,5 @@
 #pragma once
-// Shared by reading and writing through OpenImageIO: names of EXR's standard attributes, and one-line messages.
+// OpenImageIO's names of EXR's standard attributes, and conversion of its error messages to one line.
 
 #include <array>
 #include <string>
@@ -31,7 +31,7 @@ inline std::string exrNameOf(std::string_view oiioName) {
     return std::string(oiioName);
 }
 
-// Returns the first line of a library's message, which states the cause; further lines only rephrase it.
+// Returns the first line of a library's error message. The first line states the cause; further lines only rephrase it.
 inline std::string firstLine(const std::string& message) {
     const std::string line = message.substr(0, message.find('\n'));
     return line.empty() ? "no reason given" : line;

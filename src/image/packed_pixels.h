@@ -1,18 +1,19 @@
 #pragma once
-// Access to the pixels of a view as one contiguous block.
+// Access to the pixels of an ImageView as one contiguous block.
 
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// Returns whether all pixels of a view lie within ImageView::pixels. Sizes below 0 are invalid.
+// Returns whether all pixels of a view, by its sizes and strides, lie within ImageView::pixels. Returns false for
+// negative sizes.
 bool coversItsPixels(const ImageView& view);
 
-// The pixels of a view without gaps between them. Packed views are not copied, so the view's pixels must outlive this
-// object.
+// Pixels of a view without gaps between rows or pixels. A view without gaps is not copied, so its pixels must outlive
+// this object.
 class PackedPixels {
 public:
-    // Throws Error if the view reaches beyond its pixels.
+    // Throws Error if the view extends beyond ImageView::pixels.
     explicit PackedPixels(const ImageView& view);
     PackedPixels(const PackedPixels&) = delete;
     PackedPixels& operator=(const PackedPixels&) = delete;
@@ -20,7 +21,7 @@ public:
     [[nodiscard]] const ImageView& view() const { return view_; }
 
 private:
-    Image copy_;  // empty if the view is packed
+    Image copy_;  // empty if the view has no gaps
     ImageView view_;
 };
 

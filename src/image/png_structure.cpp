@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t signatureLength = 8;
-constexpr std::size_t chunkOverhead = 12;  // length, type and checksum of a chunk
+constexpr std::size_t chunkOverhead = 12;  // bytes of a chunk's length, type and checksum
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
 constexpr std::array<std::uint32_t, 256> makeChecksumTable() {

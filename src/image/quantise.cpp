@@ -17,8 +17,8 @@ double gradientNoise(int x, int y) {
 }  // namespace
 
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
-    constexpr int betweenChannels = 47;  // px; decorrelates the channels' patterns
-    constexpr double ownValue = 1e-3;    // tolerance in steps for values equal to a byte
+    constexpr int betweenChannels = 47;  // offset in px; decorrelates the dither of the channels
+    constexpr double ownValue = 1e-3;    // tolerance in 1/255 for values that are already a multiple of 1/255
     std::vector<std::uint8_t> bytes;
     bytes.reserve(display.pixels.size());
     for (int y = 0; y < display.height; ++y)

@@ -1,6 +1,6 @@
 #pragma once
-// 1D filters along rows and columns of a one-channel plane; edge pixels are repeated outside the image. Loops access
-// contiguous memory so that the compiler vectorises them; rows run in parallel.
+// 1D filters along rows and columns of a one-channel plane; edge pixels are repeated outside the image. Inner loops
+// access contiguous memory so that the compiler vectorises them; rows are processed in parallel.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,7 +28,7 @@ struct Plane {
     }
 };
 
-// Odd number of weights; the middle weight has offset 0.
+// Weights of a 1D filter; their number is odd, and the middle weight has offset 0.
 template <typename T>
 using Kernel = std::vector<T>;
 
@@ -38,7 +38,7 @@ void forEachRow(int height, const Body& body) {
     parallelFor(static_cast<std::size_t>(height), [&](std::size_t y) { body(static_cast<int>(y)); });
 }
 
-// out(x, y) = Σ kernel[i] · in(x + i − radius, y)
+// Returns out(x, y) = Σ kernel[i] · in(x + i − radius, y), where radius = kernel.size() / 2.
 template <typename T>
 Plane<T> filteredAlongRows(const Plane<T>& in, const Kernel<T>& kernel) {
     const int radius = static_cast<int>(kernel.size() / 2);
@@ -59,7 +59,7 @@ Plane<T> filteredAlongRows(const Plane<T>& in, const Kernel<T>& kernel) {
     return out;
 }
 
-// out(x, y) = Σ kernel[i] · in(x, y + i − radius)
+// Returns out(x, y) = Σ kernel[i] · in(x, y + i − radius), where radius = kernel.size() / 2.
 template <typename T>
 Plane<T> filteredAlongColumns(const Plane<T>& in, const Kernel<T>& kernel) {
     const int radius = static_cast<int>(kernel.size() / 2);

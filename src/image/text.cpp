@@ -1,5 +1,5 @@
-// stb_truetype is used because OpenImageIO's render_text, up to version 2.4, drops all but the last byte of non-ASCII
-// characters.
+// Text is drawn with stb_truetype: OpenImageIO's render_text, up to version 2.4, drops all but the last byte of
+// non-ASCII characters.
 #include "image/text.h"
 
 #include <stb_truetype.h>
@@ -42,7 +42,7 @@ std::unique_ptr<Typeface> loadedTypeface() {
     return stbtt_InitFont(&typeface->outlines, bytes, 0) != 0 ? std::move(typeface) : nullptr;
 }
 
-// Removes the next code point from UTF-8 text and returns it; invalid bytes give '?'.
+// Removes the first code point from UTF-8 `text` and returns it; invalid bytes give '?'.
 std::uint32_t takeCodePoint(std::string_view& text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
     const std::uint32_t first = byte(0);
@@ -59,7 +59,7 @@ std::uint32_t takeCodePoint(std::string_view& text) {
     return whole ? point : std::uint32_t{'?'};
 }
 
-// Blends `value` over the image with `coverage` as opacity (0 to 255, row by row).
+// Blends `value` over a rectangle of the image. `coverage` is the opacity of each pixel, 0 to 255, row by row.
 void blend(Image& image, int left, int top, int width, int height, const unsigned char* coverage, float value) {
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < width; ++column) {

@@ -1,5 +1,5 @@
 #pragma once
-// Text in images, such as labels of contact sheets, in a sans-serif system font.
+// Draws text into images, such as labels of contact sheets, in a sans-serif system font.
 
 #include <filesystem>
 #include <optional>
@@ -13,9 +13,9 @@ namespace defocus::engine {
 // location.
 std::optional<std::filesystem::path> sansSerifFile();
 
-// Draws one line of UTF-8 text with `value` in all channels. The text starts at `x` on baseline `y`, in px from the top
-// left corner, and is clipped to the image. `size` is the font size (em) in px. Returns false and draws nothing if no
-// font is available.
+// Draws one line of UTF-8 text with `value` in all channels. Position (x, y) is the left end of the baseline in px from
+// the image's top left corner. Text is clipped to the image. `size` is the font size (em) in px. Returns false and
+// draws nothing if no font is available.
 bool writeText(Image& image, int x, int y, std::string_view text, double size, float value);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// sRGB: IEC 61966-2-1.
+// Sources of the curves. sRGB: IEC 61966-2-1.
 //
 // ACES: Stephen Hill's fit of the RRT and the Rec.709 ODT, published in MJP's BakingLab. The input matrix converts sRGB
 // to the RRT's saturated AP1; the output matrix converts the ODT's space to sRGB.
@@ -27,13 +27,13 @@ namespace defocus::engine {
 
 namespace {
 
-// Upper clamp of inputs: all curves are flat there, and squares stay finite.
+// Inputs are clamped to this value, where all curves are flat, so that their squares stay finite.
 constexpr float brightest = 1e6f;
 
 constexpr std::array<std::pair<std::string_view, ToneMap>, 4> names = {
     {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}}};
 
-// Clamps to [0, brightest]; NaN gives 0, since the comparison is false for NaN.
+// Clamps to [0, brightest]. NaN gives 0, because comparisons with NaN are false.
 float finite(float value) {
     return value > 0 ? std::min(value, brightest) : 0.0f;
 }
@@ -51,13 +51,14 @@ glm::vec3 acesEncoded(const glm::vec3& linear) {
     return srgbEncoded(output * fitted);
 }
 
-// Polynomial of degree 6 for the sigmoid of AgX's base look, over normalised log2 exposure.
+// Returns the sigmoid of AgX's base look, fitted by a polynomial of degree 6. `x` is the log2 exposure normalised to
+// [0, 1].
 float agxContrast(float x) {
     return ((((((15.5f * x - 40.14f) * x + 31.96f) * x - 6.868f) * x + 0.4298f) * x + 0.1191f) * x) - 0.00232f;
 }
 
 glm::vec3 agxEncoded(const glm::vec3& linear) {
-    constexpr float darkest = -12.47393f;  // EV, log2 of the linear value
+    constexpr float darkest = -12.47393f;  // range of log2 of the linear value
     constexpr float lightest = 4.026069f;
     const glm::mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, 0.0784335999999992f,
                           0.878468636469772f, 0.0784336f, 0.0792237451477643f, 0.0791661274605434f, 0.879142973793104f);
@@ -132,7 +133,8 @@ Image displayEncoded(const ImageView& linear, ToneMap toneMap, double exposure) 
             const float* in = linear.at(x, y);
             float* out = display.at(x, y);
             if (grey) {
-                // The curves keep grey values grey except for rounding; green carries most of the luminance.
+                // All curves map grey to grey except for rounding, so one channel suffices. Use green, which carries
+                // most of the luminance.
                 out[0] = encoded(glm::vec3(finite(gain * in[0])), toneMap).g;
                 continue;
             }

@@ -1,6 +1,6 @@
 #pragma once
 // Tone mapping from linear HDR to display values: exposure, an optional film curve and sRGB encoding (IEC 61966-2-1).
-// Applied once, when an 8-bit image or a window is written.
+// It is the last step before an 8-bit image file or the window.
 
 #include <string_view>
 
@@ -8,10 +8,11 @@
 
 namespace defocus::engine {
 
-// Returns the enumerator of "none", "aces", "agx" or "neutral". Throws Error that lists the names otherwise.
+// Returns the enumerator of "none", "aces", "agx" or "neutral". For other names, throws Error with the list of valid
+// names.
 ToneMap toneMapNamed(std::string_view name);
 
-float srgbEncode(float linear);   // [0, 1] → [0, 1]; clamps other values, NaN gives 0
+float srgbEncode(float linear);   // [0, 1] → [0, 1]; other values are clamped, NaN gives 0
 float srgbDecode(float encoded);  // [0, 1] → [0, 1]; other values as in srgbEncode
 
 // Returns a display-encoded copy in [0, 1] of a linear image with 1, 3 or 4 channels: colour · 2^exposure → curve →

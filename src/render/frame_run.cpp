@@ -55,8 +55,8 @@ void FrameRun::startAutomatic(RenderSettings settings) {
     renderer_->start(plan_);
 }
 
-// Measures the level-of-detail error: compares a few samples with coarse and fine levels to the same samples at full
-// detail.
+// Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
+// detail, and compares the images. Returns nullopt with --lod off.
 std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
     if (settings.lod == LodMode::off) return {};
     const auto drawn = [&] {

@@ -1,8 +1,8 @@
 #pragma once
-// Renders a frame from its view to its image, with a fixed or an open number of lens samples:
+// Renders the image of a view, with a fixed number of lens samples or until stop conditions are met:
 //   FrameRun run(world, renderer); run.start(view, settings, stop); while (run.advance()) {} renderer.image();
-// Without StopSettings, a frame is one plan and one Renderer::start. With them, blocks are added to one sum until the
-// error or time limit is reached. Each block is planned for the expected final number of samples.
+// Without stop conditions, a frame is one plan and one Renderer::start. With StopSettings, blocks of samples are added
+// to one sum until the error or time limit is reached. Each block is planned for the expected final number of samples.
 
 #include <chrono>
 #include <optional>
@@ -13,30 +13,31 @@
 
 namespace defocus::engine {
 
-// Throws UsageError if the stop settings can't be followed. The method must sum blocks (Method::sumsBlocks), and motion
-// must not need one pose per sample, since the number of samples is open.
+// Throws UsageError if the stop settings are not possible. The method must sum blocks (Method::sumsBlocks). Motion must
+// not need one pose per sample, because the number of samples is not known in advance.
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter);
 
 class FrameRun {
 public:
-    // Both must outlive this object; `renderer` must have been made for `world`.
+    // `world` and `renderer` must outlive this object; `renderer` must have been made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Begins a new frame. The settings must pass checkStop. An automatic number of samples also needs a method that
-    // sums blocks, and no exact motion.
+    // Starts a new frame. `stop` must pass checkStop. An automatic number of samples also needs a method that sums
+    // blocks, and no exact motion.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
-    // Draws one wave of samples. Returns false once the frame is finished.
+    // Draws one wave of samples. Returns false once the frame is complete.
     bool advance();
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
-    // Number of samples of the finished frame. With StopSettings this is an estimate that changes.
+    // Returns the final number of samples of the frame. With StopSettings, this is an estimate that is updated after
+    // each block.
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // Plan of the frame. With StopSettings it is the plan of the latest block, which has the finest levels, with the
-    // triangle counts of all blocks.
+    // Returns the plan of the frame. With StopSettings, it is the plan of the latest block, which has the finest
+    // levels, but its triangle counts are sums over all blocks.
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
-    // Wall-clock time of planning, for all blocks begun.
+    // Returns the wall-clock time of planning, summed over all blocks started.
     [[nodiscard]] double planMilliseconds() const { return planMilliseconds_; }
-    // Returns Renderer::stats() of the frame, summed over all blocks.
+    // Returns the frame's Renderer::stats(), summed over all blocks.
     [[nodiscard]] RenderStats stats() const;
 
 private:
@@ -48,10 +49,10 @@ private:
     const World* world_;
     Renderer* renderer_;
     View view_;
-    std::optional<BlockSchedule> schedule_;  // empty: the frame has one plan
+    std::optional<BlockSchedule> schedule_;  // nullopt: the frame has a single plan
     FramePlan plan_;
     double planMilliseconds_ = 0;
-    RenderStats before_;  // times of all blocks before the latest
+    RenderStats before_;  // sums over all blocks before the latest
     std::chrono::steady_clock::time_point begin_;
 };
 

@@ -10,8 +10,8 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Returns whether radiance may exceed a half float, so that layers must be 32-bit floats. Reflected light is bounded
-// for matt surfaces under distant lights. For other lighting, values above 65,504 are clamped.
+// Returns whether the radiance of the environment, emissive materials or diffuse surfaces under directional lights may
+// exceed the range of half floats, so that layers must be 32-bit floats. Other radiance above 65,504 is clamped.
 bool beyondHalfFloat(const World& world) {
     constexpr float limit = 6e4f;
     const Environment& e = world.environment;

@@ -1,7 +1,7 @@
 #pragma once
-// The table of rendering methods and their settings, by name and as text. The options of `render`, the methods of a
-// bench and the metadata of an image use the same text, for example "circular:far-components=5,resolution=half".
-// Optional builds (the Embree ray tracer) add their methods with registerMethod before use.
+// Table of rendering methods and their settings. Command-line options, benchmarks and image metadata use the same text
+// form, for example "circular:far-components=5,resolution=half". Optional parts of the build (the Embree ray tracer)
+// add their methods with registerMethod.
 
 #include <filesystem>
 #include <functional>
@@ -17,79 +17,80 @@
 namespace defocus::engine {
 
 struct MethodSetting {
-    std::string name;                  // such as "far-components", on the command line --far-components
+    std::string name;                  // e.g. "far-components"; the command-line option is --far-components
     std::string standard;              // default value, as text
     std::string description;           // for --help
-    std::vector<std::string> choices;  // allowed values; if empty, the value is a number in [min, max]
+    std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;
     double max = 0;
-    bool whole = true;          // an integer
-    std::string onlyWith = {};  // such as "resolve=published": the setting that this one requires
-    bool ofTheScene = false;    // no default suits all scenes; benches over all settings skip it
-    bool keyed = false;         // a number that a shot may animate with keys: see valueAt
+    bool whole = true;          // for a number: must be an integer
+    std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
+    bool ofTheScene = false;    // true: no value suits all scenes; benchmarks of all settings skip it
+    bool keyed = false;         // for a number: a shot may animate it with keys; see valueAt
 };
 
-// Values as text, keyed by name.
+// Values as text, by name of the setting.
 using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::uint32_t wave = 0;                  // K, lens samples drawn at once; 0: as many as fit into waveBytes
-    std::uint64_t waveBytes = 160ull << 20;  // memory for a wave's layers
-    bool geometryShaderLayers = false;       // selects layers in a geometry shader even if the vertex shader could
-    std::filesystem::path shaderFolder;      // folder with shaders that replace the embedded ones; empty: none
-    MethodSettings settings;                 // of the method (Method::settings); missing ones take their default
+    std::uint32_t wave = 0;                  // lens samples per wave K; 0: as many as fit into waveBytes
+    std::uint64_t waveBytes = 160ull << 20;  // max memory of a wave's layers
+    bool geometryShaderLayers = false;       // true: always select layers in a geometry shader
+    std::filesystem::path shaderFolder;      // shaders in this folder replace embedded shaders; empty: none
+    MethodSettings settings;                 // values of Method::settings; missing: default
 };
 
-// Aperture features that a method reproduces.
-enum class ApertureShown { oval, shape, all };  // oval: anamorphic ratio only; shape: all but the cat's eye
+// Features of the aperture that a method reproduces.
+enum class ApertureShown { oval, shape, all };  // oval: anamorphic ratio only; shape: all except cat's eye
 
 struct Method {
     std::string name;
     std::string description;
-    bool needsGl = true;          // needs a current GL context
-    bool usesLensSamples = true;  // false: ignores the plan's number of samples (post-process methods)
-    bool shadesAsLit = true;      // false: only unlit, opaque surfaces match the other methods
+    bool needsGl = true;          // true: needs a current OpenGL context
+    bool usesLensSamples = true;  // false: ignores the plan's lens samples (post-process methods)
+    bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
-    bool blursCells = false;      // blurs images as lens cells where the frame allows it (plan/lens_cells/lens_cells.h)
-    bool sumsBlocks = false;      // Renderer::continueWith adds to the sum, so the number of samples may stay open
-    bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always draws the full image
-    bool drawsShadows = true;     // false: lights shine through occluders
-    bool drawsMotion = true;      // false: draws moving objects as frozen at one moment of the exposure
+    bool blursCells = false;      // true: blurs lens cells if the frame permits (plan/lens_cells/lens_cells.h)
+    bool sumsBlocks = false;      // true: Renderer::continueWith adds to the sum, so the sample count may be open
+    bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
+    bool drawsShadows = true;     // false: no shadows
+    bool drawsMotion = true;      // false: draws moving objects at one moment of the exposure
     ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
-    MethodSettings best = {};  // settings closest to the reference at any cost; missing ones take their default
-    // Returns a renderer. Throws Error for settings that the method doesn't accept.
+    MethodSettings best = {};  // settings with the smallest error, at any cost; missing: default
+    // Creates a renderer. Throws Error for settings that the method does not accept.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
 };
 
-// A method with complete settings.
+// Method with a value for each of its settings.
 struct MethodUse {
     const Method* method = nullptr;
     MethodSettings settings;
-    // "name" or "name:setting=value,…" with the settings that differ from their default.
+    // Returns "name", or "name:setting=value,…" with the settings that differ from their default.
     [[nodiscard]] std::string text() const;
 };
 
 const std::vector<Method>& methods();
 void registerMethod(Method method);
-// Returns the method of this name. Throws Error listing all names if it is unknown.
+// Returns the method with this name. Throws Error, with a list of all names, if there is none.
 const Method& methodNamed(std::string_view name);
-// Parses the text of MethodUse::text. Throws Error for an unknown method or setting, or a value out of range.
+// Inverse of MethodUse::text. Throws Error for an unknown method or setting, or a value out of range.
 MethodUse parseMethodUse(std::string_view text);
 
-// Returns `given` with defaults filled in. Throws Error, naming `method`, for a name that is not in `known` (and lists
-// the known names), or for a value that the setting doesn't accept.
+// Returns `given` with defaults for missing settings. Throws Error, with `method` in its message, for a setting that is
+// not in `known` or a value that a setting does not accept.
 MethodSettings completeSettings(std::string_view method, const std::vector<MethodSetting>& known,
                                 const MethodSettings& given);
 
 // Returns the value of a numeric setting; `settings` must be complete.
 double numberOf(const MethodSettings& settings, const std::string& name);
 
-// Returns the value of a numeric setting that a shot may animate: View::methodValues takes precedence over `settings`.
+// Returns the value of a numeric setting that a shot may animate: from View::methodValues if present, else from
+// `settings`.
 double valueAt(const View& view, const MethodSettings& settings, const std::string& name);
 
-// Returns the settings that differ from their default, in the order of `known`, as in "taps=16,coc=thin-lens". Empty if
+// Returns the settings that differ from their default, in the order of `known`, e.g. "taps=16,coc=thin-lens"; empty if
 // none differs.
 std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings);
 

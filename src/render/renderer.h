@@ -1,5 +1,5 @@
 #pragma once
-// The common interface of all methods. Render, bench, capture and view are thin loops over it:
+// Common interface of all methods. All commands draw a frame by this loop:
 //   renderer.start(plan); while (renderer.advance()) {} Image image = renderer.image();
 
 #include <cstdint>
@@ -16,10 +16,10 @@ class GlTexture;
 
 struct PassTime {
     std::string name;
-    double milliseconds = 0;  // timer queries, summed over all waves of the frame
+    double milliseconds = 0;  // GPU time, summed over all waves of the frame
 };
 
-// A statistic that only one method reports.
+// Statistic that is specific to a method.
 struct MethodFigure {
     std::string name;
     double value = 0;
@@ -27,24 +27,24 @@ struct MethodFigure {
 
 struct RenderStats {
     std::uint32_t samples = 0;
-    double setupMilliseconds = 0;       // uploads and shader builds of this renderer
-    double renderMilliseconds = 0;      // from start() to the finished sum of the frame
-    double gpuMilliseconds = 0;         // timer queries; software drivers omit vertex work
-    std::uint64_t trianglesDrawn = 0;   // triangles of the plan
-    std::uint64_t trianglesHidden = 0;  // triangles of the plan skipped because others hide them
-    std::uint64_t peakBytes = 0;        // peak of the GPU resources of this renderer
-    std::uint32_t wave = 0;             // K, lens samples drawn at once
-    std::string layerFormat;            // of the layers, e.g. "rgba16f"
+    double setupMilliseconds = 0;       // uploads and compilation of shaders
+    double renderMilliseconds = 0;      // from the end of the setup to the complete image
+    double gpuMilliseconds = 0;         // by timer queries; lacks vertex work with software drivers
+    std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
+    std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
+    std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources
+    std::uint32_t wave = 0;             // lens samples per wave K
+    std::string layerFormat;            // format of the layers, e.g. "rgba16f"
     std::string device;
     std::string driver;
-    StopReason stopped = StopReason::sampleCount;  // why no more samples were drawn
-    std::optional<double> estimatedError;          // RMSE as defined in StopSettings, if estimated
-    std::vector<MethodFigure> figures;             // reported by the method itself
-    std::vector<PassTime> passes;                  // of methods that time them, in order of execution
+    StopReason stopped = StopReason::sampleCount;  // why the frame ended
+    std::optional<double> estimatedError;          // RMSE (see StopSettings); nullopt: not estimated
+    std::vector<MethodFigure> figures;             // statistics that are specific to the method
+    std::vector<PassTime> passes;                  // in order of execution; empty if not measured
 };
 
-// The sum of the samples of one block, RGBA: value and compensation, whose total is the exact sum. A block has 64
-// samples; the frame's last one may have fewer. Used for frames that several machines share.
+// Compensated sum of the samples of one block, RGBA; the result is `sum` + `compensation`. A block has 64 samples; the
+// frame's last block may have fewer. Used to render a frame on several machines.
 struct BlockSum {
     std::uint32_t samples = 0;
     Image sum;
@@ -55,28 +55,30 @@ class Renderer {
 public:
     virtual ~Renderer() = default;
 
-    // Begins a frame. The plan is copied and must come from this renderer's World.
+    // Starts a frame. `plan` is copied; it must have been made for this renderer's World.
     virtual void start(const FramePlan& plan) = 0;
-    // Draws one wave of samples. Returns false once all samples of the plan are in the sum.
+    // Draws one wave of samples and adds it to the sum. Returns false once the sum contains all samples of the plan.
     virtual bool advance() = 0;
-    // Number of samples in the sum so far.
+    // Returns the number of samples in the sum.
     [[nodiscard]] virtual std::uint32_t samples() const = 0;
-    // Number of samples in the sum once the current frame is finished.
+    // Returns the number of samples that the sum will contain when the current plan is complete.
     [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
     // Returns the sum divided by samples(): linear, premultiplied RGBA, row 0 at the top. Needs at least one sample.
     [[nodiscard]] virtual Image image() = 0;
-    // Returns the sum of the block of the last wave, finished or not. Empty for methods that sum no lens samples.
+    // Returns the sum of the latest wave's block, which may be incomplete; nullopt for methods that do not sum lens
+    // samples.
     [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
 
-    // Continues with more samples of the same view: adds those of `plan` to the sum as further blocks. All samples of
-    // earlier plans must be drawn, in complete blocks of 64. Methods that don't sum blocks (Method::sumsBlocks) start
-    // over. In stats(), times are then those of this plan; triangles and samples are those of the sum.
+    // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier
+    // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
+    // start a new frame. Afterwards, times in stats() are those of `plan` only; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
-    // Sets K from the next start() on; 0 restores the value of the options. The image stays the same.
+    // Sets the samples per wave K from the next start() on; 0 restores RendererOptions::wave. K does not change the
+    // image.
     virtual void setWave(std::uint32_t /*samples*/) {}
-    // Returns image() as a texture, row 0 at the bottom. Valid until the next call of any member. Null for methods
-    // without GL.
+    // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member; nullptr for methods
+    // without OpenGL.
     [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }
 };
 

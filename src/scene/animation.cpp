@@ -12,8 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Position of a time between two key frames: `fraction` in [0, 1) from `key` to `key + 1`. The keys are `span` seconds
-// apart; `span` is 0 outside the keys.
+// Position of a time between two key frames: `fraction` in [0, 1) of the way from key `key` to `key + 1`, which are
+// `span` seconds apart. `span` is 0 before the first and after the last key.
 struct Segment {
     std::size_t key = 0;
     double fraction = 0;
@@ -29,8 +29,8 @@ Segment segmentAt(const std::vector<float>& times, double time) {
     return {key, (time - static_cast<double>(times[key])) / span, span};
 }
 
-// Returns one component of a Hermite spline between two keys (glTF 2.0, C.5). A key stores in-tangent, value and
-// out-tangent; tangents are scaled by the seconds between the keys.
+// Returns one component of a Hermite spline between two keys (glTF 2.0, C.5). A key stores `count` components each of
+// in-tangent, value and out-tangent; tangents are scaled by the seconds between the keys.
 double cubicSpline(const float* key, const float* next, std::size_t count, const Segment& segment) {
     const double t = segment.fraction;
     const double t2 = t * t;

@@ -1,5 +1,5 @@
 #pragma once
-// Evaluation of key frames at a time: STEP, LINEAR and CUBICSPLINE of glTF 2.0, appendix C.
+// Interpolation of key frames: STEP, LINEAR and CUBICSPLINE of glTF 2.0, appendix C.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -9,15 +9,15 @@
 
 namespace defocus::engine {
 
-// Returns `count` components of the channel at `time`: 3 for translation and scale, one per morph target for weights.
-// Times outside the keys give the first or last value.
+// Returns the channel's value at `time` (seconds), which has `count` components: 3 for translation and scale, one per
+// morph target for weights. Times outside the keys give the first or last value.
 std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time);
 
-// Returns the index of the clip with this name, or else with this index (from 0). Throws Error that lists the scene's
-// clips.
+// Returns the index of the clip that a text gives by its name or by its index (from 0); names take precedence. Throws
+// Error, with a list of the scene's clips, if there is no such clip.
 int clipNamed(const Scene& scene, std::string_view nameOrNumber);
 
-// Wraps `time` (seconds) into [0, duration) of a repeating clip; returns 0 for clips without duration.
+// Returns `time` (seconds) modulo the clip's duration, for a repeating clip; 0 if the duration is 0.
 double loopedTime(const AnimationClip& clip, double time);
 
 // Returns the unit quaternion of a rotation channel (x, y, z, w per key) at `time`. LINEAR keys are interpolated

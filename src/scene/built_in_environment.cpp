@@ -1,4 +1,5 @@
-// "overcast" is the CIE standard overcast sky (Moon and Spencer 1942): L = Lz (1 + 2 sin h) / 3 at elevation h.
+// The map "overcast" is the CIE standard overcast sky (Moon and Spencer 1942): luminance L = Lz (1 + 2 sin h) / 3 at
+// elevation h, where Lz is the luminance at the zenith.
 #include "scene/built_in_environment.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr int mapWidth = 512;
 constexpr int mapHeight = 256;
-constexpr int subsamples = 3;  // samples per axis and pixel; antialias the softbox edges
+constexpr int subsamples = 3;  // samples per pixel along each axis, to antialias the edges of softboxes
 
 constexpr std::array<std::string_view, 3> names = {"studio", "overcast", "sunset"};
 
@@ -33,7 +34,7 @@ glm::dvec3 directionOf(const Heading& heading) {
             std::cos(heading.azimuth) * std::cos(heading.elevation)};
 }
 
-// Flat rectangular lamp that faces the origin. Half sizes are tangents of the angles that they subtend.
+// Flat rectangular lamp that faces the origin. Half sizes are relative to the lamp's distance from the origin.
 struct Softbox {
     Heading heading;
     double halfWidth;
@@ -41,7 +42,8 @@ struct Softbox {
     glm::dvec3 radiance;
 };
 
-// Returns the lamp's relative radiance in [0, 1]: brightest at the centre, fading to the rim, 0 outside.
+// Returns the lamp's radiance in a direction, relative to `radiance`, in [0, 1]: highest at the centre, falling to the
+// rim, 0 outside.
 double softboxShare(const Softbox& box, const glm::dvec3& direction) {
     const glm::dvec3 z = directionOf(box.heading);
     const double ahead = glm::dot(direction, z);
@@ -57,10 +59,10 @@ double softboxShare(const Softbox& box, const glm::dvec3& direction) {
 
 glm::dvec3 studio(const glm::dvec3& d) {
     static const std::array<Softbox, 4> boxes = {{
-        {{glm::radians(-18.0), glm::radians(38.0)}, 0.55, 0.42, {7.6, 7.2, 6.8}},  // key
-        {{glm::radians(95.0), glm::radians(14.0)}, 0.30, 0.75, {2.2, 2.35, 2.5}},  // fill
-        {{glm::radians(205.0), glm::radians(32.0)}, 0.22, 0.60, {7.5, 7.5, 7.5}},  // rim
-        {{0, glm::radians(90.0)}, 0.70, 0.40, {2.4, 2.4, 2.4}},                    // overhead
+        {{glm::radians(-18.0), glm::radians(38.0)}, 0.55, 0.42, {7.6, 7.2, 6.8}},  // key light
+        {{glm::radians(95.0), glm::radians(14.0)}, 0.30, 0.75, {2.2, 2.35, 2.5}},  // fill light
+        {{glm::radians(205.0), glm::radians(32.0)}, 0.22, 0.60, {7.5, 7.5, 7.5}},  // rim light
+        {{0, glm::radians(90.0)}, 0.70, 0.40, {2.4, 2.4, 2.4}},                    // overhead light
     }};
     const double height = d.y;
     glm::dvec3 radiance = glm::mix(glm::dvec3(0.20, 0.21, 0.22), glm::dvec3(0.055), glm::smoothstep(-0.1, 0.9, height));
@@ -106,7 +108,7 @@ bool isBuiltInEnvironment(const std::string& name) {
 
 namespace {
 
-// Returns the illuminance (lux) of the map on an upward-facing horizontal surface.
+// Returns the illuminance (lux) that the map gives an upward-facing horizontal surface.
 double levelIlluminance(const Image& map) {
     double sum = 0;
     for (int y = 0; y < map.height / 2; ++y) {
@@ -132,7 +134,7 @@ Image builtInEnvironment(const std::string& name) {
             for (int i = 0; i < subsamples * subsamples; ++i) {
                 const double u = (x + (i % subsamples + 0.5) / subsamples) / mapWidth;
                 const double v = (static_cast<double>(row) + (i / subsamples + 0.5) / subsamples) / mapHeight;
-                // The map's centre column is −z; its right half is +x.
+                // In the map, the centre column is the direction −z, and the right half has x > 0.
                 const Heading heading{std::numbers::pi - 2 * std::numbers::pi * (u - 0.5),
                                       std::numbers::pi * (0.5 - v)};
                 sum += radianceOf(which, directionOf(heading));

@@ -1,6 +1,6 @@
 #pragma once
-// Procedural environment maps that need no file. Each is scaled to an illuminance of π lux on a horizontal surface, so
-// that a white diffuse surface there has radiance 1.
+// Procedural environment maps. Each is scaled to an illuminance of π lux on an upward-facing horizontal surface, so
+// that a white diffuse surface with this orientation has radiance 1.
 
 #include <span>
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace defocus::engine {
 
-// Names: "studio" (softboxes in a dark room), "overcast" (CIE overcast sky), "sunset" (low sun).
+// Returns the names: "studio" (softboxes in a dark room), "overcast" (CIE overcast sky), "sunset" (low sun).
 std::span<const std::string_view> builtInEnvironments();
 bool isBuiltInEnvironment(const std::string& name);
 
-// Returns the named equirectangular map (EnvironmentType::map): 512 x 256 px, linear Rec.709. For a camera that looks
-// at a model's front (+z), the key softbox and the sun are on the left.
+// Returns a built-in environment map by its name: equirectangular (EnvironmentType::map), 512 x 256 px, linear Rec.709.
+// For a camera that faces a model's front (+z), the key light and the sun are on the left.
 Image builtInEnvironment(const std::string& name);
 
-// Returns the map rotated by `angle` radians, counter-clockwise as seen from above.
+// Returns an environment map rotated by `angle` radians about +y, counter-clockwise as seen from above.
 Image turnedEnvironment(const Image& map, double angle);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Camera as stored in a file. Lens values that the file omits stay empty; the lens then uses its defaults.
+// Camera as stored in a file. Lens values that the file omits are empty; src/lens replaces them with defaults.
 
 #include <glm/vec2.hpp>
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Lens and sensor of a camera from the draft glTF extension EXT_camera_physical. The field of view remains
+// Lens and sensor of a camera from the draft glTF extension EXT_camera_physical. They do not change the field of view,
 // Camera::yfov.
 struct PhysicalCamera {
     double focalLength = 0;    // mm, > 0
@@ -18,15 +18,15 @@ struct PhysicalCamera {
 
 struct Camera {
     std::string name;
-    double yfov = 0.6911112;            // radians, full vertical angle
-    std::optional<double> aspectRatio;  // width / height for which yfov was authored
+    double yfov = 0.6911112;            // radians, full vertical field of view
+    std::optional<double> aspectRatio;  // width / height of the image for which yfov was chosen
     double znear = 0.01;                // m
-    // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 and 1.
-    // lens/lens_fields.h lists the names that the lens reads.
+    // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1. The names with a
+    // meaning are listed in lens/lens_fields.h.
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
-    std::string apertureImage;                // image path from extras, relative to the scene file; empty: none
-    std::optional<std::string> orthographic;  // reason for rejecting an orthographic camera
+    std::string apertureImage;                // from extras: image path relative to the scene file
+    std::optional<std::string> orthographic;  // for an orthographic camera: why it cannot be used
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {
         const auto found = lens.find(lensName);

@@ -1,5 +1,5 @@
-// Default camera: each of the four side planes of the frustum is moved until it touches the bounding box. The camera's
-// distance and sideways shift follow in closed form. Default lights: key, fill and rim.
+// The default camera's orientation is fixed. Each of the four side planes of its frustum is moved until it touches the
+// scene's bounding box; the camera's position follows in closed form.
 #include "scene/defaults.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double framingTangent = 18.0 / 50.0;  // half the longer image side over distance: 50 mm lens, 36 mm sensor
-constexpr double framingFill = 0.94;            // fraction of the image that the bounding box may fill
-constexpr double framingAzimuth = glm::radians(30.0);  // to the right of +z, the front of glTF models
+constexpr double framingTangent = 18.0 / 50.0;  // tan of half the angle of view of the longer image side: 50 mm lens
+constexpr double framingFill = 0.94;            // fraction of the image's sides that the bounding box may fill
+constexpr double framingAzimuth = glm::radians(30.0);  // from +z, the front of glTF models, towards +x
 constexpr double framingElevation = glm::radians(18.0);
 constexpr std::string_view framingName = "auto";
 
@@ -31,7 +31,7 @@ struct CameraNode {
     std::size_t index;
 };
 
-// Returns the nodes that hold a camera, in file order.
+// Returns the nodes that have a camera, in file order.
 std::vector<CameraNode> cameraNodes(const Scene& scene, const std::vector<Camera>& cameras) {
     std::vector<CameraNode> result;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
@@ -40,8 +40,8 @@ std::vector<CameraNode> cameraNodes(const Scene& scene, const std::vector<Camera
     return result;
 }
 
-// Returns the rotation and translation of a node's matrix, without scale, shear and mirroring. The viewing direction is
-// preserved exactly; the up vector is made perpendicular to it.
+// Returns a camera node's matrix without scale, shear and mirroring. The position and the viewing direction do not
+// change; the up vector is made perpendicular to the viewing direction.
 glm::dmat4 withoutScale(const glm::dmat4& world) {
     const auto unit = [](const glm::dvec3& vector, const glm::dvec3& otherwise) {
         const double length = glm::length(vector);
@@ -67,8 +67,9 @@ PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
     const double tangentX = framingTangent * std::min(aspect, 1.0);
     const double tangentY = tangentX / aspect;
 
-    // Right plane of a camera at p: a corner c (camera axes, relative to the centre) is visible if c.x − p.x ≤ (p.z −
-    // c.z)·t. Hence p.x + t·p.z ≥ c.x + t·c.z. The other three planes follow by symmetry.
+    // Coordinates are in camera axes, relative to the bounding box's centre. The right plane of a camera at p, with
+    // tangent t of half the angle of view, keeps a corner c visible if c.x − p.x ≤ (p.z − c.z)·t. Hence p.x + t·p.z ≥
+    // c.x + t·c.z. The other three planes follow by symmetry.
     const double tx = framingFill * tangentX;
     const double ty = framingFill * tangentY;
     double right = 0, left = 0, top = 0, bottom = 0;
@@ -112,7 +113,7 @@ std::string labelOf(const CameraNode& place) {
     throw MissingName(name, fmt::format("there is no camera '{}'{}", name, help));
 }
 
-// Returns the camera with this name, or whose node has this name; nullptr if there is none.
+// Returns the camera whose own name or whose node's name is `name`; nullptr if there is none.
 const CameraNode* cameraNamed(const std::vector<CameraNode>& places, const std::string& name) {
     std::vector<std::string> names;
     for (const CameraNode& place : places) {
@@ -125,7 +126,7 @@ const CameraNode* cameraNamed(const std::vector<CameraNode>& places, const std::
 
 // ---- lights -------------------------------------------------------------------------------------
 
-// Returns whether the material looks the same under any light: unlit, or with a uniform emissive colour.
+// Returns whether the material is unlit or has a uniform emissive colour, so that it is visible without lights.
 bool selfLit(const Material& material) {
     const float brightest = std::max({material.emissiveFactor.r, material.emissiveFactor.g, material.emissiveFactor.b});
     return material.unlit || (brightest > 0 && !material.emissive.used());
@@ -184,8 +185,8 @@ glm::dvec3 StudioLight::toLight() const {
 }
 
 std::span<const StudioLight> studioLights() {
-    // These illuminances and the default sky are calibrated together: a diffuse ball of 18 % reflectance averages 18 %
-    // of display white.
+    // The illuminances are calibrated together with the default sky: a diffuse ball of 18 % reflectance has an average
+    // display value of 18 % of white.
     static const std::array<StudioLight, 3> lights = {{
         {"key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f, glm::radians(12.0)},
         {"fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f, glm::radians(30.0)},
@@ -204,7 +205,7 @@ std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, c
 }
 
 double skyScale(const Pose& pose) {
-    constexpr double skyIlluminance = 1.8;  // lux on a horizontal surface, from the sky of environmentOrDefault
+    constexpr double skyIlluminance = 1.8;  // lux on an upward-facing surface under the sky of environmentOrDefault
     constexpr double share = 1.0 / 7;
     const glm::dvec3 middle = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
     const double radius = pose.bounds.empty() ? 0 : 0.5 * glm::length(pose.bounds.size());
@@ -221,7 +222,8 @@ double skyScale(const Pose& pose) {
 
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
-    // Neutral grey-blue studio. The sky looks darker as a background than it lights the scene.
+    // Neutral grey-blue studio. `lighting` > 1 makes the sky light the scene more strongly than its background
+    // brightness suggests.
     Environment sky;
     sky.type = EnvironmentType::gradient;
     sky.zenith = {0.21f, 0.26f, 0.33f};

@@ -12,41 +12,43 @@ namespace defocus::engine {
 
 struct PlacedCamera {
     Camera camera;
-    glm::dmat4 worldFromCamera{1.0};  // no scale
-    int node = -1;                    // node that holds the camera; −1: default framing camera
+    glm::dmat4 worldFromCamera{1.0};  // without scale
+    int node = -1;                    // index of the node that holds the camera; −1: default framing camera
 };
 
-// Returns the chosen camera. NamedCamera matches the name of a camera or of its node; FirstCamera skips orthographic
-// cameras. The framing camera shows `pose.bounds` from a three-quarter view at the image aspect (width / height), with
-// matching focusDistance and znear. Throws Error for orthographic cameras and for unknown names, listing the known
-// ones.
+// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node; FirstCamera skips
+// orthographic cameras. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` =
+// width / height, with matching focusDistance and znear. Throws Error if the camera is orthographic or the name is
+// unknown; the message lists the known names.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect);
 
-// Returns the camera's matrix in another pose of the same scene; a framing camera keeps its matrix.
+// Returns the camera's matrix in another pose of the same scene; the default framing camera does not move.
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose);
 
-// Default directional light. Angles are in radians as seen from the scene: `azimuth` to the right of the camera,
-// `elevation` above it.
+// Default directional light. The direction to the light is given in radians relative to the direction from the scene to
+// the camera: `azimuth` to the camera's right, `elevation` upwards.
 struct StudioLight {
     const char* name = "";
     double azimuth = 0;
     double elevation = 0;
     glm::vec3 color{1.0f};
-    float illuminance = 1;       // lux
-    double angularDiameter = 0;  // rad, angular size of the softbox
-    // Returns the unit vector towards the light in camera axes: right, up, back.
+    float illuminance = 1;       // lux on a surface that faces the light
+    double angularDiameter = 0;  // rad, of the softbox
+    // Returns the unit vector towards the light in camera axes: +x right, +y up, +z backwards.
     [[nodiscard]] glm::dvec3 toLight() const;
 };
 std::span<const StudioLight> studioLights();
 
-// lightsOrDefault returns the scene's lights, or else key, fill and rim lights placed relative to the camera. It
-// returns none if every visible material is unlit or uniformly emissive. environmentOrDefault returns the scene's
-// environment, or else a soft sky. Together the defaults show an 18 % grey card at 18 % of display white.
+// lightsOrDefault returns the pose's lights. Without any, it returns key, fill and rim lights placed relative to the
+// camera, or no lights if every drawn material is unlit or uniformly emissive. environmentOrDefault returns the scene's
+// environment; without one, a soft sky. Under the default lights and sky, a surface of 18 % reflectance appears at 18 %
+// of display white.
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 
-// Returns a factor (≥ 1) on the default sky's radiance that balances it with the scene's own lights. The sky then gives
-// the scene's centre a seventh of the illuminance of those lights, like a sky that fills sun shadows.
+// Returns the factor (≥ 1) on the default sky's radiance that balances the sky with the lights of the pose. With this
+// factor, the sky gives the scene's centre a seventh of the lights' illuminance, as a clear sky does relative to the
+// sun.
 double skyScale(const Pose& pose);
 
 }  // namespace defocus::engine

@@ -9,12 +9,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double reach = 30;  // radius of the disk, in radii of the scene
+constexpr double reach = 30;  // radius of the disk relative to the radius of the scene
 constexpr float reflectance = 0.36f;
-constexpr std::uint32_t sectors = 96;  // enough for the horizon to look circular once blurred
-constexpr std::uint32_t rings = 12;    // keeps triangles small; blur is nonlinear within a triangle
+constexpr std::uint32_t sectors = 96;  // enough for a horizon without visible corners
+constexpr std::uint32_t rings = 12;    // limits the size of triangles, within which blur changes nonlinearly
 
-// Returns the unit disk in the plane y = 0, facing +y; its rings are denser towards the centre.
+// Returns a triangulated unit disk in the plane y = 0, facing +y. Its rings of vertices are denser towards the centre.
 Mesh disk(int material) {
     Mesh mesh;
     mesh.name = "Ground";
@@ -63,7 +63,7 @@ void addGround(Scene& scene, const Pose& pose) {
     material.baseColorFactor = {reflectance, reflectance, reflectance, 1};
     material.metallicFactor = 0;
     material.roughnessFactor = 1;
-    material.specularFactor = 0;  // purely diffuse: a highlight would reveal lights outside the image
+    material.specularFactor = 0;  // diffuse only: a highlight would reveal lights outside the image
     scene.materials.push_back(std::move(material));
     scene.meshes.push_back(disk(static_cast<int>(scene.materials.size()) - 1));
 

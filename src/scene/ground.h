@@ -1,16 +1,16 @@
 #pragma once
-// Neutral ground disk for scenes without a floor; it receives their shadows.
+// Neutral ground disk for scenes without a floor; it receives shadows.
 
 #include "scene/pose.h"
 
 namespace defocus::engine {
 
-// Adds a mesh, a material and a node (Node::ground): a horizontal, diffuse, grey disk centred below `pose` at its
-// lowest point. Its radius is 30 times that of the scene, so that framing cameras see it up to the horizon. `pose` must
-// be a pose of this scene; an empty pose adds nothing.
+// Adds a horizontal, diffuse, grey disk to the scene, as a mesh, a material and a node with Node::ground. The disk is
+// centred below `pose` at the height of its lowest point. Its radius is 30 times the scene's, so that it reaches the
+// horizon for the default camera. `pose` must be a pose of `scene`; a pose without objects adds nothing.
 void addGround(Scene& scene, const Pose& pose);
 
-// Removes the ground again; it must be the last mesh, material and node of the scene.
+// Removes the ground, which must be the last mesh, material and node of the scene; without a ground, does nothing.
 void removeGround(Scene& scene);
 
 // Returns whether addGround has added a ground.

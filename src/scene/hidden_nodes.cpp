@@ -17,7 +17,7 @@ bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     return false;
 }
 
-// Returns the bounding box of the pose's objects without the ground; each mesh is measured once, as in poseAt.
+// Returns the world-space bounding box of the pose's objects except the ground. Each mesh is measured only once.
 Bounds boundsOf(const Scene& scene, const Pose& pose) {
     Bounds result;
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());

@@ -15,7 +15,7 @@ bool lessByCoordinates(const glm::vec3& a, const glm::vec3& b) {
     return a.z < b.z;
 }
 
-// Returns for each position the smallest index with an equal position (−0 equals 0).
+// Returns for each position the smallest index of an equal position (−0 equals 0).
 std::vector<std::uint32_t> weldedIndices(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -55,7 +55,7 @@ std::size_t Mesh::triangleCount() const {
 }
 
 Bounds Mesh::bounds() const {
-    // Single precision loses nothing: min and max only select existing coordinates.
+    // Single precision is exact, because min and max only select coordinates.
     glm::vec3 minimum(std::numeric_limits<float>::infinity());
     glm::vec3 maximum(-std::numeric_limits<float>::infinity());
     for (const Primitive& primitive : primitives)
@@ -80,7 +80,7 @@ std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
                                      const std::vector<std::uint32_t>& indices) {
     const std::vector<std::uint32_t> welded = weldedIndices(positions);
 
-    // The cross product of two edges is the face normal times twice its area, so the sum is weighted by area.
+    // The cross product of two edges is the face normal times twice the face's area, so the sum is weighted by area.
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::dvec3 a = positions[indices[i]];

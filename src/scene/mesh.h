@@ -1,5 +1,5 @@
 #pragma once
-// Mesh whose primitives share one vertex array, so that a single pyramid can simplify the mesh as a whole.
+// Mesh whose primitives share one vertex array, so that all primitives are simplified together.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -13,27 +13,28 @@
 
 namespace defocus::engine {
 
-// Per-vertex change to the circle of confusion c of the lens: C(t) = factor·c + added(t). added(t) is a signed diameter
-// in mm on the sensor (> 0 behind the focus), linear from the shutter's opening to its closing. Source: linear C(t) of
-// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
+// Per-vertex change of the lens's circle of confusion c to C(t) = factor·c + added(t). added(t) is a signed diameter in
+// mm on the sensor (> 0 behind the focus). It changes linearly from `opening` to `closing` during the exposure. Source:
+// linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
-    float factor = 1;   // ≥ 0; 0: the added blur replaces the lens's blur
+    float factor = 1;   // factor on the lens's blur, ≥ 0; 0: only the added blur
     float opening = 0;  // mm, added blur when the shutter opens
     float closing = 0;  // mm, added blur when the shutter closes
     bool operator==(const VertexBlur&) const = default;
 };
 
-// Range of the vertex blurs of a mesh.
+// Min and max of the vertex blurs of a mesh.
 struct VertexBlurBounds {
     float factorMin = 1;
     float factorMax = 1;
-    float addedMin = 0;  // mm, over the whole exposure
+    float addedMin = 0;  // mm, min over the exposure
     float addedMax = 0;
-    bool moves = false;  // some vertex blur changes during the exposure
+    bool moves = false;  // true if a vertex blur changes during the exposure
     bool operator==(const VertexBlurBounds&) const = default;
 };
 
-// Vertex attributes, one array each. An array is empty if the mesh lacks the attribute, else as long as `positions`.
+// Vertex attributes, one array each. An array is empty if the mesh lacks the attribute; otherwise it is as long as
+// `positions`.
 struct Vertices {
     std::vector<glm::vec3> positions;  // object units
     std::vector<glm::vec3> normals;    // unit length
@@ -41,16 +42,16 @@ struct Vertices {
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;     // linear, straight alpha; in [0, 1] if read from a file
-    std::vector<glm::u16vec4> joints;  // indices into the skin's joints, influences one to four
+    std::vector<glm::u16vec4> joints;  // influences one to four: indices into the skin's joints
     std::vector<glm::vec4> weights;    // sum to 1 together with weights1
     std::vector<VertexBlur> blurs;
-    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty if four suffice
+    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty if no vertex has more than four
     std::vector<glm::vec4> weights1;
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }
 };
 
-struct MorphTarget {  // displacements; each array is empty or has one entry per vertex
+struct MorphTarget {  // displacements at weight 1; each array is empty or has one entry per vertex
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;
@@ -66,16 +67,16 @@ struct Mesh {
     Vertices vertices;
     std::vector<Primitive> primitives;
     std::vector<MorphTarget> morphTargets;
-    std::vector<float> morphWeights;  // defaults, one per morph target
-    VertexBlurBounds blurBounds;      // ranges of vertices.blurs
+    std::vector<float> morphWeights;  // default weights, one per morph target
+    VertexBlurBounds blurBounds;      // of vertices.blurs
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] Bounds bounds() const;  // bounds of the vertices that triangles use; empty without any
+    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles
 };
 
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs);
 
-// Returns the bounding box of the finite positions; others are ignored.
+// Returns the bounding box of the positions; NaN and infinite positions are ignored.
 Bounds boundsOf(const std::vector<glm::vec3>& positions);
 
 // Returns area-weighted smooth normals of a triangle list. Vertices at equal positions share a normal; vertices without

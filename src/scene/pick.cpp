@@ -1,5 +1,5 @@
-// Ray–triangle intersection: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Slab test
-// for boxes: Kay and Kajiya, "Ray Tracing Complex Scenes", 1986.
+// Sources: ray–triangle intersection of Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997;
+// slab test for boxes of Kay and Kajiya, "Ray Tracing Complex Scenes", 1986.
 #include "scene/pick.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 struct Ray {
     glm::dvec3 origin;
-    glm::dvec3 direction;  // any length; ray parameters are multiples of it
+    glm::dvec3 direction;  // any length; the point at ray parameter t is origin + t · direction
 };
 
 bool reaches(const Ray& ray, const Bounds& box, double farthest) {
@@ -30,14 +30,14 @@ bool reaches(const Ray& ray, const Bounds& box, double farthest) {
         double first = (box.minimum[axis] - ray.origin[axis]) / ray.direction[axis];
         double second = (box.maximum[axis] - ray.origin[axis]) / ray.direction[axis];
         if (first > second) std::swap(first, second);
-        // Widen the interval slightly so that rounding never rejects a triangle in a face of the box.
+        // Widen the interval slightly so that rounding never rejects a triangle that lies in a face of the box.
         enter = std::max(enter, first - 1e-12 * std::abs(first));
         leave = std::min(leave, second + 1e-12 * std::abs(second));
     }
     return enter <= leave;
 }
 
-// Returns the ray parameter at which the ray hits the triangle from either side, or infinity.
+// Returns the ray parameter at which the ray hits triangle abc from either side; infinity if it does not.
 double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double miss = std::numeric_limits<double>::infinity();
     const glm::dvec3 ab = b - a;
@@ -53,7 +53,8 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// Returns the smaller of `nearest` and the ray parameter of the first hit. `place(index)` returns a vertex position.
+// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `place(index)` returns a
+// vertex position.
 template <typename Place>
 double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
     for (const Primitive& primitive : mesh.primitives)
@@ -64,8 +65,9 @@ double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const P
     return nearest;
 }
 
-// Same for a rigid object. The ray is transformed to object space if the matrix is invertible; otherwise the triangles
-// are transformed to world space.
+// Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
+// ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
+// space.
 double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject, const Ray& world,
                        double nearest) {
     const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);
@@ -98,7 +100,7 @@ Ball ballAround(const Bounds& bounds, const glm::dmat4& worldFromBounds) {
     return {glm::dvec3(worldFromBounds * glm::dvec4(bounds.centre(), 1)), radius};
 }
 
-// Returns true only if the ray certainly misses the ball. The ray's direction must have unit length.
+// Returns true only if the ray misses the ball despite rounding. The ray's direction must have unit length.
 bool misses(const Ray& ray, const Ball& ball) {
     constexpr double rounding = 1e-12;
     const glm::dvec3 toCentre = ball.centre - ray.origin;
@@ -107,7 +109,7 @@ bool misses(const Ray& ray, const Ball& ball) {
     return square - along * along > ball.radius * ball.radius * (1 + rounding) + rounding * square;
 }
 
-// Triangles of one object, prepared for many rays.
+// Triangles of one object, prepared for intersection with many rays.
 class Target {
 public:
     Target(const Mesh& mesh, const Bounds& meshBounds, const Object& object)
@@ -129,11 +131,11 @@ public:
 
 private:
     const Mesh& mesh_;
-    Bounds bounds_;  // in object space, or in world space if the object is deformed
+    Bounds bounds_;  // object space; world space if the object is deformed
     Ball ball_{};
     const Object& object_;
     bool deformed_;
-    std::vector<glm::dvec3> positions_;  // world space; only for deformed objects
+    std::vector<glm::dvec3> positions_;  // world space; empty unless the object is deformed
 };
 
 }  // namespace

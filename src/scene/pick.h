@@ -1,5 +1,5 @@
 #pragma once
-// First surface hit by rays, computed exactly on the CPU by brute force: milliseconds per million triangles.
+// Finds the first surface that rays hit, by tests of all triangles on the CPU: milliseconds per million triangles.
 
 #include <optional>
 #include <vector>
@@ -9,11 +9,12 @@
 namespace defocus::engine {
 
 struct Hit {
-    double distance = 0;  // m along the unit direction
+    double distance = 0;  // m from the origin
     int object = -1;      // index into Pose::objects
 };
 
-// Returns the first hit along each direction from `origin`. Each object is posed once for all directions.
+// Returns the first hit of a ray from `origin` along each direction; nullopt if it hits nothing. Each object is posed
+// only once.
 std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
                                           const std::vector<glm::dvec3>& directions);
 std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,

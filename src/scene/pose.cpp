@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t namesListed = 40;  // maximum count in an error message
+constexpr std::size_t namesListed = 40;  // max names in an error message
 
-// Animated properties of a node.
+// Animatable properties of a node at one time.
 struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
@@ -24,7 +24,7 @@ struct NodeState {
     std::vector<double> morphWeights;  // one per morph target of the node's mesh
 };
 
-// Animated properties of a scene.
+// Animatable properties of a scene at one time.
 struct SceneState {
     std::vector<NodeState> nodes;
     std::vector<Camera> cameras;
@@ -35,7 +35,7 @@ glm::dmat4 matrixOf(const NodeState& node) {
     return glm::scale(glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
-// Returns the node's own morph weights if it has any, else those of its mesh.
+// Returns the morph weights without animation: the node's weights if it has any, else those of its mesh.
 std::vector<double> restWeights(const Scene& scene, const Node& node) {
     if (node.mesh < 0) return {};
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
@@ -56,7 +56,7 @@ void animateNode(const AnimationChannel& channel, double time, NodeState& node) 
     }
 }
 
-// Splines may overshoot, so values are clamped to the valid range of cameras and lights.
+// Sets the camera property that `channel` drives. Values are clamped to the valid range, because splines may overshoot.
 void animateCamera(const AnimationChannel& channel, double time, Camera& camera) {
     constexpr double minAngle = 1e-4;
     const double value = sampleValues(channel, 1, time)[0];
@@ -115,8 +115,8 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
     return state;
 }
 
-// Converts lengths of cameras and lights from scene units to metres. Light intensities are adjusted to keep the
-// illuminance of surfaces.
+// Converts lengths of cameras and lights from scene units to metres. Intensities of point and spot lights are scaled so
+// that the illuminance of surfaces does not change.
 void toMetres(double metresPerUnit, SceneState& state) {
     constexpr std::string_view lengths[] = {"focusDistance", "focusRangeFront", "focusRangeBehind"};
     for (Camera& camera : state.cameras) {
@@ -130,8 +130,8 @@ void toMetres(double metresPerUnit, SceneState& state) {
     }
 }
 
-// Visits the nodes below `start` and calls `visit(node, parent)`. Iterative, since a hierarchy may be too deep for
-// recursion.
+// Calls `visit(node, parent)` for `start` and its descendants, parents first. Iterative, because a hierarchy may be too
+// deep for recursion.
 template <typename Visit>
 void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const Visit& visit) {
     struct Step {
@@ -150,7 +150,7 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// Returns the matrices from mesh space to world space, one per joint of the skin.
+// Returns the matrix from mesh space to world space of each joint of the skin.
 std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode) {
     std::vector<glm::dmat4> matrices;
     matrices.reserve(skin.joints.size());
@@ -203,13 +203,14 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
 }  // namespace
 
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
-    // Multiply the local matrices down the hierarchy: first the drawn scene, then nodes that only serve as joints.
+    // Compute world matrices from parents to children: first the nodes of the drawn scene, then nodes outside it that
+    // skins use as joints.
     SceneState state = stateAt(scene, time, clip);
     toMetres(scene.metresPerUnit, state);
     const glm::dmat4 metresFromUnits = glm::scale(glm::dmat4(1.0), glm::dvec3(scene.metresPerUnit));
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
-    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // factors multiply down the hierarchy
+    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // product over a node and its ancestors
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
@@ -223,7 +224,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].parent < 0) walkDown(scene, static_cast<int>(i), visited, place);
 
-    // Place objects and lights in node order.
+    // Add objects and lights in node order.
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (!drawn[i]) continue;

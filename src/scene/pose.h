@@ -1,5 +1,5 @@
 #pragma once
-// Node hierarchy at one time: objects (mesh instances), lights and cameras in world space.
+// Scene at one time: objects (mesh instances), lights and cameras in world space.
 
 #include <glm/mat4x4.hpp>
 #include <string>
@@ -13,14 +13,15 @@ namespace defocus::engine {
 struct Object {  // mesh instance with all its primitives
     int mesh = -1;
     int node = -1;
-    std::string name;  // name of the node, or else of the mesh; instances append "#i"
-    // For a skinned object: the matrix of its first joint, for code that needs a single matrix.
+    std::string name;  // name of the node or, if empty, of the mesh; "#i" is appended for instance i
+    // For a skinned object, the matrix of its first joint, because some code needs a single matrix.
     glm::dmat4 worldFromObject{1.0};
-    double cocScale = 1;  // factor on the circle of confusion, ≥ 0
-    // World matrix times inverse bind matrix of each joint; empty without a skin. The node's own matrix does not apply.
+    double cocScale = 1;  // factor on the circle of confusion of the object, ≥ 0
+    // World matrix times inverse bind matrix of each joint; empty without a skin. With a skin, worldFromObject does not
+    // apply to vertices.
     std::vector<glm::dmat4> worldFromJoint;
     std::vector<double> morphWeights;  // one per morph target of the mesh
-    // Ground added below the scene. Cameras do not frame or focus on it, and it casts no shadow on the scene.
+    // True for the ground of addGround. Default framing and focus ignore the ground, and it casts no shadows.
     bool ground = false;
 
     [[nodiscard]] bool skinned() const { return !worldFromJoint.empty(); }
@@ -29,7 +30,7 @@ struct Object {  // mesh instance with all its primitives
 struct PlacedLight {
     Light light;
     glm::dvec3 position{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector; direction in which the light shines
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector in which the light shines
 };
 
 struct Pose {
@@ -40,20 +41,21 @@ struct Pose {
     Bounds bounds;                // world space, of all objects except the ground
 };
 
-// Returns the scene in metres at `time` seconds into clip `clip` (-1: no animation). Times outside the clip give its
-// first or last frame.
+// Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give
+// its first or last pose.
 Pose poseAt(const Scene& scene, double time, int clip = 0);
-// Returns the same pose with empty `bounds`; computing the bounds takes most of the time of poseAt.
+// Returns the pose of poseAt but with empty `bounds`, whose computation takes most of the time of poseAt.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 
-// Returns the pose's lights with the angular diameters and radii of `before`, matched by index. Returns `before` if the
-// pose has no lights.
+// Returns the pose's lights with the angular diameters and radii of the lights `before`, matched by index. Returns
+// `before` if the pose has no lights.
 std::vector<PlacedLight> movedLights(const std::vector<PlacedLight>& before, const Pose& pose);
 
-// Returns the index of the node with this name. Throws Error that lists the existing names.
+// Returns the index of the node with this name. Throws Error, with a list of existing names, if there is none.
 int nodeNamed(const Scene& scene, std::string_view name);
 
-// Returns a node's world position: the centre of its posed mesh's bounding box, or the node's origin without a mesh.
+// Returns the centre of the bounding box of a node's posed mesh in world space; for a node without a mesh, the node's
+// origin.
 glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node);
 
 }  // namespace defocus::engine

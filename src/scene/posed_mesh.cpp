@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.7.2.2 (morph targets) and 3.7.3 (skins).
+// Source: glTF 2.0 specification, 3.7.2.2 (morph targets) and 3.7.3 (skins).
 #include "scene/posed_mesh.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-// Posed vertices on the CPU: morph targets, then the skin or the object's matrix (glTF 2.0, 3.7.2.2 and 3.7.3). They
-// are the reference for the renderer's GPU code, which computes the same.
+// Posing of vertices on the CPU: morph targets, then the skin or the object's matrix (glTF 2.0, 3.7.2.2 and 3.7.3). The
+// renderer's GPU code computes the same and is tested against it.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -12,31 +12,31 @@
 
 namespace defocus::engine {
 
-// Returns p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j for each vertex, with joint weights w and morph weights m.
-// Weights that are negative, NaN or infinite count as 0. Missing joints, and vertices without weights, use the skin's
-// first joint.
+// Returns p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j for each vertex position p, with joint weights w_j and matrices
+// M_j, and morph weights m_t and displacements d_t. Weights that are negative, NaN or infinite count as 0. Invalid
+// joint indices, and vertices without weights, use the skin's first joint.
 std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object);  // world space, m
 
-// Returns the matrix of a vertex, Σ w_j · M_j / Σ w_j. `joints` holds at least one matrix M_j.
+// Returns the matrix of a vertex, Σ w_j · M_j / Σ w_j. `joints` holds the matrices M_j, at least one.
 glm::dmat4 skinMatrix(const Vertices& vertices, std::span<const glm::dmat4> joints, std::size_t vertex);
 
-// Adds Σ m_t · d_t to positions or normals, with one weight per morph target. `source[i]` is the mesh vertex of value
-// i; if `source` is empty, value i belongs to vertex i.
+// Adds Σ m_t · d_t to `values`, which are positions or normals; `weights` holds m_t for each morph target. `source[i]`
+// is the mesh vertex of value i; if `source` is empty, value i belongs to vertex i.
 void addMorphs(const Mesh& mesh, std::span<const double> weights, std::vector<glm::vec3> MorphTarget::*kind,
                std::span<const std::uint32_t> source, std::vector<glm::dvec3>& values);
 
-// Returns world-space normals, transformed by the inverse transpose of Σ w_j · M_j. Each keeps the length of the
-// (morphed) mesh normal. Empty if the mesh has no normals.
+// Returns world-space normals, transformed by the inverse transpose of Σ w_j · M_j, with the length of the morphed mesh
+// normals. Returns an empty vector if the mesh has no normals.
 std::vector<glm::vec3> posedNormals(const Mesh& mesh, const Object& object);
 
-// Returns whether the pose deforms the mesh: it has a skin or a nonzero morph weight.
+// Returns whether the object has a skin or a nonzero morph weight.
 bool deformed(const Object& object);
 
-// Returns the world-space bounding box of the vertices that triangles use. Exact for deformed objects, else the
+// Returns a world-space bounding box of the vertices that triangles use: exact for deformed objects, else around the
 // transformed bounding box of the mesh.
 Bounds posedBounds(const Mesh& mesh, const Object& object);
 
-// Same, with precomputed `meshBounds`.
+// Same as posedBounds(mesh, object), where `meshBounds` is mesh.bounds(), computed in advance.
 Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object);
 
 }  // namespace defocus::engine

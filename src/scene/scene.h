@@ -1,6 +1,6 @@
 #pragma once
-// Scene data in glTF 2.0's terms, read from a file or generated; independent of the GPU. Units: metres, radians, linear
-// Rec.709. Right-handed, y up, cameras look along -z.
+// Scene data in glTF 2.0's terms, read from a file or generated; independent of the GPU. Units: metres (unless
+// Scene::metresPerUnit ≠ 1), radians, linear Rec.709. Right-handed, y up, cameras look along −z.
 
 #include <array>
 #include <cstdint>
@@ -56,7 +56,7 @@ struct Material {
     float occlusionStrength = 1.0f;
     TextureUse baseColor;          // sRGB-encoded
     TextureUse metallicRoughness;  // linear; roughness in G, metalness in B
-    TextureUse normal;             // linear, tangent space, +y up
+    TextureUse normal;             // linear; tangent space, +y up
     TextureUse occlusion;          // linear; uses R
     TextureUse emissive;           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
@@ -64,8 +64,8 @@ struct Material {
     bool doubleSided = false;
     bool unlit = false;  // KHR_materials_unlit
 
-    // KHR_materials_ior and KHR_materials_specular, for the dielectric part of the material.
-    float ior = 1.5f;  // ≥ 1; 0: reflects all light
+    // KHR_materials_ior and KHR_materials_specular: reflectance of the dielectric part of the material.
+    float ior = 1.5f;  // ≥ 1, or 0: reflectance 1 at all angles
     float specularFactor = 1.0f;
     glm::vec3 specularColorFactor{1.0f};
     TextureUse specular;       // linear; uses A
@@ -74,9 +74,9 @@ struct Material {
     // KHR_materials_transmission and KHR_materials_volume.
     float transmissionFactor = 0.0f;
     TextureUse transmission;       // linear; uses R
-    float thicknessFactor = 0.0f;  // object units along the refracted ray; 0: thin wall without refraction
+    float thicknessFactor = 0.0f;  // object units; 0: thin wall without refraction
     TextureUse thickness;          // linear; uses G
-    float attenuationDistance = std::numeric_limits<float>::infinity();  // in scene units, for `attenuationColor`
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // scene units; +∞: no absorption
     glm::vec3 attenuationColor{1.0f};
 
     // KHR_materials_clearcoat.
@@ -85,7 +85,7 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     TextureUse clearcoat;           // linear; uses R
     TextureUse clearcoatRoughness;  // linear; uses G
-    TextureUse clearcoatNormal;     // as `normal`; without one, the mesh normal
+    TextureUse clearcoatNormal;     // like `normal`; without a texture, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
@@ -93,9 +93,9 @@ struct Material {
     TextureUse sheenColor;      // sRGB-encoded
     TextureUse sheenRoughness;  // linear; uses A
 
-    // Returns whether surfaces behind this one show through it.
+    // Returns whether surfaces behind this material are visible through it by transmission.
     [[nodiscard]] bool transmits() const { return !unlit && transmissionFactor > 0; }
-    // Returns whether the dielectric reflectance differs from glTF's default of 4 %.
+    // Returns whether the dielectric reflectance may differ from glTF's default of 4 %.
     [[nodiscard]] bool hasOwnReflectance() const {
         return !unlit && (ior != 1.5f || specularFactor != 1 || specularColorFactor != glm::vec3(1) ||
                           specular.used() || specularColor.used());
@@ -106,14 +106,14 @@ struct Material {
 
 inline constexpr std::size_t materialTextureCount = 14;
 
-// Returns all textures of a material, in the order that surface_shading.glsl expects.
+// Returns all textures of a material in the order of the texture slots in shaders/include/surface_shading.glsl.
 inline std::array<const TextureUse*, materialTextureCount> textureUses(const Material& m) {
     return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
             &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,
             &m.clearcoatRoughness, &m.clearcoatNormal,   &m.sheenColor,   &m.sheenRoughness};
 }
 
-// ---- lights and surroundings --------------------------------------------------------------------
+// ---- lights and environment ---------------------------------------------------------------------
 
 enum class LightType { directional, point, spot };
 
@@ -125,18 +125,18 @@ struct Light {  // KHR_lights_punctual
     float range = 0.0f;           // m; 0: unlimited
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
-    // Size of the light's disk, which faces the lit point; it softens shadows. glTF has no light sizes: the defaults
-    // are those of the sun and of a light bulb.
+    // Size of the light, a disk that faces the lit point; it softens shadows. glTF has no light sizes: the defaults are
+    // those of the sun and of a light bulb.
     float angularDiameter = 0.00925f;  // rad; directional lights
     float radius = 0.03f;              // m; point and spot lights
 };
 
-// Type of the environment that surrounds and lights the scene, with radiance L(d) for a direction d (d.y up).
+// Type of the environment that surrounds and lights the scene. L(d) is its radiance in the unit direction d; d.y is up.
 enum class EnvironmentType {
-    none,      // black and transparent: alpha is the coverage of the geometry
+    none,      // black and transparent: alpha is the coverage by geometry
     uniform,   // L = zenith everywhere
     gradient,  // L = mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below
-    map,       // equirectangular HDR image; centre column at -z, right half at +x
+    map,       // equirectangular HDR image; the centre column is d = −z, the right half has d.x > 0
 };
 
 struct Environment {
@@ -145,8 +145,8 @@ struct Environment {
     glm::vec3 horizon{0.0f};
     glm::vec3 nadir{0.0f};
     std::shared_ptr<const Image> map;  // for EnvironmentType::map; NaN counts as black
-    bool visible = true;               // false: lights the scene, but the background is transparent
-    float lighting = 1.0f;             // factor on the light on surfaces; the background keeps its radiance
+    bool visible = true;               // false: the environment lights the scene, but the background is transparent
+    float lighting = 1.0f;             // factor on the radiance that lights surfaces; does not apply to the background
 };
 
 // ---- hierarchy and animation --------------------------------------------------------------------
@@ -158,14 +158,14 @@ struct Node {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    std::optional<glm::dmat4> matrix;  // replaces translation, rotation and scale; never animated
+    std::optional<glm::dmat4> matrix;  // if set: replaces translation, rotation and scale; cannot be animated
     int mesh = -1;
     int skin = -1;
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
-    double cocScale = 1;                // factor on the blur of the node's subtree (extras), ≥ 0; 0: always sharp
-    bool ground = false;                // mesh is the added ground (scene/ground.h)
+    double cocScale = 1;  // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
+    bool ground = false;  // true if addGround added this node
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
 };
 
@@ -177,14 +177,14 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // node property, like the next three
+    translation,  // property of a node, as the next three
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; camera property (KHR_animation_pointer), like the next two
+    cameraYfov,   // radians; property of a camera (KHR_animation_pointer), as the next two
     cameraZnear,  // m
     cameraLens,   // entry `lensValue` of Camera::lens
-    lightColor,   // light property (KHR_animation_pointer), like the next two
+    lightColor,   // property of a light (KHR_animation_pointer), as the next two
     lightIntensity,
     lightRange,  // m
 };
@@ -194,42 +194,42 @@ struct AnimationChannel {
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // floats per key: 1, 3, 4 or one per morph target; times 3 for cubicSpline
-    std::string lensValue;      // for ChannelPath::cameraLens
+    std::vector<float> values;  // per key 1, 3, 4 or the number of morph targets; times 3 for cubicSpline
+    std::string lensValue;      // for ChannelPath::cameraLens: key of Camera::lens
 };
 
 struct AnimationClip {
     std::string name;
     std::vector<AnimationChannel> channels;
-    float duration = 0.0f;  // seconds; time of the last key
+    float duration = 0.0f;  // time of the last key in seconds
 };
 
-// Content of the file that is not drawn, and the reason. `count` equal items share one entry.
+// Content of the file that is not drawn, and the reason. `count` is the number of items with equal text.
 struct Ignored {
     std::string what;
     std::string reason;
     std::uint64_t count = 1;
-    bool damage = false;  // the file is damaged here, which deserves a warning
+    bool damage = false;  // true if the file is damaged, which causes a warning
 };
 
 struct Scene {
     std::string name;
-    std::filesystem::path file;  // source file; empty: none
+    std::filesystem::path file;  // path of the scene's file; empty for a generated scene
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;  // Primitive::material -1 is glTF's default material
+    std::vector<Material> materials;  // without glTF's default material, Primitive::material −1
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
-    std::vector<std::string> imageNames;  // one per image
+    std::vector<std::string> imageNames;  // one per entry of `images`
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;  // nodes of the chosen glTF scene, and all nodes that joints need
+    std::vector<Node> nodes;  // nodes of the chosen glTF scene, and joints with their ancestors
     std::vector<int> roots;
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
-    std::optional<Environment> environment;  // empty: see environmentOrDefault
-    double metresPerUnit = 1;                // length unit of all fields above; poses are in metres
-    std::optional<double> ownMetresPerUnit;  // unit stated by the file's extras; empty: assumed to be metres
-    std::vector<std::string> extensions;     // used by the file, sorted
+    std::optional<Environment> environment;  // nullopt: see environmentOrDefault
+    double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
+    std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
+    std::vector<std::string> extensions;     // glTF extensions that the file uses, sorted
     std::vector<Ignored> ignored;
 };
 

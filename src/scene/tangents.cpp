@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// Direction in which u grows on a triangle, and whether its texture appears mirrored.
+// Direction in which texture coordinate u grows on a triangle, and whether its texture appears mirrored.
 struct TextureFrame {
-    glm::dvec3 tangent{0.0};  // zero if the texture coordinates span no area
+    glm::dvec3 tangent{0.0};  // any length; zero if the texture coordinates have no area
     bool mirrored = false;
 };
 
@@ -25,7 +25,8 @@ TextureFrame textureFrame(const Vertices& vertices, const std::vector<glm::vec2>
     const glm::dvec2 uv2 = glm::dvec2(uv[triangle[2]]) - glm::dvec2(uv[triangle[0]]);
     const double area = uv1.x * uv2.y - uv2.x * uv1.y;
     if (area == 0 || !std::isfinite(area)) return {};
-    // In glTF, v grows downwards: an unmirrored texture has negative area on a counter-clockwise triangle.
+    // In glTF, v grows downwards, so a texture that is not mirrored has a negative area in (u, v) on a
+    // counter-clockwise triangle.
     return {(edge1 * uv2.y - edge2 * uv1.y) * (area < 0 ? -1.0 : 1.0), area > 0};
 }
 
@@ -36,7 +37,7 @@ double cornerAngle(const Vertices& vertices, const std::uint32_t* triangle, std:
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Splits vertices into a plain and a mirrored copy, numbered in order of first use.
+// Numbers vertices in order of first use. A vertex of both mirrored and unmirrored triangles gets two numbers.
 class MirrorSplit {
 public:
     explicit MirrorSplit(std::size_t count) : plain_(count, none), mirrored_(count, none) {}
@@ -72,8 +73,8 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
     const std::vector<glm::vec2> zero(chosen.empty() ? vertices.count() : 0);
     const std::vector<glm::vec2>& uv = chosen.empty() ? zero : chosen;
 
-    // Add each triangle's projected tangent, weighted by the corner angle, to its vertices. Redirect the triangles to
-    // the split vertices.
+    // Add each triangle's tangent, projected and weighted by the corner angle, to its vertices. Replace the triangle's
+    // indices with those of `split`.
     MirrorSplit split(vertices.count());
     std::vector<glm::dvec3> sums;
     for (std::vector<std::uint32_t>* list : indices)
@@ -90,7 +91,7 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
             }
         }
 
-    // Gather the split vertices with unit tangents.
+    // Copy the split vertices and set their unit tangents.
     VertexBlock result = gathered(block, split.order());
     result.vertices.tangents.resize(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -1,5 +1,5 @@
-// perpendicular() follows Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012,
-// with the sign handling of Duff et al. 2017.
+// Source of perpendicular(): Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization",
+// 2012, with the sign handling of Duff et al. 2017.
 #include "scene/vertex_block.h"
 
 #include <cmath>
@@ -22,8 +22,8 @@ std::vector<T> pick(const std::vector<T>& values, std::span<const std::uint32_t>
     return result;
 }
 
-// Appends `added` (empty, or `addedCount` values) to `values` (empty, or `count` values). An empty side is filled with
-// `neutral` if the other is not empty.
+// Appends `added` (`addedCount` values, or empty) to `values` (`count` values, or empty). If only one of them is empty,
+// it is first filled with `neutral`.
 template <typename T>
 void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added, std::size_t addedCount,
           const T& neutral) {
@@ -35,7 +35,7 @@ void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added
         values.insert(values.end(), added.begin(), added.end());
 }
 
-// Returns per-vertex face normals; every three positions form a triangle. Triangles without area get +y.
+// Returns the face normal for each position; every three positions form a triangle. Triangles without area get +y.
 std::vector<glm::vec3> faceNormals(const std::vector<glm::vec3>& positions) {
     std::vector<glm::vec3> normals(positions.size());
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
@@ -48,7 +48,7 @@ std::vector<glm::vec3> faceNormals(const std::vector<glm::vec3>& positions) {
     return normals;
 }
 
-// Sets arbitrary perpendicular tangents for vertices [first, first + count).
+// Sets tangents of vertices [first, first + count) to arbitrary vectors perpendicular to their normals.
 void fillTangents(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>& normals, std::size_t first,
                   std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i)

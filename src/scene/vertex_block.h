@@ -1,6 +1,6 @@
 #pragma once
-// Vertex arrays during mesh assembly: gathering, compacting, flat shading, and appending blocks with different
-// attributes.
+// Operations on vertex arrays while a mesh is read: gathering, compacting, flat shading, and appending blocks with
+// different attributes.
 
 #include <cstdint>
 #include <span>
@@ -15,20 +15,21 @@ struct VertexBlock {
     std::vector<MorphTarget> morphTargets;
 };
 
-// Returns the vertices `order[0]`, `order[1]`, …; an index may repeat or be absent.
+// Returns the vertices with indices order[0], order[1], …; indices may repeat.
 Vertices gathered(const Vertices& vertices, std::span<const std::uint32_t> order);
 VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> order);
 
-// Returns only the vertices that `indices` use, in order of first use, and renumbers `indices`.
+// Returns only the vertices that `indices` use, in order of first use, and updates `indices`.
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Returns the block with flat shading, which glTF requires without normals: each triangle gets its own vertices with
-// its face normal. Triangles without area get +y. Morph targets change the normals to those of their own faces.
+// Returns the block with flat shading, which glTF requires for primitives without normals: each triangle gets its own
+// vertices with its face normal (+y without area). Normal displacements of morph targets lead to the face normals of
+// the displaced triangles.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first vertex. Attributes that only one side has
-// are filled with neutral values on the other. These are normal +y, a perpendicular tangent, uv 0, white, the first
-// joint, no displacement, and no added blur.
+// Appends `block` to the mesh's vertices and returns the index of its first vertex. Attributes that only one of the two
+// has are filled with neutral values in the other: normal +y, a perpendicular tangent, uv 0, white, the first joint, no
+// displacement, and no added blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Returns an arbitrary unit vector perpendicular to the unit vector `normal`.

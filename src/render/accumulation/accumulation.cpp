@@ -1,4 +1,4 @@
-// Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field
+// Sources: Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field
 // Rendering.
 
 #include "render/accumulation/accumulation.h"
@@ -21,13 +21,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the number of layers per wave. A block is divided into the fewest equal waves that fit into the memory.
+// Returns the number of layers, which is the number of samples per wave. If `requested` is 0, a block is divided into
+// the fewest equal waves that fit into RendererOptions::waveBytes.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t requested,
                          LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop doubles the layers
+                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
                                      shadowMapBytes(plan);
     const std::uint64_t block = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     if (requested > 0) return static_cast<std::uint32_t>(std::min<std::uint64_t>(requested, block));
@@ -71,7 +72,7 @@ public:
     }
 
     bool advance() override {
-        // First sample of the wave, counted within the plan.
+        // `first` is the index of the wave's first sample within the plan.
         const std::uint32_t first = sum_->samples() - samplesBefore_;
         const auto total = static_cast<std::uint32_t>(plan_.samples.size());
         if (first >= total) return false;
@@ -80,7 +81,7 @@ public:
         drawWave(first, count);
         clock_.endWave();
         if (first + count == total) {
-            sum_->makeMean();  // counted as frame time: the blur of cells and the division
+            sum_->makeMean();  // before endFrame(), so that its time counts
             clock_.endFrame();
         }
         return first + count < total;
@@ -132,7 +133,7 @@ private:
 
     [[nodiscard]] bool blursCells() const { return cells_.classes() > 0; }
 
-    // Reallocates the sums if size or format changed, and the passes if the format changed.
+    // Reallocates the sums if their size or format has changed, and the passes if the format has changed.
     void prepareTarget() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         const LayerWindow window = layerWindow(plan_);
@@ -146,7 +147,7 @@ private:
         const bool sameFormat = sum_ && sum_->info().format == format;
         const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
         if (!sameTarget) {
-            sum_.reset();  // frees the old sums first: memory may not hold both
+            sum_.reset();  // free the old sums first: memory may not hold both
             sum_.emplace(info);
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
@@ -160,8 +161,9 @@ private:
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
 
-    // Environments other than maps are composited when layers are added. They must be drawn earlier if a transmitting
-    // surface shows them. The same holds if alpha marks blended surfaces for the blur of cells.
+    // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
+    // when the layers are added to the sum. It must be drawn if a transmitting surface shows it, or if alpha marks
+    // blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -174,7 +176,7 @@ private:
         timer.end();
     }
 
-    // Draws the plan's samples [first, first + count).
+    // Draws the plan's samples [first, first + count) into the layers and adds them to the sum.
     void drawWave(std::uint32_t first, std::uint32_t count) {
         if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
         timed(opaqueTimer_, [&] {
@@ -194,16 +196,17 @@ private:
         stats_.trianglesHidden += surfaces_->drawOpaqueVisible(first, count, sum_->layerDepths(), layer);
     }
 
-    // Returns whether to cull hidden triangles. A GPU draws them faster than it reads back the depths for the test.
+    // Returns whether to cull hidden triangles. On a GPU, drawing them is faster than reading back the depths for the
+    // occlusion test.
     [[nodiscard]] bool leavesOutHidden() const { return currentIsSoftware() && !plan_.settings.keepAll; }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K requested; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested samples per wave K; 0: as many as fit into waveBytes
     bool usesLensCells_;
     GpuScene scene_;
     FramePlan plan_;
-    LensCells cells_;                  // of plan_; without classes, images are not blurred
-    std::uint32_t samplesBefore_ = 0;  // samples in the sum when the plan was begun
+    LensCells cells_;                  // lens cells of plan_; if it has no classes, images are not blurred
+    std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<ShadowMaps> shadows_;

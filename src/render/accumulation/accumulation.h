@@ -1,8 +1,8 @@
 #pragma once
-// Method "accumulation": draws every object once per lens sample, in waves of K samples, into a layered target. The
-// plan gives each object's levels and the samples that use them (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
-// Method "multirate" also blurs each sample's image by the part of the lens that the sample stands for
-// (plan/lens_cells/lens_cells.h). Fewer samples then suffice.
+// Method "accumulation": draws every object once per lens sample, in waves of K samples, into a target with K layers.
+// The plan selects each object's level of detail for each sample (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
+// Method "multirate" also blurs each sample's image by the sample's cell, its part of the lens area
+// (plan/lens_cells/lens_cells.h), so that fewer samples suffice.
 
 #include <memory>
 
@@ -10,7 +10,8 @@
 
 namespace defocus::engine {
 
-// Return a renderer of the method. It needs a current GL 4.5 context, which must outlive the renderer.
+// Both functions return a renderer of the method. They need a current OpenGL 4.5 context, which must outlive the
+// renderer.
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options);
 std::unique_ptr<Renderer> makeMultirateRenderer(const World& world, const RendererOptions& options);
 

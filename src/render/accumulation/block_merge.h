@@ -1,6 +1,6 @@
 #pragma once
-// Combines the block sums of a frame, wherever they were rendered, into the frame's image. The GPU passes are those of
-// a single run, so the result is bit-identical on machines of one kind.
+// Combines the block sums of a frame, which may come from several machines, into the frame's image. It uses the GPU
+// passes of a single run, so the image is bit-identical to that of a single run if all GPUs and drivers are equal.
 
 #include <optional>
 
@@ -10,10 +10,11 @@ namespace defocus::engine {
 
 class BlockMerge {
 public:
-    // Adds the frame's next block, starting with the first sample. All blocks but the last hold 64 samples; all are
-    // RGBA and of one size. Needs a current GL 4.5 context. Throws Error for a block of another size or sample count.
+    // Adds the frame's next block; blocks must be added in sample order. All blocks are RGBA of equal size and hold 64
+    // samples, except the last, which may hold fewer. Needs a current OpenGL 4.5 context. Throws Error for a wrong size
+    // or number of samples.
     void add(const BlockSum& block);
-    // Returns the mean of all samples. Needs at least one block.
+    // Returns the mean of all samples of the blocks added so far, at least one block.
     [[nodiscard]] Image image();
 
 private:

@@ -9,25 +9,25 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSide = 8;  // px; cellTile of shaders/include/cells.glsl
+constexpr int tileSide = 8;  // px; equals cellTile in shaders/include/cells.glsl
 
 int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // drawnClasses of shaders/include/cells.glsl
+constexpr int maxDrawn = 7;  // equals drawnClasses in shaders/include/cells.glsl
 
-// Side of a point of the largest class, px. It is a multiple of the point sides of all classes.
+// Side in px of the point sprites of the largest class, a multiple of the sides of all other classes.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
-// Returns the grid size of class 0, whose squares are single pixels. The means are centred on pixel corners, so there
-// are more squares than pixels.
+// Returns the size of the grid of class 0, whose squares have the size of a pixel. Squares are centred on pixel
+// corners, so the grid has more columns and rows than the image.
 glm::ivec2 squaresOf(const TextureInfo& image) {
     const auto whole = [](int pixels) { return (pixels / largestPoint + 1) * largestPoint; };
     return {whole(image.width), whole(image.height)};
 }
 
-// Allocates the means of all classes, laid out as in meansOrigin of shaders/include/cells.glsl.
+// Allocates a texture for the means of all classes, with the layout of meansOrigin in shaders/include/cells.glsl.
 GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
     GlTexture texture({.format = format,
                        .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,
@@ -91,7 +91,7 @@ void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDep
         glClearTexImage(held_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
     } else {
         sums_.attach(7);
-        glTextureBarrier();  // each pixel reads only its own position
+        glTextureBarrier();  // each fragment reads only texels at its own position
     }
     glBindImageTexture(1, held_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     glBindImageTexture(0, sums_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
@@ -111,7 +111,7 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum, float sample
         const bool isBehind = classIndex >= inFront_;
         const int k = isBehind ? classIndex - inFront_ : classIndex;
         const int side = 1 << k;
-        // A point is at least 4 x 4 pixels, since drivers shade several pixels at a time.
+        // A point sprite covers at least 4 x 4 pixels of the target, because drivers shade several pixels at a time.
         const int pointSide = std::max(tileSide, 4 * side);
         const int columns = squares_.x / pointSide;
         const int rows = squares_.y / pointSide;

@@ -1,11 +1,11 @@
 #pragma once
-// Sums the pixels of a block by the blur class of their lens cells (plan/lens_cells.h) and produces the block's image
-// with each class blurred.
+// Sums the pixels of a block of samples separately by blur class, the rounded size of a lens cell's blur
+// (plan/lens_cells.h), and returns the block's image with each class blurred.
 //
-// The classes are composited from the farthest to the nearest. Behind the focus plane more blur means farther away; in
-// front of it more blur means nearer; sharp pixels lie between. Each class is blurred only among the samples that show
-// no nearer class. A sharp outline thus stays sharp in front of a blurred background, and hidden background does not
-// leak out. The weights of all classes in a pixel add up to one.
+// The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
+// sharp pixels, then in front of the focus plane from less to more blur. Each class is blurred only among the samples
+// that show no nearer class. Thus a sharp outline remains sharp in front of a blurred background, and hidden background
+// does not leak out. The weights of all classes in a pixel sum to 1.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Shader programs for a given number of classes.
+// Shader programs for a given number of classes in front of and behind the focus plane.
 struct CellPasses {
     explicit CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder);
 
@@ -27,18 +27,19 @@ struct CellPasses {
 
 class CellSums {
 public:
-    // `blockSums`: the two textures that the block's sum alternates between from wave to wave. `cells` must have at
+    // `blockSums` are the two textures between which the block's sum alternates from wave to wave. `cells` must have at
     // least one class. `passes` must have been built for the same classes and must outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // Returns the defines with which shaders/accumulation/add_layers.frag fills the class sums.
+    // Returns the defines for shaders/accumulation/add_layers.frag, which fills the class sums.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    // Binds the targets and textures for adding layers. `to`: index of the block sum that is written together with the
-    // class sums.
+    // Binds the targets and textures for program `addLayers`. `to` is the index in `blockSums` of the texture that is
+    // written together with the class sums.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
-    // Writes the block's sum with blurred cells to `target`, with zero compensation. `sum` holds the block without
-    // blur. `samples` > 0 divides by that number, 0 divides by the pixel's alpha; the default writes the sum.
+    // Writes the block's sum with blurred cells to `target`; its compensation attachment becomes 0. `sum` is the
+    // block's sum without blur. If `samples` > 0, divides by `samples`; if 0, divides by the pixel's alpha; if < 0,
+    // does not divide.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;
@@ -49,14 +50,15 @@ private:
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;           // one layer per class, in the order of shaders/include/cells.glsl
-    Target addingTargets_[2];  // each has one of the block's sums and the first classes
-    GlTexture held_;           // bit mask of the classes present in each tile
-    GlTexture spread_;         // bit mask of the classes whose means each tile needs
+    GlTexture sums_;           // one layer per class, in the order given in shaders/include/cells.glsl
+    Target addingTargets_[2];  // each with one of the block's sums and the first classes of sums_
+    GlTexture held_;           // per tile: bit mask of the classes in it
+    GlTexture spread_;         // per tile: bit mask of the classes whose means it needs
     Target spreadTarget_;
-    // Means over squares of pixels: the radiance shown, and the number of samples that no nearer class covers. Layer 0
-    // is in front of the focus plane, layer 1 behind it. The classes lie side by side in a layer.
-    glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares are single pixels
+    // Per class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of samples
+    // that no nearer class covers. Layer 0 holds the classes in front of the focus plane, layer 1 those behind, side by
+    // side.
+    glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];
     Fullscreen fullscreen_;

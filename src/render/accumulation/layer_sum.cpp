@@ -1,4 +1,4 @@
-// Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
+// Source of the compensated sum: Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
 
 #include "render/accumulation/layer_sum.h"
 
@@ -67,7 +67,7 @@ void LayerSum::beginWave() {
     }
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
-    constexpr float farthest = 0;  // reversed depth
+    constexpr float farthest = 0;  // depth is reversed
     constexpr float transparent[4] = {};
     glClearNamedFramebufferfv(layerTarget_.name(), GL_DEPTH, 0, &farthest);
     glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
@@ -158,8 +158,8 @@ void LayerSum::makeMean() {
         meanTarget_ = Target({&mean_});
     }
     const float divisor = countsInAlpha_ ? 0.0f : static_cast<float>(samples_);
-    // Adds an unfinished block to a copy of the frame's sum; the frame's sum itself continues at the block border. The
-    // first block needs no addition.
+    // Add an unfinished block to a copy of the frame's sum, because the frame's sum contains only complete blocks.
+    // Before the first block is complete, the block's sum is the frame's sum.
     const bool unfinished = samples_ % blockSamples != 0;
     const bool isFirst = samples_ < blockSamples;
     if (isFirst && blursCells_)

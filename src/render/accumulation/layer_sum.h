@@ -1,9 +1,9 @@
 #pragma once
-// The accumulation target: K layers, one per lens sample, and compensated sums of them.
+// The accumulation target: K layers, one per lens sample, and the compensated sum of all samples.
 //
-// Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Finished blocks
-// are added to the frame's sum in the same way. The result is bit-identical for every K, and for every split over
-// machines at block borders. Reading divides a copy; the sum itself stays undivided.
+// Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Complete blocks
+// are added to the frame's sum in the same way. The result is bit-identical for every K, and if blocks are rendered on
+// several machines. The mean is a divided copy; the sum itself is never divided.
 
 #include <cstdint>
 #include <map>
@@ -22,12 +22,12 @@
 namespace defocus::engine {
 
 struct LayerSumInfo {
-    int width = 1;  // size of the layers, and of the sums by default, px
+    int width = 1;  // size of the layers in px
     int height = 1;
-    std::uint32_t layers = 1;                   // K, 1 … 64
-    LayerFormat format = LayerFormat::rgba16f;  // automatic is not allowed
+    std::uint32_t layers = 1;                   // number of layers K, 1 … 64
+    LayerFormat format = LayerFormat::rgba16f;  // not LayerFormat::automatic
     std::filesystem::path shaderFolder;
-    // Size of sums that hold only a part of the layers, px (see reset). 0: the sums are as large as the layers.
+    // Size of the sums in px, if only a rectangle of the layers is summed (see reset). 0: size of the layers.
     int sumWidth = 0;
     int sumHeight = 0;
 };
@@ -36,39 +36,41 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `window`: the pixels of the layers to draw and sum; its size must equal that of the sums.
-    // Default: all pixels.
+    // Clears all sums. `window` is the rectangle of the layers to draw and sum, of the size of the sums; nullopt: all
+    // pixels.
     void reset(const std::optional<LayerWindow>& window = {});
-    // Blurs the lens cells of all further blocks. Call it at a block border. reset() turns the blur off.
+    // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
+    // blocks. reset() turns the blur off.
     void blurCells(const LensCells& cells);
-    // Clears the layers (black, transparent, infinite depth) and binds them as the render target.
+    // Clears the layers to transparent black and infinite depth, and binds them as the render target.
     void beginWave();
-    // The layers as a target, which beginWave binds.
+    // Returns the render target that beginWave binds.
     [[nodiscard]] const Target& layers() const { return layerTarget_; }
-    // Colour and depth textures of layers().
+    // Return the colour and depth textures of layers().
     [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
     [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
-    // Composites layers [0, count) over the environment and adds them to the sum. They show samples `first` … of
-    // `frame`. `count` ≤ K, and the wave must end within its block.
+    // Composites layers [0, count) over the environment and adds them to the sum. The layers show samples [first, first
+    // + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
-    // Returns the sum of the block that the last wave belongs to, finished or not. Needs at least one sample.
+    // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.
     [[nodiscard]] BlockSum block();
-    // Continues the sum with a block that was summed elsewhere; the result is bit-identical to drawing it here. The
-    // samples so far must be complete blocks of 64. `block` is RGBA, of the size of the sums, with 1 … 64 samples. Only
-    // the frame's last block may have fewer than 64.
+    // Adds a block that was summed on another machine; the result is bit-identical to drawing it here. All samples so
+    // far must form complete blocks. `block` is RGBA, of the size of the sums, with 64 samples; the frame's last block
+    // may have fewer.
     void addBlock(const BlockSum& block);
-    // Computes the mean of the samples so far, at least one, unless it is up to date.
+    // Computes the mean of all samples so far, at least one, unless the mean is already up to date.
     void makeMean();
-    // Returns the mean of the samples so far as RGBA. Needs at least one sample.
+    // Returns the mean of all samples so far as RGBA. Needs at least one sample.
     [[nodiscard]] Image mean();
-    // Returns the same mean as a texture, row 0 at the bottom. Valid until further samples are added.
+    // Returns the same mean as a texture with row 0 at the bottom. The texture is valid until further samples are
+    // added.
     [[nodiscard]] const GlTexture& meanTexture();
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] const LayerSumInfo& info() const { return info_; }
 
 private:
-    // A compensated sum with two copies: passes read one and write the other.
+    // A compensated sum in two copies: passes read one copy and write the other.
     struct Sum {
         explicit Sum(int width, int height);
         void flip() { current = 1 - current; }
@@ -77,11 +79,11 @@ private:
         Target target[2];
         int current = 0;  // index of the copy with the latest values
     };
-    // Returns the index of the copy of block_ that holds the block's sum. `asAdded`: the current copy still lacks the
-    // blur of lens cells, so the blur is applied first.
+    // Returns the index of the copy of block_ with the block's sum. If `asAdded`, this is the sum as added to the
+    // frame: with the blur of lens cells, which is first drawn into the other copy.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
-    // Writes to mean_ the copy `latest` of a sum, divided by `divisor` (0: by the pixel's alpha).
+    // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.
     void divide(const Sum& total, int latest, float divisor);
 
     [[nodiscard]] int sumWidth() const { return info_.sumWidth > 0 ? info_.sumWidth : info_.width; }
@@ -97,10 +99,10 @@ private:
     GlTexture mean_;  // allocated on first use
     bool meanIsCurrent_ = false;
     Target meanTarget_;
-    // Keyed by features: these change from frame to frame in scenes with motion.
+    // By features, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // keyed by the number of classes in front and behind
-    // Kept from the last block that had cells, since the next frame often has the same classes.
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of classes in front and behind
+    // Kept after the latest block with lens cells, because the next frame often has the same classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;
     double cellBlur_ = 0;

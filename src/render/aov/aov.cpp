@@ -43,7 +43,7 @@ void AovPass::draw(const FramePlan& plan) {
     pinhole_ = pinholePlan(scene_.world(), plan, 1);
     makeTargets(plan.view.width, plan.view.height);
 
-    // Clear to the values at infinity.
+    // Clear to the values of a point at infinity.
     target_.bind();
     glDepthMask(GL_TRUE);
     const float behind[3] = {
@@ -77,7 +77,7 @@ void AovPass::drawWireframe() {
     levelColours_.attach(6);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);
-    glPolygonOffset(1, 8);  // reversed depth: offsets towards the camera
+    glPolygonOffset(1, 8);  // depth is reversed: positive offsets are towards the camera
     edges_.drawSurfaces(0, 1);
     glDisable(GL_POLYGON_OFFSET_LINE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

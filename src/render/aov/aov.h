@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary output variables (AOVs): data about the nearest surface at each pixel's centre, seen through a pinhole.
+// Arbitrary output variables (AOVs): per-pixel data of the nearest surface at the pixel's centre in a pinhole view.
 
 #include <filesystem>
 #include <optional>
@@ -11,21 +11,23 @@
 namespace defocus::engine {
 
 struct AovImages {
-    Image depth;  // m along the view axis; infinity where no surface is
-    // Signed circle of confusion in px, > 0 behind the focus plane. Empty pixels have the value at infinity.
+    Image depth;  // m along the view axis; +∞ for pixels without a surface
+    // Signed circle of confusion in px, > 0 behind the focus plane. Pixels without a surface have the value at infinite
+    // depth.
     Image coc;
-    Image level;  // fractional level λ of the object; −1 where no surface is
+    Image level;  // fractional level λ of the object; −1 for pixels without a surface
 };
 
-// Draws the AOVs as textures (r32f, row 0 at the bottom) for successive frames of one world. Needs a current GL
+// Draws AOVs into textures (r32f, row 0 at the bottom) for successive frames of one world. Needs a current OpenGL
 // context.
 class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws opaque, alpha-tested and blended surfaces alike, each at its nearest integer level.
+    // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object has the integer level nearest to
+    // λ.
     void draw(const FramePlan& plan);
-    // Draws the visible edges of the triangles that draw() drew, coloured by λ (viridis), premultiplied by alpha.
+    // Draws the visible edges of the triangles of the latest draw(), coloured by λ (viridis), in premultiplied RGBA.
     void drawWireframe();
 
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
@@ -46,14 +48,14 @@ private:
     Target target_, wireTarget_;
 };
 
-// Draws the AOVs of one frame and reads them back.
+// Returns the AOVs of one frame.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// Level λ at which colour maps saturate.
+// Colour maps of levels saturate at this λ.
 inline constexpr float coarsestShownLevel = 8;
 
-// Returns λ as colours (viridis): level 0 is dark violet, level 8 and above is yellow. Pixels without a surface are
-// black.
+// Maps levels λ to linear RGB by viridis: level 0 is dark violet, level 8 and above is yellow. Pixels without a surface
+// (−1) are black.
 Image levelColourMap(const Image& level);
 
 }  // namespace defocus::engine

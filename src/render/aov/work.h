@@ -1,6 +1,7 @@
 #pragma once
-// The rasterization work of a frame: the number of triangles that touch each pixel over all lens samples. Such heat
-// maps are in Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Figure 7.
+// Rasterization work of a frame: the number of triangles that cover each pixel, summed over all lens samples. Source:
+// the heat maps of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Figure
+// 7.
 
 #include <filesystem>
 
@@ -10,19 +11,20 @@
 
 namespace defocus::engine {
 
-// Computes renderWork() as a texture, a few lens samples at a time, for successive frames of one world. Needs a current
-// GL context.
+// Computes the result of renderWork() as a texture, a few lens samples at a time, for successive frames of one world.
+// Needs a current OpenGL context.
 class WorkPass {
 public:
-    // `world` must outlive the pass.
+    // `world` must outlive this object.
     explicit WorkPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Clears the sum and prepares the frame; draws nothing.
+    // Starts a frame: clears the sum and uploads data, but draws nothing.
     void begin(const FramePlan& plan);
-    // Adds further samples of the plan for about `milliseconds`. Returns false once all samples are added.
+    // Adds further samples of the plan until about `milliseconds` have passed. Returns false once all samples are
+    // added.
     bool grow(double milliseconds);
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // number of samples in the sum
-    // Triangles per pixel, summed over samples() lens samples: r32f, row 0 at the bottom.
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // number of lens samples in the sum
+    // Returns the triangles per pixel, summed over samples() lens samples, as r32f with row 0 at the bottom.
     [[nodiscard]] const GlTexture& work() const { return work_; }
 
 private:
@@ -35,21 +37,21 @@ private:
     std::uint32_t sampleTotal_ = 0;
 };
 
-// Returns a one-channel image that counts, in each lens sample, the triangles that cover the pixel's centre. Hidden
-// triangles and those that fail the alpha test count too; culled back faces do not. This is the work of the
-// accumulation without the sky. Counts are exact up to 16.7 million per pixel. Needs a current GL context.
+// Returns for each pixel the number of triangles that cover its centre, summed over all lens samples (1 channel).
+// Hidden triangles and fragments that fail the alpha test are counted; culled back faces and the sky are not. Counts
+// are exact up to 16.7 million per pixel. Needs a current OpenGL context.
 Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// Triangles per lens sample at which the colour map saturates.
+// The colour map saturates at this number of triangles per pixel and lens sample.
 inline constexpr float maxShownWork = 15;
 
-// Returns the work over `samples` lens samples as colours (magma) that compare between frames. Pixels without triangles
-// are black; 1, 3, 7 and 15 triangles per lens sample are purple, red, orange and pale yellow.
+// Maps the work over `samples` lens samples to linear RGB by magma, on a scale that is the same for all frames. 0
+// triangles per lens sample are black; 1, 3, 7 and 15 are purple, red, orange and pale yellow.
 Image workColourMap(const Image& work, std::uint32_t samples);
 
 struct WorkSummary {
     double mean = 0;  // triangles per pixel and lens sample
-    double max = 0;   // the same in the pixel with the highest count
+    double max = 0;   // triangles per lens sample in the pixel with the most
 };
 
 WorkSummary workSummary(const Image& work, std::uint32_t samples);

@@ -1,4 +1,4 @@
-// Garcia 2018, Circular Separable Convolution Depth of Field (slides of the Game Developers Conference).
+// Source: Garcia 2018, Circular Separable Convolution Depth of Field (slides of the Game Developers Conference).
 
 #include "render/circular/circular.h"
 
@@ -16,12 +16,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSize = 16;  // px of the field
+constexpr int tileSize = 16;  // field pixels
 
 struct CircularOptions {
     int nearComponents = 2;
     int farComponents = 2;
-    int reduction = 1;  // field pixels are this many image pixels wide
+    int reduction = 1;  // width of a field pixel in image pixels
     bool combined = false;
     bool direct = false;
     double blendBias = 1;
@@ -63,8 +63,8 @@ CircularOptions parsed(const MethodSettings& settings) {
     return options;
 }
 
-// Returns the largest blur diameter in front of the focus plane, px. Objects that reach the camera count with the image
-// width.
+// Returns the largest blur diameter in front of the focus plane in px. For objects that extend to the near plane, it is
+// the image width.
 double largestNearDiameter(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) {
@@ -74,7 +74,7 @@ double largestNearDiameter(const FramePlan& plan) {
     return largest;
 }
 
-// Returns the largest blur diameter behind the focus plane, px, including that of the sky.
+// Returns the largest blur diameter behind the focus plane in px, at least that of the sky and 1 px.
 double largestFarDiameter(const FramePlan& plan) {
     double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);
@@ -91,7 +91,7 @@ public:
         const View& view = plan.view;
         if (view.width != width_ || view.height != height_ || view.lens.anamorphicRatio != anamorphicRatio_)
             makeFields(view);
-        const double largest = 0.5 * view.width;  // px: a disk as wide as the image
+        const double largest = 0.5 * view.width;  // max radius in px: a disk as wide as the image
         const double nearRadius = std::min(0.5 * largestNearDiameter(plan), largest) / options_.reduction;
         glProgramUniform1f(split_.name(), 0, static_cast<float>(largest));
         glProgramUniform1i(reach_.name(), 0, static_cast<GLint>(std::ceil(nearRadius / tileSize)) + 2);
@@ -204,7 +204,8 @@ private:
         nearRadiusTarget_ = Target({&nearRadius_});
     }
 
-    // Returns the field pixels from which a part of the image is interpolated.
+    // Returns the rectangle of field pixels from which rectangle `part` of the image is interpolated; nullopt means
+    // all.
     [[nodiscard]] std::optional<TexelRectangle> inField(const std::optional<TexelRectangle>& part) const {
         if (!part) return {};
         const TextureInfo& field = farField_.info();
@@ -215,7 +216,7 @@ private:
         return TexelRectangle{left, bottom, std::max(right - left, 0), std::max(top - bottom, 0)};
     }
 
-    // Widens the near radius to all pixels that a near disk may reach.
+    // Sets each pixel's near radius to the largest radius of the near disks that may reach this pixel.
     void spreadNearRadius() {
         tileTarget_.bind();
         ownNearRadius_.attach(0);
@@ -236,7 +237,7 @@ private:
     int height_ = 0;
     double anamorphicRatio_ = 1;
     bool hasNear_ = true;
-    ShaderDefines defines_;  // defines of the current programs
+    ShaderDefines defines_;  // defines of the compiled programs
     Program split_, tile_, reach_, widen_, composite_;
     GlTexture farField_, nearField_, farRadius_, ownNearRadius_, nearRadius_, tiles_, reaching_;
     Target splitTarget_, tileTarget_, reachTarget_, nearRadiusTarget_;

@@ -1,5 +1,5 @@
-// Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution Depth of
-// Field.
+// Sources: Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution
+// Depth of Field.
 
 #include "render/circular/circular_kernel.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int nodesPerPiece = 64;
 
-// Printed by defocus_circular_fit; kernel n begins at index n·(n − 1)/2.
+// Kernels of circularKernel(), printed by defocus_circular_fit. The kernel of n components begins at index n·(n − 1)/2.
 constexpr std::array<CircularComponent, 45> components = {{
     // One component.
     {0.905657, 1.823553, 0.793950, 1.540016},
@@ -75,9 +75,9 @@ constexpr std::array<CircularComponent, 45> components = {{
     {-0.140223, 49.595900, -0.018297, -0.025707},
 }};
 
-// Niemitalo 2010; kernel n begins at index n·(n − 1)/2. Garcia's slides print the kernels of one and two components.
-// His filter generator has all of them, but with another sign of the second sine of four components, which doesn't give
-// a disk.
+// Kernels of Niemitalo 2010. The kernel of n components begins at index n·(n − 1)/2. Garcia's slides print the kernels
+// of one and two components. Garcia's filter generator has all kernels, but with the opposite sign of the second sine
+// weight of four components, which does not approximate a disk.
 constexpr std::array<CircularComponent, 15> published = {{
     // One component.
     {0.862325, 1.624835, 0.767583, 1.862321},
@@ -102,8 +102,8 @@ constexpr std::array<CircularComponent, 15> published = {{
 }};
 constexpr std::array<double, publishedKernelLimit> publishedDiskRadius = {1.068, 1.097, 1.101, 1.101, 1.101};
 
-// Rescales the kernels to disk radius 1. For u = r² in squared disk radii, e^((−a + ib)·u·ρ²) is the component whose
-// disk has radius ρ.
+// Returns the published kernels rescaled from disk radius ρ to disk radius 1. With u = r² in squared disk radii, a
+// component becomes e^((−a + ib)·u·ρ²), so that a and b are multiplied by ρ².
 std::array<CircularComponent, 15> publishedInRadii() {
     std::array<CircularComponent, 15> kernels = published;
     auto component = kernels.begin();
@@ -117,11 +117,12 @@ std::array<CircularComponent, 15> publishedInRadii() {
 }
 
 struct LinePoint {
-    double x;       // in (−1, 1)
-    double weight;  // sums to 2 over all points
+    double x;       // abscissa in (−1, 1)
+    double weight;  // the weights of all points sum to 2
 };
 
-// Returns the roots and weights of the Legendre polynomial P_n, by Newton iteration from Tricomi's initial guess.
+// Returns the Gauss–Legendre quadrature points on (−1, 1): the roots of the Legendre polynomial P_n, by Newton
+// iteration from Tricomi's initial guess.
 std::array<LinePoint, nodesPerPiece> gaussLegendrePoints() {
     constexpr int n = nodesPerPiece;
     std::array<LinePoint, n> points;
@@ -142,7 +143,8 @@ std::array<LinePoint, nodesPerPiece> gaussLegendrePoints() {
     return points;
 }
 
-// Calls visit(t, dt) at the nodes of an integral over [begin, end]; makes no call for an empty interval.
+// Calls visit(t, dt) at the Gauss–Legendre points t with weights dt of an integral over [begin, end]. Makes no call for
+// an empty interval.
 template <typename Visit>
 void forEachNode(double begin, double end, const Visit& visit) {
     static const std::array<LinePoint, nodesPerPiece> points = gaussLegendrePoints();
@@ -191,12 +193,13 @@ double circularProfile(std::span<const CircularComponent> kernel, double squared
 std::vector<RadialNode> squareNodes(double extent, double edge) {
     const double square = extent * extent;
     std::vector<RadialNode> nodes;
-    // Complete circles, u = r² < extent²: dA = π du.
+    // Circles inside the square, u = r² < extent²: dA = π du.
     const auto circle = [&](double u, double du) { nodes.push_back({u, std::numbers::pi * du}); };
     const double inside = std::min(edge * edge, square);
     forEachNode(0, inside, circle);
     forEachNode(inside, square, circle);
-    // Arcs in the corners, u = extent² + t²: each side cuts off the angle 2·arccos(extent/r) = 2·arctan(t/extent).
+    // Circles that extend beyond the square, u = r² = extent² + t²: each side of the square cuts off an arc of angle
+    // 2·arccos(extent/r) = 2·arctan(t/extent).
     const auto arcs = [&](double t, double dt) {
         nodes.push_back({square + t * t, (std::numbers::pi - 4 * std::atan(t / extent)) * 2 * t * dt});
     };
@@ -228,7 +231,7 @@ double diskProfileError(std::span<const CircularComponent> kernel, double extent
 double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
     double sum = 0;
     for (const CircularComponent& c : kernel) {
-        double length = 0;  // ∫|F| dx
+        double length = 0;  // ∫|F| dx over |x| ≤ extent
         forEachNode(-extent, extent, [&](double x, double dx) { length += std::exp(-c.decay * x * x) * dx; });
         sum += std::hypot(c.cosine, c.sine) * length * length;
     }

@@ -22,50 +22,51 @@ struct CircularComponent {
     double sine;       // B, weight of the imaginary part
 };
 
-inline constexpr int circularKernelLimit = 9;        // number of components of the largest kernel
-inline constexpr double circularKernelExtent = 1.0;  // half the side of the support of circularKernel(), in disk radii
+inline constexpr int circularKernelLimit = 9;        // max components of circularKernel()
+inline constexpr double circularKernelExtent = 1.0;  // extent for which circularKernel() is fitted
 inline constexpr double circularCornerGuard = 0.2;   // weight of the corner penalty; see circularKernel
 
 // Returns the kernel of `count` components, 1 to circularKernelLimit, that best fits the disk of radius 1 with ∫K = ∫D.
-// The fit minimizes ∫(K − D)² dA over the square, plus circularCornerGuard·π·∫K² du over 1 < u < 2. This term guards
-// the corners (u → 2), where the arcs have little area: unguarded, K falls to −0.4 … −0.7 there. Each highlight would
-// have four dark dots around it. Throws Error for another `count`. The data have static lifetime.
+// The fit minimizes ∫(K − D)² dA over the square, plus circularCornerGuard·π·∫K² du over 1 < u < 2. The second term
+// penalizes the corners (u → 2), whose small area hardly matters in the first: without it, K falls to −0.4 … −0.7 in
+// the corners, and each highlight has four dark dots around it. Throws Error for another `count`. The data have static
+// lifetime.
 std::span<const CircularComponent> circularKernel(int count);
 
-inline constexpr int publishedKernelLimit = 5;  // number of components of the largest published kernel
+inline constexpr int publishedKernelLimit = 5;  // max components of publishedCircularKernel()
 
 // Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010). Garcia's
-// slides print the first two. The published constants are for a disk of another radius; here they are rescaled to
-// radius 1, by the best fit to a disk (defocus_circular_fit prints both radii). ∫K = ∫D holds after the passes divide
-// by the sum of their taps. Throws Error for another `count`. The data have static lifetime.
+// slides print the kernels of one and two components. The published kernels approximate disks of other radii; here they
+// are rescaled to radius 1 (defocus_circular_fit prints the original radii). ∫K = ∫D holds after the passes divide by
+// the sum of their taps. Throws Error for another `count`. The data have static lifetime.
 std::span<const CircularComponent> publishedCircularKernel(int count);
 
-// Returns F(x): the complex weight of the tap at `offset` radii.
+// Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);
 
-// Returns K at r² = squaredRadius.
+// Returns K(r) for r² = squaredRadius.
 double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius);
 
-// A quadrature node for functions of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
+// Quadrature node for functions f of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
 struct RadialNode {
     double squaredRadius;
     double weight;  // area
 };
 
-// Returns Gauss–Legendre nodes over the square [−extent, extent]². The function may jump at the circle of radius `edge`
-// (> 0) and must be smooth elsewhere. Exact to rounding for frequencies up to about 60 per squared extent.
+// Returns quadrature nodes over the square [−extent, extent]², for functions of r² that are smooth except for a jump at
+// r = `edge` (> 0). Integrals are exact except for rounding for frequencies up to about 60 per squared extent.
 std::vector<RadialNode> squareNodes(double extent, double edge);
 
-// Returns the gain g for which g·∫K over the square equals the area of the disk of radius diskRadius.
+// Returns the gain g such that g·∫K over the square equals the area of the disk of radius diskRadius.
 double energyGain(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
-// Returns the RMS deviation from the disk, relative to the disk: √(∫(g·K − D)² dA / ∫D² dA) with g = energyGain. The
-// integral includes the part of the disk outside the square, where K is 0.
+// Returns the relative RMS error of the kernel, √(∫(g·K − D)² dA / ∫D² dA) with g = energyGain. The integral includes
+// the part of the disk outside the square, where K is 0.
 double diskProfileError(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
-// Returns the bound m on error amplification: g·Σ_c √(A² + B²)·(∫|F| dx)² / ∫D over |x| ≤ extent, with g = energyGain.
-// A relative rounding error ε between the passes (half float: 2⁻¹¹) changes the result by at most ε · m · the brightest
-// pixel.
+// Returns the amplification m of rounding errors: g·Σ_c √(A² + B²)·(∫|F| dx)² / ∫D over |x| ≤ extent, with g =
+// energyGain. A relative rounding error ε (half float: 2⁻¹¹) of the values between the two passes changes the result by
+// at most ε · m times the brightest pixel.
 double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
-// Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution Depth of
-// Field (brackets: its appendix).
+// Sources: Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution
+// Depth of Field (with brackets in the appendix).
 
 #include "render/circular/complex_blur.h"
 
@@ -19,14 +19,14 @@ namespace defocus::engine {
 namespace {
 
 constexpr int maxTargets = 8;
-constexpr int reduction = 8;  // factor per side of the reduction that finds the max
+constexpr int reduction = 8;  // factor per axis of one step of the max reduction
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
 constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
-constexpr int maxPublishedInHalf = 3;  // fewer, since their larger weights cancel and amplify rounding
-constexpr double outermostTap = 2;     // radii; taps lie within radius + 1/2, for radii above 1/2
+constexpr int maxPublishedInHalf = 3;  // max of published kernels: large weights amplify rounding
+constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
 constexpr int bracketSteps = 4096;
-constexpr int publishedTaps = 8;  // taps on each side
+constexpr int publishedTaps = 8;  // taps on each side of the centre
 
 TextureFormat textureFormat(ComplexStorage storage) {
     switch (storage) {
@@ -82,13 +82,13 @@ std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& valu
     return parts;
 }
 
-// Returns the bracket for a fixed set of taps, all of which are summed.
+// Returns the bracket for taps that do not depend on the radius.
 Bracket bracketOfSum(const std::vector<double>& taps) {
     const double offset = std::ranges::min(taps);
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Returns the bracket for any taps within the range of these values.
+// Returns the bracket for arbitrary taps between the min and the max of `taps`.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};
@@ -136,7 +136,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     sumTarget_ = Target(targets);
     if (!bracketed()) return;
 
-    // Reduction chain for the max radiance and weight of a field, down to one pixel.
+    // Create the reduction chain for the max radiance and max weight of a field, down to one pixel.
     const auto pass = [&](const ShaderDefines& defines) {
         return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
     };
@@ -200,10 +200,10 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
         return;
     }
     if (bracketed()) findBrightest(field);
-    std::optional<TexelRectangle> columns = part;  // columns of the part, over all rows
+    std::optional<TexelRectangle> columns = part;  // the columns of `part`, in all rows
     if (columns) *columns = {part->x, 0, part->width, info_.height};
     for (const Group& group : groups_) {
-        // Filter along the rows.
+        // Filter along rows.
         sumTarget_.bind();
         field.attach(0);
         radius.attach(1);
@@ -212,7 +212,7 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
             const Scissor scissor(columns);
             fullscreen_.draw(group.horizontal);
         }
-        // Filter along the columns; later groups add to the result.
+        // Filter along columns; later groups add to the result.
         resultTarget_.bind();
         for (GLuint i = 0; i < sums_.size(); ++i) sums_[i].attach(i);
         radius.attach(8);

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the bits of `choices.z` in shaders/view/display.frag.
+// Returns the flags for `choices.z` in shaders/view/display.frag.
 int flagsOf(const DisplaySettings& settings) {
     return (settings.difference ? 1 : 0) | (settings.focusPeaking ? 2 : 0) | (settings.focusPlane ? 4 : 0) |
            (settings.wireframe ? 8 : 0);

@@ -1,4 +1,4 @@
-// Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps.
+// Source: Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps.
 
 #include "render/gpu_scene/environment_light.h"
 
@@ -10,8 +10,9 @@ namespace defocus::engine {
 
 namespace {
 
-// L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0), for zenith z, horizon h and nadir n. In Legendre polynomials
-// max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …. The clamped cosine over π scales the bands by 1, 2/3 and 1/4.
+// Returns the coefficients of a gradient with radiance L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0), for zenith z,
+// horizon h and nadir n. In Legendre polynomials, max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …. Convolution with the clamped
+// cosine over π scales bands 0, 1 and 2 by 1, 2/3 and 1/4.
 std::array<glm::vec4, 9> gradientCoefficients(const Environment& environment) {
     const glm::vec3 up = environment.zenith - environment.horizon;
     const glm::vec3 down = environment.nadir - environment.horizon;
@@ -34,8 +35,8 @@ std::array<double, 9> harmonics(const glm::dvec3& d) {
             0.546274 * (d.x * d.x - d.y * d.y)};
 }
 
-// Factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the harmonics above, multiplied by the cosine
-// factor of the band.
+// Factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the spherical harmonics, multiplied by the
+// factor 1, 2/3 or 1/4 of the clamped cosine for their band.
 constexpr std::array<double, 9> factors = {0.282095,         0.488603 * 2 / 3, 0.488603 * 2 / 3,
                                            0.488603 * 2 / 3, 1.092548 / 4,     1.092548 / 4,
                                            0.315392 / 4,     1.092548 / 4,     0.546274 / 4};

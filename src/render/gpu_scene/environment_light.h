@@ -1,5 +1,5 @@
 #pragma once
-// Diffuse light from an environment, as coefficients that shaders/include/environment.glsl evaluates.
+// Irradiance from an environment, as coefficients of a polynomial that shaders/include/environment.glsl evaluates.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -8,9 +8,9 @@
 
 namespace defocus::engine {
 
-// Returns irradiance over π as a function of the normal n. A gradient gives the zonal polynomial c0 + c1·n.y + c2·n.y².
-// A map gives the nine coefficients of second-order spherical harmonics (Ramamoorthi and Hanrahan 2001), in the order
-// 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y². Other environment types give zeros.
+// Returns coefficients of irradiance over π as a function of the unit normal n. A gradient gives the zonal polynomial
+// c0 + c1·n.y + c2·n.y². A map gives the nine coefficients of second-order spherical harmonics (Ramamoorthi and
+// Hanrahan 2001), in the order 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y². Other environment types give zeros.
 std::array<glm::vec4, 9> diffuseCoefficients(const Environment& environment);
 
 }  // namespace defocus::engine

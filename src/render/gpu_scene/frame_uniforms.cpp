@@ -15,13 +15,13 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unlimitedBlur = 1e9;  // image widths; finite, so that multiplying it by 0 gives 0
+constexpr double unlimitedBlur = 1e9;  // image widths; finite, so that 0 times unlimitedBlur is 0
 constexpr std::size_t maxConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
-// Limits of the uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
+// Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
 constexpr int maxLights = 64;
-constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes: the min of GL_MAX_UNIFORM_BLOCK_SIZE
+constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes; all drivers have GL_MAX_UNIFORM_BLOCK_SIZE ≥ 16 KiB
 
 struct GpuLight {
     glm::vec4 directionType;
@@ -50,8 +50,8 @@ static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= ev
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
     const glm::vec3 direction(glm::normalize(placed.direction));
-    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles. The shader squares
-    // it.
+    // The falloff of a spot light's cone is a linear ramp between the cosines of its angles, which the shader squares
+    // (KHR_lights_punctual).
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
@@ -81,7 +81,7 @@ GlTexture environmentTexture(const Image& map) {
         for (std::size_t c = 0; c < 4; ++c) {
             const auto channels = static_cast<std::size_t>(map.channels);
             const float value = c == 3 ? 1.0f : map.pixels[i * channels + (channels >= 3 ? c : 0)];
-            rgba[i * 4 + c] = std::min(std::max(0.0f, value), 65504.0f);  // NaN becomes 0
+            rgba[i * 4 + c] = std::min(std::max(0.0f, value), 65504.0f);  // NaN gives 0
         }
     GlTexture texture({.format = TextureFormat::rgba16f, .width = map.width, .height = map.height, .levels = levels});
     texture.upload(0, map.width, map.height, rgba.data());
@@ -90,13 +90,13 @@ GlTexture environmentTexture(const Image& map) {
     return texture;
 }
 
-// Returns whether lighting is the same in every frame. Many lights return false, since constants for them make long
-// shaders.
+// Returns whether shaders may contain the lighting as constants: it is the same in every frame, and there are few
+// lights. Constants for many lights would make shaders too long.
 bool staysLitAlike(const World& world) {
     return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
 
-// Returns whether all values are finite. A file may contain NaN or infinity, which have no shader literal.
+// Returns whether all values are finite. Values from a file may be NaN or infinite, for which GLSL has no literals.
 bool isFinite(const GpuLighting& block) {
     const auto finite = [](const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); };
     const auto finiteLight = [&](const GpuLight& light) {
@@ -106,7 +106,7 @@ bool isFinite(const GpuLighting& block) {
            std::ranges::all_of(block.lights, finiteLight);
 }
 
-// Returns the initializer of the lighting constant in lighting.glsl.
+// Returns the GLSL initializer of the lighting constant in shaders/include/lighting.glsl.
 std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
     const auto vectors = [](std::span<const glm::vec4> list) {
         std::string text;
@@ -124,7 +124,7 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Values of a wave begin at the max offset alignment of uniform buffers: one vec4 per 256 bytes.
+// Bytes between the uniforms of two waves: the max of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT among drivers.
 constexpr std::size_t waveStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {
@@ -199,7 +199,7 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     std::vector<GpuSample> samples(plan.samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const LensSample& sample = plan.samples[i];
-        // A sample point right of the pixel's centre moves the scene left.
+        // A sample position to the right of the pixel's centre shifts the image left.
         const glm::vec2 jitter = -sample.pixel * pixel;
         const double dither = 0.5 + goldenRatio * static_cast<double>(plan.settings.firstSample + i);
         const auto layer = static_cast<float>(i % blockSamples % layerCount);
@@ -212,9 +212,10 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
     moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
-    // Offsets of the sky. At infinity C/w = b, so lens and jitter shift the sky by a fixed offset, in units of the
-    // image plane at distance 1. With blur controls, C/w depends on the pixel and multiplies the lens part in the
-    // shader. The buffer is padded to complete blocks, which are bound one at a time.
+    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. At infinite depth w, the
+    // circle of confusion C(w) gives C/w = b, so lens point and jitter shift the sky by a fixed offset. With blur
+    // controls, C/w depends on the pixel, and the shader multiplies it with the lens point. The buffer is padded to
+    // complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());
@@ -240,7 +241,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads, for each block of samples: colour weights with shifts of b, then lens points.
+// Uploads SampleBlock of shaders/accumulation/add_layers.frag for each block of samples: colour weights and offsets of
+// b, then lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

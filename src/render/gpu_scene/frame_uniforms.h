@@ -1,5 +1,6 @@
 #pragma once
-// Inputs of every pass of a frame: camera, lens, lights and environment as uniforms; lens samples as instance data.
+// Shader inputs shared by the passes of a frame: camera, lens, lights and environment as uniforms; lens samples as
+// per-instance attributes.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -11,33 +12,37 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t blockSamples = 64;  // samples per block of the sum
+inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of the sum
 
-// A lens sample as per-instance vertex attributes.
+// Lens sample as per-instance vertex attributes.
 struct GpuSample {
-    glm::vec4 lensAndJitter;  // u, k·v; jitter x, y in normalised device coordinates
-    glm::vec4 eyeAndDither;   // lens point x, y in m, dither offset, layer
+    glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
+    glm::vec4 eyeAndDither;   // xy: lens point in m; z: dither offset; w: layer
 };
 
 class FrameUniforms {
 public:
-    // `layerCount` is K, the number of lens samples drawn at once: sample i goes to layer (i mod 64) mod K.
+    // Uploads the inputs of one frame. `layerCount` is K, the number of samples per wave: sample i is drawn into layer
+    // (i mod 64) mod K.
     void upload(const World& world, const FramePlan& plan, std::uint32_t layerCount);
 
-    // Defines that shaders/include/frame.glsl and environment.glsl need for this world.
+    // Returns the defines that shaders/include/frame.glsl and environment.glsl need for this frame.
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    // Binds the uniform blocks and the environment map for samples [firstSample, …) of one block of the sum.
+    // Binds the uniform blocks and the environment map for samples from `firstSample` to the end of its block of the
+    // sum.
     void bind(std::uint32_t firstSample) const;
-    // Binds only the uniforms that differ between waves. `sample`: any sample of the wave.
+    // Binds only the uniforms that differ between waves, for the wave that contains `sample`.
     void bindWave(std::uint32_t sample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
-    // One SampleMoment per lens sample, as a vec3. Empty if nothing moves.
+    // Returns one SampleMoment per lens sample, as a vec3; empty if nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
-    // One float per lens sample: the offset that its wavelength adds to b of C(w). Empty without chromatic aberration.
+    // Returns one float per lens sample: the change of b in the circle of confusion C = a + b·w (depth w) for the
+    // sample's wavelength. Empty without chromatic aberration.
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
-    // Whether the weight of a sample differs between pixels. The sum's alpha then counts the samples of a pixel.
+    // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
+    // pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // samples per wave K
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -48,15 +53,15 @@ private:
     [[nodiscard]] std::size_t waveOf(std::uint32_t sample) const;
 
     ShaderDefines defines_;
-    std::array<glm::vec4, 9> irradiance_{};  // of the environment; see diffuseCoefficients
+    std::array<glm::vec4, 9> irradiance_{};  // diffuseCoefficients of the environment
     Buffer frameBlock_;
-    Buffer lightingBlock_;  // empty if the shaders have the lighting as constants
+    Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
     Buffer samples_;        // one GpuSample per lens sample
     Buffer moments_;
-    Buffer waves_;         // per wave: number of its first sample, and of the first sample of its block
-    Buffer sampleShifts_;  // vec4 per lens sample: offset of the sky
+    Buffer waves_;         // per wave: index of its first sample, and of the first sample of its block
+    Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/add_layers.frag
+    Buffer sampleBands_;  // SampleBlock in shaders/accumulation/add_layers.frag
     bool countsInAlpha_ = false;
     std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;

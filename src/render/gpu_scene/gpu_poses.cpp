@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the morph targets with nonzero weight in any of the poses.
+// Returns the indices of the morph targets with a nonzero weight in at least one pose.
 std::vector<std::size_t> targetsUsed(const std::vector<const ObjectPose*>& poses, const GpuDeformation& deformation) {
     std::vector<std::size_t> used;
     if (!deformation.morphs) return used;

@@ -1,5 +1,5 @@
 #pragma once
-// The poses of an object in the layout of shaders/include/posing.glsl.
+// Poses of an object in the layout of shaders/include/posing.glsl.
 
 #include <glm/vec4.hpp>
 
@@ -11,14 +11,14 @@
 namespace defocus::engine {
 
 struct GpuPoses {
-    TexelBuffer texels;    // RGBA32F; empty for an object with a single matrix
-    glm::ivec4 layout{0};  // GpuObject::posing
+    TexelBuffer texels;    // RGBA32F; empty if the object has a single matrix
+    glm::ivec4 layout{0};  // for GpuObject::posing
     bool skinned = false;
     bool moving = false;
     bool cameraMoves = false;
 };
 
-// Returns the poses of `object`, which is part of `plan`. `mesh` is the object's mesh.
+// Returns the poses of object `object` of `plan`; `mesh` is the object's mesh.
 GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh& mesh);
 
 // Adds the defines that the vertex shader needs for an object with these poses.

@@ -12,7 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Min ratio of distance to half extent at which a mesh counts as far from its origin.
+// A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
+// side.
 constexpr double farFromOrigin = 4;
 
 template <typename T>
@@ -20,8 +21,8 @@ Buffer prefixBuffer(const std::vector<T>& items, std::size_t count) {
     return items.empty() ? Buffer() : Buffer(count * sizeof(T), items.data());
 }
 
-// Level 0 has colours in [0, 1], which fixed point holds exactly for files of 8 and 16 bits. Fitted colours of coarser
-// levels may lie outside this range.
+// Colours of level 0 are in [0, 1]; 16-bit fixed point is exact for files with 8 or 16 bits. Colours of coarser levels
+// are fitted and may lie outside [0, 1].
 GLenum colorTypeOf(std::size_t level) {
     return level == 0 ? GL_UNSIGNED_SHORT : GL_HALF_FLOAT;
 }
@@ -48,9 +49,9 @@ GLenum minificationFilter(const Texture& texture) {
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
-constexpr float minAttenuation = 1e-6f;  // of a colour channel, before taking its logarithm
+constexpr float minAttenuation = 1e-6f;  // lower bound of a colour channel before its logarithm
 
-constexpr float rangeRounding = 1e-3f;  // in 1/255: tolerance when rounding outwards
+constexpr float rangeRounding = 1e-3f;  // tolerance in 1/255 when rounding outwards
 
 void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
     if (colors.empty()) return;
@@ -136,7 +137,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     result.origin = meshOrigin(pyramid.bounds);
     result.levels.resize(pyramid.levels.size());
 
-    // Level l uses a prefix of the vertices, so the finest wanted level determines the vertex count.
+    // Each level uses a prefix of the pyramid's vertices, so the finest requested level determines the vertex count.
     std::size_t vertexCount = 0;
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::u16vec4> colors;
@@ -163,7 +164,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
             const auto first = pyramid.indices.begin() + range.first;
             indices.insert(indices.end(), first, first + range.count);
         }
-        if (level == 0)  // level 0 comes first, so `indices` holds only its triangles
+        if (level == 0)  // level 0 is first, so `indices` holds only its triangles
             colorRanges = cornerColorRanges(source.colors, indices);
         else
             measureColors(source.colors, target);
@@ -289,7 +290,7 @@ void GpuScene::prepareMaterial(int index) {
     }
 }
 
-// Units 5, 6 and 7 are taken by the environment map and the poses.
+// Texture units 5, 6 and 7 belong to the environment map and the poses.
 void GpuMaterialTextures::attach() const {
     for (GLuint i = 0; i < materialTextureCount; ++i)
         if (slots[i] != nullptr) slots[i]->attach(i < 5 ? i : i + 3);
@@ -314,11 +315,13 @@ GpuMaterial GpuScene::materialBlock(int index) const {
     block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
     block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
                      material.occlusionStrength};
-    // Reflectance of a dielectric at normal incidence: ((n − 1)/(n + 1))². An index n of 0 stands for infinity.
+    // Reflectance of a dielectric with index of refraction n at normal incidence: ((n − 1)/(n + 1))². n = 0 stands for
+    // infinity.
     const float ior = material.ior;
     const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
     block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
-    // The last component scales how far roughness spreads the background. It grows with the index and is 0 for air.
+    // transmission.w is the factor on the blur of the background by roughness: 0 for index 1 (air), 1 for 1.5 and
+    // above.
     block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * world_->scene->metresPerUnit;

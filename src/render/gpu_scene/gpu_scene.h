@@ -1,6 +1,6 @@
 #pragma once
-// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, and textures and materials of the
-// drawn meshes. Data are uploaded when a plan first uses them.
+// A World on the GPU: vertex and index buffers of pyramid levels, and textures and materials. Data are uploaded when a
+// frame first uses them.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Vertex attribute locations of shaders/accumulation/object.vert.
+// Vertex attribute locations in shaders/accumulation/object.vert.
 enum AttributeLocation : unsigned {
     positionLocation,
     normalLocation,
@@ -34,59 +34,59 @@ enum AttributeLocation : unsigned {
     weights1Location,
     momentLocation,
     bandShiftLocation,
-    colorRangeLocation,  // location 15: every driver has at least 16
+    colorRangeLocation,  // location 15, the last that all drivers have
 };
 
-// Position of a level's data in the mesh's buffers.
+// Position of a pyramid level's data in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
-    GLenum colorType = GL_UNSIGNED_SHORT;   // type of the colours' four components: normalised shorts or half floats
-    std::size_t vectorOffset = 0;           // bytes, in the position and normal buffers
-    std::size_t colorOffset = 0;            // bytes, in the colour buffer
-    std::size_t uvOffset = 0;               // bytes, in the buffers of both texture coordinate sets
-    std::vector<std::size_t> indexOffsets;  // bytes, in the index buffer; one offset per primitive
-    glm::vec4 minColor{0.0f};               // min of the level's vertex colours; 1 is white
+    GLenum colorType = GL_UNSIGNED_SHORT;   // of the four colour components: normalised shorts or half floats
+    std::size_t vectorOffset = 0;           // bytes, in the buffers `positions` and `normals`
+    std::size_t colorOffset = 0;            // bytes, in the buffer `colors`
+    std::size_t uvOffset = 0;               // bytes, in the buffers `uv0` and `uv1`
+    std::vector<std::size_t> indexOffsets;  // bytes, in the index buffer, per primitive
+    glm::vec4 minColor{0.0f};               // min of the level's vertex colours per channel; 1 is white
     glm::vec4 maxColor{0.0f};
 };
 
-// Skinning and morphing data of a mesh; empty for rigid meshes.
+// Skinning and morphing data of a mesh; empty for meshes without skin and morph targets.
 struct GpuDeformation {
     Buffer joints, weights, joints1, weights1;
-    TexelBuffer morphs;  // RGB32F; for each target: positions, then normals, then tangents
+    TexelBuffer morphs;  // RGB32F; per target: displacements of positions, then normals, then tangents
     bool morphNormals = false;
     bool morphTangents = false;
-    std::size_t vertexCount = 0;  // texels per attribute of a target
+    std::size_t vertexCount = 0;  // number of texels per attribute of a target
     [[nodiscard]] int attributesPerTarget() const { return 1 + (morphNormals ? 1 : 0) + (morphTangents ? 1 : 0); }
 };
 
 struct GpuMesh {
-    glm::dvec3 origin{0.0};  // object units; buffer positions are relative to it
+    glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to it
     VertexArray vertexArray;
     Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, blurs, indices;
     GpuDeformation deformation;
     std::vector<GpuLevel> levels;
 };
 
-// Returns the origin for a mesh's buffer positions: per axis 0 if the bounding box lies near its own origin, else the
-// box's centre. Single precision then keeps the shape of distant meshes. The subtraction p − origin is exact, since p
-// lies between half and twice the origin on shifted axes (Sterbenz 1974, Floating-Point Computation).
+// Returns the point to which a mesh's positions in the buffer are relative: per axis 0 if the bounding box is near 0,
+// else the box's centre. Thus single precision suffices for meshes far from their origin. On axes with an offset, p −
+// origin is exact, because p is between half and twice the origin (Sterbenz 1974, Floating-Point Computation).
 glm::dvec3 meshOrigin(const Bounds& bounds);
-// Points the vertex array at the level's vertices.
+// Binds the vertices of a level to the mesh's vertex array.
 void bindLevel(GpuMesh& mesh, std::size_t level);
 
-// Textures of a material, in the order of textureUses(); null for unused slots.
+// Textures of a material in the order of textureUses(); null if unused.
 struct GpuMaterialTextures {
     const GlTexture* slots[materialTextureCount] = {};
-    // Binds the textures to the units that surface_shading.glsl reads.
+    // Binds the textures to the units used in shaders/include/surface_shading.glsl.
     void attach() const;
 };
 
-// Returns, for each vertex colour, the range over all triangles at this vertex. Each channel is 256 · max + min, both
-// in 1/255 and rounded outwards. `indices`: triangle list.
+// Returns for each vertex the range of the vertex colours of all triangles at this vertex; `indices` is a triangle
+// list. Each channel is 256 · max + min, with max and min in 1/255, rounded outwards.
 std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
                                             std::span<const std::uint32_t> indices);
 
-// Uniform block of a material, as in shaders/include/frame.glsl, std140.
+// Uniform block of a material; matches shaders/include/frame.glsl (std140).
 struct GpuMaterial {
     glm::vec4 baseColor;
     glm::vec4 emissiveCutoff;
@@ -103,7 +103,7 @@ class GpuScene {
 public:
     explicit GpuScene(const World& world) : world_(&world) {}
 
-    // Uploads the data of `plan` that are not on the GPU yet. Throws Error when graphics memory runs out.
+    // Uploads data of `plan` that are not yet on the GPU. Throws Error if GPU memory is insufficient.
     void prepare(const FramePlan& plan);
 
     [[nodiscard]] const World& world() const { return *world_; }
@@ -123,7 +123,7 @@ private:
 
     const World* world_;
     std::map<int, GpuMesh> meshes_;
-    std::map<std::pair<int, bool>, GlTexture> textures_;  // keyed by texture index and whether it is sRGB
+    std::map<std::pair<int, bool>, GlTexture> textures_;  // by texture index and whether it is sRGB
     std::map<int, GpuMaterialTextures> materialTextures_;
 };
 

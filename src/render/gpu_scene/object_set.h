@@ -5,7 +5,7 @@
 
 namespace defocus::engine {
 
-// A subset of a plan's objects: one flag per object. An empty set stands for all objects.
+// Subset of a plan's objects, as one flag per object. An empty vector stands for all objects.
 using ObjectSet = std::vector<bool>;
 
 inline bool contains(const ObjectSet& set, std::size_t object) {

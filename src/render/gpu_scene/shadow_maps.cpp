@@ -1,4 +1,4 @@
-// Williams 1978, Casting Curved Shadows on Curved Surfaces; Haeberli and Akeley 1990, The Accumulation Buffer.
+// Sources: Williams 1978, Casting Curved Shadows on Curved Surfaces; Haeberli and Akeley 1990, The Accumulation Buffer.
 #include "render/gpu_scene/shadow_maps.h"
 
 #include <fmt/format.h>
@@ -8,16 +8,16 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 18;  // as in shaders/include/shadows.glsl
+constexpr GLuint mapsUnit = 18;  // texture unit of the maps in shaders/include/shadows.glsl
 constexpr GLuint projectionsUnit = 19;
 constexpr GLint firstSampleLocation = 2;
-constexpr GLint slotLocation = 3;  // as in shaders/accumulation/object.vert
+constexpr GLint slotLocation = 3;  // uniform location in shaders/accumulation/object.vert
 
 std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// Returns defines with the first map and the number of maps of each light, and of the surroundings as the last entry.
+// Returns defines with the index of the first map and the number of maps for each light, and last for the environment.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);
@@ -48,7 +48,7 @@ std::vector<float> texelsOf(const std::vector<ShadowProjection>& projections) {
     return texels;
 }
 
-// Returns a plan that draws only the shadow casters, for all samples.
+// Returns a plan of the shadow casters only; each is drawn for all samples.
 FramePlan castersOf(const FramePlan& plan) {
     FramePlan casters = plan;
     casters.objects = plan.shadows.casters;
@@ -93,7 +93,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
         target_ = Target();
-        maps_ = GlTexture();  // frees the old maps first: memory may not hold both
+        maps_ = GlTexture();  // free the old maps first: memory may not hold both
         maps_ = GlTexture({.format = TextureFormat::depth32f,
                            .width = plan.shadows.size,
                            .height = plan.shadows.size,
@@ -107,7 +107,7 @@ void ShadowMaps::draw(std::uint32_t first, std::uint32_t count) {
     if (defines_.empty()) return;
     target_.bind();
     glDepthMask(GL_TRUE);
-    constexpr float nothing = 0;  // reversed depth: infinitely far from the light
+    constexpr float nothing = 0;  // depth is reversed: infinitely far from the light
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &nothing);
     for (std::size_t slot = 0; slot < mapsPerSample(plan_); ++slot)
         casters_.drawCasters(first, count, static_cast<int>(slot));

@@ -1,6 +1,6 @@
 #pragma once
-// The shadow maps of a wave of lens samples (plan/shadows.h): one layer for each sample, light point and map. A surface
-// pass draws the casters at the levels that the plan chose.
+// Shadow maps of a wave of lens samples (plan/shadows.h): one layer for each combination of sample, light point and
+// map. The shadow casters are drawn at the levels of detail that the plan has selected.
 
 #include <optional>
 
@@ -12,17 +12,18 @@ namespace defocus::engine {
 
 class ShadowMaps {
 public:
-    // Needs a current GL context.
+    // Needs a current OpenGL context.
     ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder);
 
-    // Prepares the maps of `plan`, which may have no shadows. `frame` must hold this plan's uniforms and outlive the
-    // drawing.
+    // Allocates the maps of `plan`, which may be without shadows. `frame` must hold the uniforms of `plan` and exist
+    // until the last draw().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Draws the maps of samples [first, first + count), which form one wave. Changes the render target.
+    // Draws the maps of samples [first, first + count), which must form one wave. Changes the render target.
     void draw(std::uint32_t first, std::uint32_t count);
-    // Defines that shaders need to read the maps; empty without shadows.
+    // Returns the defines that shaders need to read the maps; empty without shadows.
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    // Binds the maps for drawing `sample` and the rest of its wave; the shader that reads them must be in use.
+    // Binds the maps for drawing the samples from `sample` to the end of its wave. The program that reads the maps must
+    // be in use.
     void bind(std::uint32_t sample) const;
     [[nodiscard]] std::size_t bytes() const { return maps_.bytes() + projections_.bytes() + casters_.bytes(); }
 
@@ -31,8 +32,8 @@ private:
     SurfacePass casters_;
     const FrameUniforms* frame_ = nullptr;
     EnvironmentDirections directions_;
-    const Image* directionsOf_ = nullptr;  // environment map that directions_ were computed for; null without one
-    FramePlan plan_;                       // plan of the casters alone
+    const Image* directionsOf_ = nullptr;  // environment map of directions_; null if none
+    FramePlan plan_;                       // plan of the casters only
     ShaderDefines defines_;
     TexelBuffer projections_;
     GlTexture maps_;

@@ -25,7 +25,7 @@ std::size_t uniformStride(std::size_t bytes) {
 
 namespace {
 
-// Returns the max distance in m between the object's drawn levels and full detail.
+// Returns the max deviation in m of the object's drawn levels from full detail.
 double levelError(const World& world, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     double error = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Parts shared by all passes that draw the surfaces of a FramePlan: uniform blocks and poses of objects, index runs of
-// visible clusters, and the shader features of a material.
+// Functions shared by all passes that draw the surfaces of a FramePlan: uniform blocks and poses of objects, index
+// ranges of visible clusters, and shader defines of a material.
 
 #include <glm/mat4x4.hpp>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// Uniform block of an object, as in shaders/include/frame.glsl, std140.
+// Uniform block of an object; matches shaders/include/frame.glsl (std140).
 struct GpuObject {
     glm::mat4 viewFromObject;
     glm::mat4 normalMatrix;
@@ -21,32 +21,32 @@ struct GpuObject {
     glm::vec4 levels;
 };
 
-// Returns one block for each object of the plan; `scene` must hold their meshes. Fills `poses` with one entry per
+// Returns one uniform block per object of the plan, whose meshes `scene` must hold. Sets `poses` to one entry per
 // object.
 UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses);
 
-// A range of indices in GpuMesh::indices.
+// Range of indices in GpuMesh::indices.
 struct IndexRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-// Returns the index runs of a primitive at a level: all indices, or those of the visible clusters.
+// Returns the index ranges of a primitive at a level of detail: all indices, or those of the visible clusters.
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
                                 std::uint32_t primitive);
 
 enum class SurfaceLook {
     flat,         // no lighting, and no textures except for the alpha test
-    caster,       // as `flat`, with the amount of light that transmitting surfaces let pass
+    caster,       // like `flat`, and transmitting surfaces output the fraction of light that passes
     lit,          // full shading; transmitting surfaces are opaque
-    seenThrough,  // as `lit`, and transmitting surfaces show the background
+    seenThrough,  // like `lit`, but transmitting surfaces show the background
 };
 
-// Returns the defines of shaders/include/surface_shading.glsl for a material on a mesh.
+// Returns the defines for shaders/include/surface_shading.glsl for a material on a mesh.
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int material, std::uint32_t level,
                              SurfaceLook look);
 
-// Returns a unique key for a set of defines.
+// Returns a string that is unique for each list of defines.
 std::string keyOf(const ShaderDefines& defines);
 
 }  // namespace defocus::engine

@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 17;      // as in shaders/accumulation/object.frag
-constexpr GLint shadowSlotLocation = 3;  // as in shaders/accumulation/object.vert
+constexpr std::size_t maxBackdrops = 8;  // max backdrops per wave; each needs a copy of all layers
+constexpr GLuint backdropUnit = 17;      // texture unit in shaders/accumulation/object.frag
+constexpr GLint shadowSlotLocation = 3;  // uniform location in shaders/accumulation/object.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -19,7 +19,7 @@ struct SampleSpan {
     [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
 };
 
-// Returns the part of samples [first, first + count) for which `drawn` is drawn.
+// Returns the subrange of samples [first, first + count) in which `drawn` is drawn.
 SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
     return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
 }
@@ -28,10 +28,11 @@ GLenum modeOf(Refinement refinement) {
     return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
 }
 
-// Draws indices of the bound vertex array, with one instance per sample of [firstSample, firstSample + sampleCount).
+// Draws indices [first, first + count) of the bound vertex array, with one instance per sample in [firstSample,
+// firstSample + sampleCount).
 void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
                  std::uint32_t sampleCount) {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL expects the offset as a pointer
     const auto* const offset = reinterpret_cast<const void*>(std::size_t{first} * sizeof(std::uint32_t));
     glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset,
                                         static_cast<GLsizei>(sampleCount), firstSample);
@@ -87,7 +88,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
         }
     }
-    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects are sorted nearest first
+    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects are sorted from near to far
     for (const ObjectPlan& object : plan.objects) transmittingObjects_ += object.transmits ? 1 : 0;
     for (const Draw& item : translucent_) {
         const Material& material = scene_->material(item.material);
@@ -95,7 +96,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// Adds the draws of a level: samples that use it alone, and the sample shared with the neighbouring level.
+// Adds the draws of a level of detail: one for the samples that show only this level, one for the boundary sample,
+// which shows two levels in different pixels.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
     const std::vector<IndexRun> runs =
@@ -150,7 +152,7 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(static_cast<bool>(mesh.blurs), "VERTEX_BLURS");
     set(draw.blurMoves && frame_->moments(), "BLUR_MOVES");
     set(refined, "REFINED");
-    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // adds shader stages, so it needs its own program
+    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // needs more shader stages
     set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
     poseDefines(defines, poses_[draw.object], mesh);
@@ -175,7 +177,7 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Binds the samples of this pass; several passes may draw the same meshes with different samples.
+// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind theirs to the same array.
 void SurfacePass::bindSamples(VertexArray& array) const {
     array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
     array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
@@ -183,7 +185,7 @@ void SurfacePass::bindSamples(VertexArray& array) const {
     if (frame_->bandShifts()) array.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 
-// Binds all inputs of a draw whose first sample is `sample`.
+// Binds all inputs of draw `item`, whose first sample is `sample`.
 void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
     GpuMesh& mesh = scene_->mesh(item.mesh);
     mesh.vertexArray.use();
@@ -207,8 +209,8 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
 }
 
-// Submits samples [first, end) in steps that limit the triangles per submission. `triangles`: per sample. Calls
-// drawSamples(first, count) for each step.
+// Calls drawSamples(first, count) for consecutive parts of samples [first, end), each with at most the triangles that
+// the pacer allows. `triangles` is the number of triangles per sample.
 void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
     const std::uint64_t max = pacer_.maxTriangles();
     const std::uint64_t step = max == 0 ? end - first : std::max<std::uint64_t>(1, max / triangles);
@@ -252,7 +254,7 @@ void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t
     draw(item, first, count);
 }
 
-// Sets face culling; double-sided materials and shadow casters show both faces.
+// Enables culling of back faces except for double-sided materials and shadow casters.
 void SurfacePass::setFaces(const Draw& item) const {
     if (scene_->material(item.material).doubleSided || info_.look == SurfaceLook::caster)
         glDisable(GL_CULL_FACE);
@@ -290,7 +292,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
     return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
 }
 
-// Draws the remaining pieces and returns their triangle count, summed over samples.
+// Draws the triangles that remain after the occlusion test. Returns their number, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
     std::uint64_t triangles = 0;
@@ -334,7 +336,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
     bindFrame();
     glDepthFunc(GL_GREATER);
     std::size_t left = transmittingObjects_;
-    std::optional<std::uint32_t> shown;  // transmitting object that the backdrop was copied for
+    std::optional<std::uint32_t> shown;  // transmitting object for which the backdrop was copied
     for (const Draw& item : translucent_) {
         if (!contains(objects, item.object)) continue;
         if (!scene_->material(item.material).transmits()) {
@@ -359,7 +361,7 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, marksBlended_ ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
-    if (scene_->material(item.material).doubleSided) {  // back faces first
+    if (scene_->material(item.material).doubleSided) {  // draw back faces before front faces
         glCullFace(GL_FRONT);
         draw(item, first, count);
     }
@@ -370,7 +372,7 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
 void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {
     if (translucent_.empty()) return;
     glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    // Transmitting surfaces have already written their depth.
+    // Use GL_GEQUAL, because transmitting surfaces have already written their depth.
     drawSolid(translucent_, first, count, GL_GEQUAL, objects);
     glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
@@ -387,7 +389,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     sky_.use();
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // passes only where depth is still cleared
+    glDepthFunc(GL_GEQUAL);  // passes only where nothing was drawn
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Draws the surfaces of a FramePlan with one shader program per set of material features. Each object, primitive and
-// wave needs at most two instanced draws, since a wave has at most one boundary between levels. Two more draws are
-// needed if the sample at the boundary is split between the levels pixel by pixel. A level with culled clusters is
-// drawn run by run.
+// Draws the surfaces of a FramePlan with one shader program per set of material features. A primitive needs at most two
+// instanced draws per wave, because its level of detail changes at most once within a wave. Two more draws are needed
+// if the sample at the change shows both levels in different pixels. A level with culled clusters needs one draw per
+// index range.
 
 #include <map>
 #include <optional>
@@ -19,7 +19,7 @@ namespace defocus::engine {
 
 struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
-    ShaderDefines defines;       // of the pass, such as the layer format
+    ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
     bool vertexShaderLayers = true;  // false: a geometry shader selects the layer
     std::filesystem::path shaderFolder;
@@ -32,49 +32,50 @@ public:
     SurfacePass(GpuScene& scene, SurfacePassInfo info)
         : scene_(&scene), info_(std::move(info)), occlusion_(scene.world()) {}
 
-    // Builds the draws and programs of `plan`. `frame` and `shadows` must outlive the drawing. `shadows` belongs to the
-    // same plan: the maps to read, or for casters the maps to draw. Null without shadows.
+    // Prepares the draws and programs of `plan`. `shadows` are the maps of the same plan to read, or to draw for
+    // SurfaceLook::caster; null without shadows. `frame` and `shadows` must exist until the last draw.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
     // Draws the opaque and alpha-tested surfaces of samples [first, first + count), front to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
-    // drawOpaqueVisible draws the same image as drawOpaque, but skips hidden triangles if enough can be skipped. Sample
-    // `first` is in layer `layer` of `depths`, the others in the following layers. Returns the number of skipped
-    // triangles. Call findHidden first, with the plan of prepare(); this plan must outlive the drawing.
+    // drawOpaqueVisible draws the same image as drawOpaque, but skips hidden triangles if there are enough of them.
+    // Sample `first` is drawn with layer `layer` of `depths`, later samples with the layers after it. Returns the
+    // number of skipped triangles. Call findHidden first, with the plan of prepare(), which must exist until the last
+    // draw.
     void findHidden(const FramePlan& plan);
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer);
-    // Draws alpha-blended and transmitting surfaces, object by object and back to front. `colors` is the render target
-    // and already holds the environment. A transmitting surface shows a copy of `colors` made before its object is
-    // drawn. Beyond a limit, only the nearest transmitting objects see each other. `objects` must contain all
-    // transmitting objects or none.
+    // Draws alpha-blended and transmitting surfaces, object by object from back to front. `colors` is the render target
+    // and already contains the environment. A transmitting surface shows a copy of `colors` made before its object is
+    // drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible through each
+    // other. `objects` must contain all transmitting objects or none.
     void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
                          const ObjectSet& objects = {});
-    // Sets whether alpha-blended surfaces add their alpha to the target's alpha. Alpha then exceeds 1 where they cover
-    // opaque surfaces.
+    // Sets whether alpha-blended surfaces add their alpha to the target's alpha. If so, alpha exceeds 1 where they
+    // cover opaque surfaces.
     void markBlended(bool marks) { marksBlended_ = marks; }
     [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
-    // Draws only the depth of alpha-blended and transmitting surfaces, and the shader outputs other than colour.
+    // Draws alpha-blended and transmitting surfaces into depth and all colour attachments except the first.
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
-    // Draws all surfaces, including translucent ones, as if they were opaque.
+    // Draws all surfaces as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // Draws all surfaces, with both faces, into shadow map `slot` of each sample.
+    // Draws front and back faces of all surfaces into shadow map `slot` of each sample.
     void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
-    // Draws all surfaces without depth test and adds each fragment to the target.
+    // Draws all surfaces without depth test and adds each fragment to the target by blending.
     void drawTouched(std::uint32_t first, std::uint32_t count);
-    // Draws the environment where no surface was drawn. (The accumulation composites environments other than maps when
-    // it adds layers.)
+    // Draws the environment into pixels without a surface. LayerSum composites environments other than maps when it
+    // adds layers.
     void drawSky(std::uint32_t first, std::uint32_t count);
 
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels
-        coarseShare,  // pixels of a boundary sample that draw the coarser level
-        fineShare,    // pixels of a boundary sample that draw the finer level
+        open,         // all pixels show the same level
+        coarseShare,  // pixels in which a boundary sample shows the coarser level
+        fineShare,    // pixels in which a boundary sample shows the finer level
     };
 
-    struct Draw {  // One primitive of an object at one level.
+    struct Draw {  // one primitive of an object at one level of detail
         int mesh = -1;
         std::uint32_t level = 0;
         std::uint32_t primitive = 0;
@@ -82,7 +83,7 @@ private:
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
-        std::vector<IndexRun> runs;  // of the primitive's indices
+        std::vector<IndexRun> runs;  // index ranges of the primitive
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
         bool blurMoves = false;
@@ -119,20 +120,20 @@ private:
     std::map<std::string, Program> programs_;
     SubmissionPacer pacer_;
     Program sky_;
-    ShaderDefines skyDefines_;  // defines of the current sky_ program
+    ShaderDefines skyDefines_;  // defines of sky_
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
     const ShadowMaps* shadows_ = nullptr;
-    int shadowSlot_ = 0;  // shadow map that casters are drawn into
+    int shadowSlot_ = 0;  // shadow map into which casters are drawn
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
     std::vector<GpuPoses> poses_;  // one per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     bool marksBlended_ = false;
-    std::vector<Draw> translucent_;  // alpha-blended or transmitting, farthest first
+    std::vector<Draw> translucent_;  // alpha-blended or transmitting; farthest first
     std::size_t transmittingObjects_ = 0;
-    bool blursBackdrop_ = false;  // whether a transmitting surface is rough
+    bool blursBackdrop_ = false;  // true if a transmitting surface is rough
     Backdrop backdrop_;
     Occlusion occlusion_;
 };

@@ -4,7 +4,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint frontUnit = 20;  // as in shaders/layered/peel.glsl
+constexpr GLuint frontUnit = 20;  // texture unit in shaders/layered/peel.glsl
 
 GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint32_t count) {
     return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(count)});
@@ -26,8 +26,9 @@ GlHandle<destroyQuery> newQuery() {
 
 }  // namespace
 
-// Position n = (x, y) in the image becomes n·(W, H)/(W', H'). The coefficients change so that each term of c/W·W stays
-// the same in px (lens/circle_of_confusion.h).
+// A position n in normalised device coordinates becomes n·(W, H)/(W', H') when the image size changes from W x H to W'
+// x H'. The coefficients of the circle of confusion (lens/circle_of_confusion.h) are scaled so that it does not change
+// in px.
 FramePlan widened(const FramePlan& plan, int border) {
     FramePlan wide = plan;
     wide.tile.reset();
@@ -45,7 +46,7 @@ FramePlan widened(const FramePlan& plan, int border) {
     coc.gain *= wider * wider;
     coc.aspect = static_cast<double>(wide.view.width) / wide.view.height;
     for (LensSample& sample : wide.samples) sample.lens = glm::vec2(0);
-    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // pinhole images need no refinement
+    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // not needed without lens blur
     return wide;
 }
 
@@ -84,7 +85,7 @@ bool DepthLayers::peelLayer(std::uint32_t index, std::uint32_t layer) {
     const Target& target = targets_[layer];
     target.bind();
     glDepthMask(GL_TRUE);
-    constexpr float farthest = 0;  // reversed depth
+    constexpr float farthest = 0;  // depth is reversed
     constexpr float transparent[4] = {};
     constexpr float noSurface[4] = {0, 0, 0, -1};
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &farthest);

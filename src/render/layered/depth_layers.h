@@ -1,10 +1,10 @@
 #pragma once
-// The scene seen through the lens centre as depth layers (Everitt 2001, Interactive Order-Independent Transparency): in
-// each pixel the nearest surface, the next surface behind it, and so on.
+// The scene as seen from the lens centre, as depth layers (Everitt 2001, Interactive Order-Independent Transparency):
+// in each pixel, layer 0 is the nearest surface, layer 1 the next surface behind it, and so on.
 //
-// Surfaces that no lens point can see take no layer (the umbra of Lee, Eisemann and Seidel 2010, Real-Time Lens Blur
-// Effects and Focus Control). Such a surface lies behind the pixel's nearest surface and shifts against it by less than
-// a pixel over the full lens.
+// Surfaces that are hidden from all lens points are omitted (the umbra of Lee, Eisemann and Seidel 2010, Real-Time Lens
+// Blur Effects and Focus Control). Such a surface is behind the pixel's nearest surface, and the parallax between the
+// two over the full lens is less than a pixel.
 
 #include <optional>
 
@@ -15,16 +15,16 @@
 
 namespace defocus::engine {
 
-// Returns `plan` for an image with `border` px more on each side. The inner pixels keep their content and their circle
-// of confusion in px. The result is for pinholes: lens points move to the centre, and the tile is dropped.
+// Returns `plan` for an image with `border` additional px at each edge. The inner pixels keep their content and their
+// circle of confusion in px. The result is for pinholes: all lens points are at the lens centre, and there is no tile.
 FramePlan widened(const FramePlan& plan, int border);
 
 struct DepthLayersInfo {
-    int width = 1;  // px, including the border
+    int width = 1;  // size of the layers in px, including the border
     int height = 1;
     std::uint32_t layers = 1;                   // max number of layers
-    LayerFormat format = LayerFormat::rgba16f;  // must hold alpha
-    // Surfaces show the background through themselves, so surfaces that no lens point sees take layers too.
+    LayerFormat format = LayerFormat::rgba16f;  // must have alpha
+    // True if surfaces are blended, so that surfaces behind them are visible and must not be omitted.
     bool blended = false;
     std::filesystem::path shaderFolder;
     bool operator==(const DepthLayersInfo&) const = default;
@@ -32,24 +32,26 @@ struct DepthLayersInfo {
 
 class DepthLayers {
 public:
-    // Needs a current GL context.
+    // Needs a current OpenGL context.
     DepthLayers(GpuScene& scene, const DepthLayersInfo& info);
 
-    // `frame` must have been uploaded for `pinholes` with one layer, and must outlive the drawing.
+    // Prepares the passes for `pinholes`. `frame` must have been uploaded for `pinholes` with one layer, and must exist
+    // until the last peel().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
-    // Peels the layers of sample `index`; stops at the first empty layer.
+    // Draws the layers of the plan's sample `index`, up to the first empty layer.
     void peel(std::uint32_t index);
 
-    // Number of layers with content, for the sample peeled last.
+    // Returns the number of non-empty layers after the latest peel().
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    // Texture arrays with all layers: premultiplied linear radiance, and surface data as in shaders/layered/peel.glsl.
+    // Return texture arrays of all layers: premultiplied linear radiance, and the surface data defined in
+    // shaders/layered/peel.glsl.
     [[nodiscard]] const GlTexture& colors() const { return colors_; }
     [[nodiscard]] const GlTexture& surfaces() const { return surfaces_; }
     [[nodiscard]] const DepthLayersInfo& info() const { return info_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Draws the nearest surfaces behind front_ into a layer. Returns whether any pixel was drawn.
+    // Draws the nearest surfaces behind the depths in front_ into a layer. Returns whether any pixel was drawn.
     bool peelLayer(std::uint32_t index, std::uint32_t layer);
 
     DepthLayersInfo info_;

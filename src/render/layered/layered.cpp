@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns how far rays see beyond the image, in px; at most half of its longer side.
+// Returns how far beyond the image's edges lens rays may hit surfaces, in px; at most half the image's longer side.
 int borderOf(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
@@ -25,8 +25,8 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// Returns K: as many samples per wave as fit into the memory, at most `run`. K is a power of two, so that runs are
-// complete waves.
+// Returns the samples per wave K: `asked`, or if 0 as many as fit into RendererOptions::waveBytes, at most `run`. K is
+// a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =
@@ -56,8 +56,8 @@ public:
         run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
         const int border = borderOf(plan);
         pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
-        // A ray's position in the pixel is relative to the layers of its pinhole, which have an offset in the pixel
-        // themselves.
+        // Make the positions of samples in the pixel relative to the layers of their pinhole, which have a subpixel
+        // offset.
         plan_ = plan;
         plan_.moments.clear();
         for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;
@@ -114,8 +114,8 @@ public:
     }
 
 private:
-    // Returns the pinhole of a sample. Each pinhole has runs of consecutive samples, which are well distributed over
-    // the lens.
+    // Returns the index of a sample's pinhole. A pinhole's samples are consecutive runs of run_ samples, which are well
+    // distributed over the lens.
     [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
         return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());
     }
@@ -131,7 +131,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // frees the old layers first: memory may not hold both
+            layers_.reset();  // free the old layers first: memory may not hold both
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,
@@ -168,7 +168,8 @@ private:
         stats_.trianglesDrawn += pinholes_.trianglesDrawn / pinholeCount_ * passes;
     }
 
-    // Environments other than maps are composited when layers are added.
+    // Returns whether the environment is drawn into the layers of the sum. Environments other than maps are composited
+    // when the layers are added.
     [[nodiscard]] bool drawsSky() const {
         return !plan_.needsAlpha && scene_.world().environment.type == EnvironmentType::map;
     }
@@ -185,7 +186,7 @@ private:
         sky_->prepare(empty, frame_);
     }
 
-    // Draws the sky behind the content of the layers.
+    // Draws the environment behind the content of the layers.
     void drawSky(std::uint32_t first, std::uint32_t count) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
@@ -194,18 +195,18 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K requested; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested samples per wave K; 0: as many as fit into waveBytes
     GpuScene scene_;
-    FramePlan plan_;      // sample positions include the offset of their pinhole
-    FramePlan pinholes_;  // widened by the border; one sample per pinhole
+    FramePlan plan_;      // positions in the pixel are relative to the layers of the sample's pinhole
+    FramePlan pinholes_;  // one sample per pinhole; image widened by the border
     std::uint32_t pinholeCount_ = 1;
-    std::uint32_t run_ = 1;  // consecutive samples with the same pinhole; divides a block
+    std::uint32_t run_ = 1;  // number of consecutive samples with the same pinhole; divides blockSamples
     FrameUniforms pinholeFrame_, frame_;
     std::optional<DepthLayers> layers_;
     std::optional<LensRays> rays_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> sky_;
-    std::optional<std::uint32_t> peeled_;  // pinhole of the current layers
+    std::optional<std::uint32_t> peeled_;  // index of the pinhole of the current layers
     std::uint32_t maxLayers_ = 0;
     mutable FrameClock clock_;
     RenderStats stats_;

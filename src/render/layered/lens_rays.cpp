@@ -1,5 +1,5 @@
-// Lee, Eisemann and Seidel 2010, Real-Time Lens Blur Effects and Focus Control; Decoret 2005, N-Buffers for Efficient
-// Depth Map Query.
+// Sources: Lee, Eisemann and Seidel 2010, Real-Time Lens Blur Effects and Focus Control; Decoret 2005, N-Buffers for
+// Efficient Depth Map Query.
 
 #include "render/layered/lens_rays.h"
 
@@ -10,12 +10,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int extentLevels = 6;                   // squares of 2 … 64 px
-constexpr int largestSquare = 1 << extentLevels;  // px, side of the coarsest squares
-constexpr GLuint groupSize = 8;                   // threads per side
+constexpr int extentLevels = 6;                   // mip levels of min and max, with squares of 2 … 64 px
+constexpr int largestSquare = 1 << extentLevels;  // px, side of the largest squares
+constexpr GLuint groupSize = 8;                   // threads per side of a work group
 
-// Returns the size of the finest level, rounded so that each texel of a coarser level covers full texels of the finer
-// one.
+// Returns the size in texels of the finest mip level (squares of 2 px), rounded up so that all coarser levels divide it
+// evenly.
 int extentTexels(int pixels) {
     return (pixels + largestSquare - 1) / largestSquare * largestSquare / 2;
 }

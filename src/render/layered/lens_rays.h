@@ -1,11 +1,11 @@
 #pragma once
-// Lens rays through depth layers: computes the range of blurs that the rays of each pixel may meet in each layer, and
-// draws the images of lens samples.
+// Intersects lens rays with depth layers: bounds the blurs of the surfaces that each pixel's rays may hit, and draws
+// the images of lens samples.
 //
-// Lee, Eisemann and Seidel 2010 bound the depths that a pixel's rays may meet by N-buffers: min and max depth in
-// squares of each power of two around each pixel. This implementation uses mipmaps instead, which take a fifth of the
-// memory and give slightly wider bounds. They store blurs instead of depths, so that the bounds hold for any control of
-// the blur.
+// Lee, Eisemann and Seidel 2010 bound the depths that a pixel's rays may hit by N-buffers: min and max depth in squares
+// around each pixel, for each power of two as side. This implementation uses mipmaps of min and max, which take a fifth
+// of the memory and give slightly wider bounds. The mipmaps store blurs instead of depths, so that the bounds hold for
+// all blur controls.
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -15,12 +15,12 @@
 namespace defocus::engine {
 
 struct LensRaysInfo {
-    int width = 1;  // size of the image, px
+    int width = 1;  // size of the image in px
     int height = 1;
-    int border = 0;                             // border of the layers beyond the image on each side, px
+    int border = 0;                             // px that the layers extend beyond each image edge
     std::uint32_t layers = 1;                   // max number of layers
     LayerFormat format = LayerFormat::rgba16f;  // format of the lens samples' images
-    bool blended = false;                       // rays continue behind surfaces
+    bool blended = false;                       // true: surfaces are blended, so rays continue behind them
     bool vertexShaderLayers = true;             // false: a geometry shader selects the layer
     std::filesystem::path shaderFolder;
     bool operator==(const LensRaysInfo&) const = default;
@@ -28,27 +28,28 @@ struct LensRaysInfo {
 
 class LensRays {
 public:
-    // Needs a current GL context.
+    // Needs a current OpenGL context.
     explicit LensRays(const LensRaysInfo& info);
 
-    // `frame` must have been uploaded for `plan` with K layers, the samples per wave. It must outlive the drawing.
+    // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples per wave), and
+    // must exist until the last trace().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Computes the bounds of the rays for the current content of the layers.
+    // Computes the bounds of each pixel's rays in `layers`. Call it after each DepthLayers::peel.
     void bound(const DepthLayers& layers);
-    // Draws samples [first, first + count) into the bound target, each into its own layer. The output is premultiplied,
-    // and transparent where a ray meets no surface. `pinhole`: position of the layers in the pixel (LensSample::pixel).
-    // The positions of the samples include this offset.
+    // Draws samples [first, first + count) into the bound target, each into its own layer. Colours are premultiplied;
+    // pixels whose ray hits no surface are transparent. `pinhole` is the subpixel offset of the layers
+    // (LensSample::pixel), relative to which the plan's samples give theirs.
     void trace(const DepthLayers& layers, const glm::vec2& pinhole, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] const LensRaysInfo& info() const { return info_; }
     [[nodiscard]] std::size_t bytes() const { return extents_.bytes() + reach_.bytes(); }
 
 private:
     LensRaysInfo info_;
-    GlTexture extents_;  // min and max blur in squares of pixels
-    GlTexture reach_;    // range of blurs that the rays of each pixel may meet
+    GlTexture extents_;  // per square of pixels: min and max blur of the surfaces in the layers
+    GlTexture reach_;    // per pixel: range of the blurs that its rays may hit
     Program base_, extend_, bound_;
     Program trace_;
-    ShaderDefines traceDefines_;  // defines of the current trace_ program
+    ShaderDefines traceDefines_;  // defines of trace_
     VertexArray samples_;
     const FrameUniforms* frame_ = nullptr;
 };

@@ -11,14 +11,15 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
-// Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;             // tiles of a triangle that a thread visits
-constexpr std::uint32_t maxSortedAtOnce = 65'536;            // triangles of a tile; takes 136 · 256 iterations
-constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // as in shaders/lens_space/shade_vertices.comp
-constexpr std::size_t attributeBytes = 20 * sizeof(float);   // as in shaders/lens_space/vertex.vert
+// Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations, so longer work needs
+// several dispatches.
+constexpr std::uint32_t maxTilesAtOnce = 50'000;             // max tiles that an invocation visits per dispatch
+constexpr std::uint32_t maxSortedAtOnce = 65'536;            // max triangles of a tile; takes 136 · 256 iterations
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // matches shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // matches shaders/lens_space/vertex.vert
 
-// Returns the end of a level's sample range. If two levels share a boundary sample, the level with the larger share
-// gets all its rays.
+// Returns the end of the range of rays that hit a level of an object. If two levels share a boundary sample, the level
+// with the larger share gets the sample's ray.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -65,7 +66,7 @@ void checkDrawable(const FramePlan& plan, const World& world, const std::string&
 }  // namespace
 
 void dispatchOver(std::uint64_t count) {
-    constexpr std::uint64_t max = 65535;  // groups along an axis that every driver supports
+    constexpr std::uint64_t max = 65535;  // min of GL_MAX_COMPUTE_WORK_GROUP_COUNT
     const std::uint64_t needed = (count + 255) / 256;
     if (needed == 0) return;
     glDispatchCompute(static_cast<GLuint>(std::min(needed, max)), static_cast<GLuint>((needed + max - 1) / max), 1);
@@ -97,7 +98,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     if (moving) defines_.emplace_back("MOVING", "1");
     objects_ = objectBlocks(plan, *scene_, poses_);
 
-    // Vertices and triangles of all levels that a ray may see.
+    // Collect vertices and triangles of all levels that are drawn for some ray.
     vertices_.clear();
     runs_.clear();
     groups_.clear();
@@ -190,7 +191,7 @@ void LensFront::pose(std::uint32_t part) {
     const bool moving = static_cast<bool>(clipsAtEnd_);
     makeVertices(clips_, clipBytes, false, part, 0);
     if (moving) makeVertices(clipsAtEnd_, clipBytes, false, part + 1, 0);
-    // Moving surfaces are lit as at the middle of this part of the exposure.
+    // Light moving surfaces at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     makeDepths();
@@ -273,7 +274,8 @@ void LensFront::countTiles() {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     tileCounts_.read(0, tileCounts_.bytes(), counts.data());
 
-    // Compute the offsets of the lists. A new band begins when the next tile's list would exceed the memory limit.
+    // Compute the offsets of the tiles' lists. A new band begins when the list of the next tile would exceed the memory
+    // limit.
     bands_.clear();
     statistics_ = {.tiles = tiles};
     tilePlaces_.assign(tiles, 0);
@@ -299,7 +301,7 @@ void LensFront::countTiles() {
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
     const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
     if (entries_.bytes() < bytes) {
-        entries_ = Buffer();  // frees the old buffer first: memory may not hold both
+        entries_ = Buffer();  // free the old buffer first: memory may not hold both
         entries_ = storage(bytes, "the triangles of a tile");
     }
     statistics_.bytes = entries_.bytes();
@@ -333,7 +335,7 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
-    GLint rays = 0;  // rays share this binding with the depths
+    GLint rays = 0;  // buffer with the rays: its binding is used for the depths here
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);

@@ -1,10 +1,10 @@
 #pragma once
-// The common front end of the lens-space methods (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
-// Samples). It computes a frame's vertices with their signed C, and its triangles. A list per image tile holds the
-// triangles that some lens point may see in that tile.
+// Front end of the lens-space methods (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line Samples). It
+// computes a frame's vertices with their signed circle of confusion C, its triangles, and for each image tile a list of
+// the triangles that are visible in the tile from some lens point.
 //
-// The lists have no fixed capacity: triangles are counted, the list offsets are prefix sums of the counts, and then the
-// lists are filled. No triangle is lost to a full tile.
+// The lists have no fixed capacity, so no triangle is lost: triangles are counted per tile, list offsets are prefix
+// sums of the counts, and then the lists are filled.
 
 #include <map>
 #include <string>
@@ -16,13 +16,13 @@
 
 namespace defocus::engine {
 
-// Surfaces that share one shading program and material.
+// Surfaces with the same shading program and material.
 struct ShadedGroup {
     ShaderDefines defines;
     int material = -1;
 };
 
-// Tiles [first, end), in rows from the lower left, whose lists fit into one buffer.
+// Tiles [first, end) whose lists fit into one buffer. Tiles are numbered row by row from the lower left.
 struct TileBand {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
@@ -32,26 +32,27 @@ struct TileBand {
 struct BinStatistics {
     std::uint32_t tiles = 0;
     std::uint64_t entries = 0;      // list entries of all tiles
-    std::uint32_t largestTile = 0;  // number of triangles in the fullest tile
-    std::uint64_t bytes = 0;        // memory of the lists that are held at the same time
+    std::uint32_t largestTile = 0;  // max list entries of a tile
+    std::uint64_t bytes = 0;        // of the lists of one band
 };
 
 class LensFront {
 public:
-    // `tileSize`: px. `lightsVertices`: whether lighting is computed per vertex (RecordShading). `entryBytes`: memory
-    // limit for the lists; beyond it the tiles are processed in several bands.
+    // `tileSize` is in px. `lightsVertices` says whether lighting is computed per vertex (RecordShading). `entryBytes`
+    // is the max memory for the lists: if all lists need more, the tiles are processed in several bands.
     LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
               std::filesystem::path shaderFolder);
 
-    // Prepares the triangles of `plan`. `frame` must outlive the drawing. Throws Error, naming the object or the
-    // feature, for a plan that the lens-space methods can't draw.
+    // Collects the vertices and triangles of `plan`. `frame` must exist until the last wave. Throws Error, with the
+    // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
+    // name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Computes vertices and tile counts for a part of the exposure: from moment `part` of the shutter to the next
-    // moment. Use part 0 if nothing moves.
+    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter moment `part` to the next
+    // moment. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
-    // Fills and sorts the lists of a band, front to back, unless it is the current band.
+    // Fills the lists of a band and sorts them front to back, unless this band is already filled.
     void fill(const TileBand& band);
-    // Binds vertices, triangles, draws, list ends and lists to the bindings of shaders/lens_space/.
+    // Binds vertices, triangles, draws, list ends and lists at the binding points in shaders/lens_space/.
     void bindTriangles() const;
     void bindAttributes() const;
     void bindVertexLight() const;
@@ -59,31 +60,31 @@ public:
     void bindVertices() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
-    // Group i of triangles has the shading of groups()[i − 1]; group 0 is the sky.
+    // Returns the groups. Shaders number them from 1: number i is groups()[i − 1], and 0 is the sky.
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
-    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for kernels that read triangles
+    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // for kernels that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
-    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // parts of the exposure; 1 if nothing moves
+    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // of the exposure; 1 if nothing moves
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    struct Run {  // A range of indices.
+    struct Run {  // a range of the mesh's index buffer
         std::uint32_t object = 0;
         std::uint32_t first = 0;
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
     };
-    struct Vertices {  // The vertices of an object at one level.
+    struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;
         std::uint32_t level = 0;
         std::uint32_t first = 0;
         std::uint32_t count = 0;
     };
-    struct GpuDraw {  // Layout of shaders/lens_space/triangles.glsl.
+    struct GpuDraw {  // matches shaders/lens_space/triangles.glsl
         std::uint32_t firstRay = 0;
         std::uint32_t endRay = 0;
         std::uint32_t group = 0;
@@ -99,7 +100,7 @@ private:
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void makeDepths();
     void countTiles();
-    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // the program and its buffers must be bound
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // needs bound program and buffers
     void sort(const TileBand& band);
 
     GpuScene* scene_;
@@ -113,7 +114,7 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines binDefines_;
     Program trianglesProgram_, depthsProgram_, countProgram_, fillProgram_, sortProgram_;
-    GlTexture unused_;  // dummy target: drivers need one even with rasterization disabled
+    GlTexture unused_;  // dummy target, which drivers need even with rasterization disabled
     Target unusedTarget_;
     UniformBlocks<GpuObject> objects_;
     std::vector<GpuPoses> poses_;
@@ -125,17 +126,17 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer firstTriangles_, vertexLight_;  // allocated only with per-vertex lighting
-    Buffer depths_;                        // one per triangle: sort key of the lists
+    Buffer firstTriangles_, vertexLight_;  // only with per-vertex lighting
+    Buffer depths_;                        // sort key of each triangle
     Buffer tileCounts_, tileEnds_, entries_;
-    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list in its band
+    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band
     std::vector<TileBand> bands_;
-    std::uint32_t filled_ = 0;  // first tile of the band that is filled
+    std::uint32_t filled_ = 0;  // first tile of the filled band
     bool isFilled_ = false;
     BinStatistics statistics_;
 };
 
-// Dispatches the current kernel over `count` items in groups of 256 threads.
+// Dispatches the current compute program with at least `count` invocations, in groups of 256.
 void dispatchOver(std::uint64_t count);
 
 }  // namespace defocus::engine

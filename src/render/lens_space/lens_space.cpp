@@ -102,7 +102,7 @@ private:
     void prepareSum(const ShaderDefines& rayDefines) {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
         if (!sum_ || sumSize_ != size || sumDefines_ != rayDefines) {
-            sum_.reset();  // frees the old sum first: memory may not hold both
+            sum_.reset();  // free the old sum first: memory may not hold both
             sum_.emplace(size.x, size.y, rayDefines, options_.shaderFolder);
             sumSize_ = size;
             sumDefines_ = rayDefines;
@@ -110,7 +110,8 @@ private:
         sum_->reset();
     }
 
-    // Returns K: as many rays per pixel as fit into the memory, at most a block of the frame's uniforms.
+    // Returns the rays per pixel and wave K: the requested K, or as many as fit into RendererOptions::waveBytes, at
+    // most 64.
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
@@ -119,12 +120,13 @@ private:
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : max, max, blockSamples}));
     }
 
-    // Returns the part of the exposure in which ray `ray` of each pixel sees the scene.
+    // Returns the index of the part of the exposure to which ray `ray` of each pixel belongs.
     [[nodiscard]] std::uint32_t partOf(std::uint32_t ray, std::uint32_t total) const {
         return static_cast<std::uint32_t>(std::uint64_t{ray} * front_->parts() / total);
     }
 
-    // Returns the next wave, which ends within its block of samples and its part of the exposure.
+    // Returns the wave that starts at ray `first`. A wave does not cross the end of a block or of a part of the
+    // exposure.
     [[nodiscard]] RayWave nextWave(std::uint32_t first, std::uint32_t total) const {
         RayWave wave{first, std::min({wavesRays(), total - first, blockSamples - first % blockSamples})};
         while (partOf(first + wave.count - 1, total) != partOf(first, total)) --wave.count;
@@ -132,7 +134,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // K requested; 0: as many as fit into memory
+    std::uint32_t wave_;  // requested rays per wave K; 0: as many as fit into waveBytes
     std::unique_ptr<VisibilityKernel> kernel_;
     GpuScene scene_;
     FramePlan plan_;
@@ -143,7 +145,7 @@ private:
     glm::ivec2 sumSize_{0};
     ShaderDefines sumDefines_;
     Buffer rays_;
-    std::optional<std::uint32_t> part_;  // part of the exposure that the vertices are posed for
+    std::optional<std::uint32_t> part_;  // part of the exposure for which vertices are posed
     mutable FrameClock clock_;
     RenderStats stats_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The renderer around the lens-space methods. They process a frame's triangles once and find, for each pixel, what many
-// rays through the lens hit. The accumulation instead draws the triangles again for each lens sample.
+// Renderer of the lens-space methods. These process a frame's triangles once and find the hits of many lens rays for
+// each pixel, whereas method "accumulation" draws the triangles again for each lens sample.
 
 #include <memory>
 
@@ -9,12 +9,13 @@
 
 namespace defocus::engine {
 
-// Setting "shading" of these methods, which decides VisibilityKernel::lightsVertices().
+// Returns setting "shading" of the lens-space methods, which sets VisibilityKernel::lightsVertices().
 MethodSetting shadingSetting();
 
-// Returns a renderer that uses `kernel`. `options.settings` must be complete. Starting a frame throws Error, naming the
-// object or the setting, for unsupported features: blended and alpha-tested materials, blur controls that vary
-// nonlinearly inside triangles, axial chromatic aberration, astigmatism and coma, cat's eye, exact motion.
+// Returns a renderer that finds hits with `kernel`. `options.settings` must be complete. Renderer::start throws Error,
+// with the object or setting in its message, for unsupported features: blended and alpha-tested materials, blur
+// controls that vary nonlinearly inside triangles, axial chromatic aberration, astigmatism and coma, cat's eye, exact
+// motion.
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel);
 

@@ -1,4 +1,5 @@
-// Bentley 1975, Multidimensional Binary Search Trees Used for Associative Searching; van der Corput 1935.
+// Sources: Bentley 1975, Multidimensional Binary Search Trees Used for Associative Searching (bisection); van der
+// Corput 1935 (order).
 
 #include "render/lens_space/ray_sets.h"
 
@@ -14,13 +15,13 @@ namespace {
 
 constexpr std::uint32_t maxVariants = 64;
 constexpr std::uint32_t minVariants = 4;
-constexpr std::uint32_t maxRays = 1u << 18;  // over all variants
+constexpr std::uint32_t maxRays = 1u << 18;  // max rays of all variants together
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;
 }
 
-// Bisects the samples along alternating axes until each part has one sample.
+// Sorts samples by recursive bisection along alternating axes, until each part contains one sample.
 void sortIntoParts(std::span<LensSample> samples, int axis, int axes) {
     if (samples.size() < 2) return;
     const std::size_t half = samples.size() / 2;

@@ -1,5 +1,5 @@
 #pragma once
-// The sum of the light of each pixel's rays, added in order with Neumaier's compensation.
+// Per-pixel sum of the radiance of rays, added in ray order with Neumaier's compensation.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -8,15 +8,16 @@ namespace defocus::engine {
 
 class RaySum {
 public:
-    // `defines`: the ray defines. Throws Error if the sum exceeds the buffer size that shaders can read.
+    // `defines` are VisibilityKernel::rayDefines and VARIANTS. Throws Error if the sum exceeds the max buffer size of
+    // shaders.
     RaySum(int width, int height, const ShaderDefines& defines, const std::filesystem::path& shaderFolder);
 
     void reset() { rays_ = 0; }
-    // Adds the light of the next `count` rays of each pixel. The records must be bound.
+    // Adds the radiance of the next `count` rays of each pixel. The records must be bound.
     void add(std::uint32_t count);
     [[nodiscard]] std::uint32_t rays() const { return rays_; }
-    // Returns the mean of the rays so far as RGBA, row 0 at the bottom. Valid until the next call. Needs at least one
-    // ray.
+    // Returns the mean of all rays so far, at least one, as RGBA with row 0 at the bottom. The texture is valid until
+    // the next call of mean().
     [[nodiscard]] const GlTexture& mean();
     [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + mean_.bytes(); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Storage buffers of the lens-space kernels, and the growing buffer that holds the records of a wave.
+// Storage buffers of the lens-space kernels, and the growing buffer for the records (ray hits) of a wave.
 
 #include <cstdint>
 
@@ -7,19 +7,19 @@
 
 namespace defocus::engine {
 
-// Returns the max bytes of one buffer that the driver's shaders can read.
+// Returns the max bytes of a storage buffer (GL_MAX_SHADER_STORAGE_BLOCK_SIZE).
 std::uint64_t largestStorage();
 
-// Returns a buffer that shaders can read completely. Throws Error, naming the content (`what`), if it exceeds
+// Returns a storage buffer of `bytes`. Throws Error, with `what` as the name of the content, if it exceeds
 // largestStorage().
 Buffer storage(std::uint64_t bytes, const char* what);
 
-// The ray hits of a wave, in the layout of shaders/lens_space/records.glsl.
+// Ray hits of a wave, in the layout of shaders/lens_space/records.glsl.
 class RecordBuffer {
 public:
-    // Returns the max number of records in a buffer.
+    // Returns the max number of records that fit into a storage buffer.
     static std::uint64_t maxRecords();
-    // Ensures room for `count` records; previous content may be lost.
+    // Ensures that the buffer has room for `count` records. Its content may be lost.
     void reserve(std::uint64_t count);
     void bind() const;
     [[nodiscard]] std::uint64_t capacity() const;

@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // as in shaders/lens_space/groups.glsl
-constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // as glDispatchComputeIndirect reads it
+constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // matches shaders/lens_space/groups.glsl
+constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // DispatchIndirectCommand of OpenGL
 
 }  // namespace
 
@@ -74,11 +74,11 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // frees the old buffer first: memory may not hold both
+        list_ = Buffer();  // free the old buffer first: memory may not hold both
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
-    // List the records of each group.
+    // Count and list the records of each group.
     const GLuint zero = 0;
     glClearNamedBufferData(groups_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     front.bindTriangles();
@@ -90,7 +90,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    GLint rays = 0;  // rays share this binding with the list offsets
+    GLint rays = 0;  // buffer with the rays: its binding is used for the dispatches here
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);
     placesProgram_.use();
@@ -101,7 +101,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
     overRecords(listProgram_);
 
-    // Shade the listed records.
+    // Shade the records of each group.
     if (front.lightsVertices())
         front.bindVertexLight();
     else

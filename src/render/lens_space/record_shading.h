@@ -1,7 +1,7 @@
 #pragma once
-// Shades the records of a wave. The records are listed by group of surfaces with the same shading. Each group is then
-// shaded with its material's textures, like a fragment of the other methods. With per-vertex lighting (Tzeng et al.
-// 2012), vertices are shaded beforehand and their light is interpolated.
+// Shades the records (ray hits) of a wave. Records are listed by ShadedGroup, and each group is shaded with its
+// material, as fragments are in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded first,
+// and their radiance is interpolated.
 
 #include <map>
 #include <string>
@@ -14,12 +14,13 @@ class RecordShading {
 public:
     RecordShading(GpuScene& scene, std::filesystem::path shaderFolder);
 
-    // Prepares the programs and materials of the front end's groups. `defines`: those of the front end, the rays and
+    // Prepares the programs and materials of the groups of `front`. `defines` are those of the front end, the rays and
     // the kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
-    // Shades the front end's vertices if lighting is per vertex. The frame's uniforms must be bound.
+    // With per-vertex lighting, shades the vertices of `front`; otherwise does nothing. The frame's uniforms must be
+    // bound.
     void shadeVertices(const LensFront& front);
-    // Shades `count` records of the wave that begins at ray `firstRay`. Rays, records and the frame's uniforms must be
+    // Shades `count` records of the wave that starts at ray `firstRay`. Rays, records and the frame's uniforms must be
     // bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
     [[nodiscard]] std::size_t bytes() const;
@@ -35,8 +36,8 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines listDefines_;
     Program countProgram_, listProgram_, placesProgram_;
-    std::vector<const Program*> groupPrograms_;   // the sky's program first
-    std::vector<const Program*> vertexPrograms_;  // one per group, with per-vertex lighting only
+    std::vector<const Program*> groupPrograms_;   // program 0 is for the sky
+    std::vector<const Program*> vertexPrograms_;  // one per group; empty without per-vertex lighting
     UniformBlocks<GpuMaterial> materials_;
     Buffer groups_, dispatches_, list_;
 };

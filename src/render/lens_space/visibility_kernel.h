@@ -1,5 +1,5 @@
 #pragma once
-// The part that differs between the lens-space methods: the rays, and how their hits are found.
+// Interface for the part in which the lens-space methods differ: the choice of rays and the search for their hits.
 
 #include "render/lens_space/lens_front.h"
 #include "render/lens_space/ray_sets.h"
@@ -7,10 +7,10 @@
 
 namespace defocus::engine {
 
-// Size of a record of shaders/lens_space/records.glsl.
+// Bytes of a record (ray hit) in shaders/lens_space/records.glsl.
 inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);
 
-// Rays [first, first + count) of each pixel.
+// A wave: rays [first, first + count) of each pixel.
 struct RayWave {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -21,20 +21,20 @@ public:
     virtual ~VisibilityKernel() = default;
     [[nodiscard]] virtual std::string name() const = 0;        // name of the method
     [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // px
-    // Returns whether lighting is computed at vertices and interpolated, instead of at the hits.
+    // Returns whether lighting is computed at vertices and interpolated; otherwise it is computed at the hits.
     [[nodiscard]] virtual bool lightsVertices() const = 0;
-    // Returns the rays of the plan. Throws Error for a plan that the method can't draw.
+    // Returns the rays for a plan. Throws Error if the method cannot draw the plan.
     [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
-    // Returns the defines, other than VARIANTS, of shaders that read rays and records.
+    // Returns the defines for shaders that read rays and records, except VARIANTS.
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
-    // Returns the min bytes of the records of one ray.
+    // Returns the expected bytes of the records of one ray, from which the rays per wave are chosen.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Called before the first wave of a frame. `defines`: those of the front end and of the rays.
+    // Prepares a frame; called before its first wave. `defines` are those of the front end and of the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
-    // Finds the hits of a wave's rays and returns the number of records. Shortens a wave whose records exceed a buffer.
-    // The frame's uniforms and the rays must be bound.
+    // Finds the hits of the wave's rays and returns the number of records. Reduces `wave.count` if the records would
+    // exceed the max buffer size. The frame's uniforms and the rays must be bound.
     virtual std::uint64_t find(LensFront& front, RayWave& wave) = 0;
-    // Binds the records for shaders/lens_space/; for line samples also their ranges.
+    // Binds the records for shaders/lens_space/, and for line samples also the range of records of each line.
     virtual void bindRecords() const = 0;
     virtual void addTo(RenderStats& stats) const = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;

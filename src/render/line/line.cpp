@@ -17,25 +17,25 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
-constexpr std::size_t jobRanges = 2;  // ranges per job
-// Mesa's software driver ends the loops of a thread after a total of 65,535 iterations. Kernels stop at twice this
-// number.
+constexpr std::size_t jobRanges = 2;  // size of a job in ranges
+// Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
+// softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
-constexpr std::size_t stateBytes = 32u << 20;   // approximate memory of the jobs that continue over several dispatches
-constexpr std::uint64_t expectedRecords = 6;    // per line; reserved, and enlarged if a wave needs more
-constexpr std::uint32_t maxShadingPoints = 16;  // per piece
-constexpr std::uint32_t firstCapacity = 48;     // pieces per exact line
+constexpr std::size_t stateBytes = 32u << 20;   // approximate memory for states of jobs that take several dispatches
+constexpr std::uint64_t expectedRecords = 6;    // per line; the buffer grows if a wave needs more
+constexpr std::uint32_t maxShadingPoints = 16;  // per visible interval of a line
+constexpr std::uint32_t firstCapacity = 48;     // initial max of intervals per line, for exact resolve
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // per segment in the buffer
-constexpr float lightUnit = 1.0f / 1024;   // unit of droppedLight
+constexpr std::uint32_t sharedBytes = 24;  // shared memory per segment of a line
+constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
-// Uniform block of shaders/line/visible.comp, std140.
+// Uniform block in shaders/line/visible.comp (std140).
 struct GpuBounds {
     glm::vec4 box;
     glm::vec4 strip;
 };
 
-// Counters at the start of the output buffer, before the ranges.
+// Counters at the start of the output buffer; the ranges follow.
 struct Counters {
     std::uint32_t records = 0;
     std::uint32_t droppedSegments = 0;
@@ -151,7 +151,7 @@ public:
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
 
 private:
-    struct Places {  // Offsets into the ranges.
+    struct Places {  // offsets in the output buffer, in ranges
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
         std::uint64_t slots = 0;  // number of states
@@ -175,14 +175,15 @@ private:
         program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
     }
 
-    // Returns the size of a thread's state between dispatches, in ranges, as in shaders/line/.
+    // Returns the size in ranges of an invocation's state between dispatches; matches shaders/line/.
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
-    // Finds the segments of the lines of `wave` in all tiles.
+    // Finds the visible intervals on the lines of `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
-        // Allocate the ranges, and where jobs may be deferred, the jobs and the states of some of them.
+        // Allocate the ranges. If jobs may be deferred, also allocate all jobs and the states of as many as fit into
+        // stateBytes.
         const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
                                    static_cast<std::uint32_t>(imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
@@ -191,7 +192,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // frees the old buffer first: memory may not hold both
+            output_ = Buffer();  // free the old buffer first: memory may not hold both
             output_ = storage(bytes, "the lines of a wave");
         }
 
@@ -206,7 +207,7 @@ private:
         return readCounters();
     }
 
-    // Finishes the jobs that the first dispatch deferred, as many at once as there is memory for their states.
+    // Runs the jobs that the first dispatch deferred until all are complete, as many at once as there are states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {
@@ -233,7 +234,7 @@ private:
         glUniform1ui(6, maxRounds_);
     }
 
-    // Dispatches the kernel; `jobs` is laid out as in shaders/line/visible.comp.
+    // Dispatches the kernel; `jobs` is the uniform of this name in shaders/line/visible.comp.
     static void dispatch(const std::array<std::uint64_t, 4>& jobs, std::uint32_t width, std::uint32_t height) {
         glUniform4ui(7, static_cast<GLuint>(jobs[0]), static_cast<GLuint>(jobs[1]), static_cast<GLuint>(jobs[2]),
                      static_cast<GLuint>(jobs[3]));
@@ -264,7 +265,7 @@ private:
     Program program_;
     Buffer boundBlock_, output_;
     RecordBuffer records_;
-    std::uint32_t maxRounds_ = 0;  // loop iterations per dispatch; 0: unlimited
+    std::uint32_t maxRounds_ = 0;  // max loop iterations of a shader invocation per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
 };

@@ -1,13 +1,13 @@
 #pragma once
-// Line samples: each pixel looks along lines through the lens. The visible triangles on each line are found as
-// intervals instead of points (Tzeng, Patney, Davidson, Ebeida, Mitchell and Owens 2012, High-Quality Parallel
+// Method "line": each pixel samples the lens along lines instead of at points, and finds the intervals of each line
+// from which a triangle is visible (Tzeng, Patney, Davidson, Ebeida, Mitchell and Owens 2012, High-Quality Parallel
 // Depth-of-Field Using Line Samples).
 //
-// The published method keeps segments in a buffer of fixed size, whose heuristics may drop or merge segments.
-// Intersecting segments swap only where a segment ends, and each segment is shaded once, at its midpoint. By default
-// this implementation finds the visible pieces of a line exactly, intersections included. The number of shading points
-// of a piece depends on how many pixels its surface moves along the line. They are placed at random, so that textures
-// are blurred too.
+// The published method stores a line's segments in a buffer of fixed size; heuristics drop or merge segments when the
+// buffer is full. Intersecting segments change order only at the end of a segment, and each segment is shaded once, at
+// its midpoint. By default, this implementation finds the visible intervals exactly, including intersections. The
+// number of shading points per interval depends on the parallax of its surface in pixels. Shading points are random, so
+// that textures are blurred too.
 
 #include "render/methods.h"
 

@@ -12,14 +12,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int angleSteps = 4096;  // table size of the light by angle
+constexpr int angleSteps = 4096;  // size of the table of light by angle
 
-// Returns the area of a narrow sector with this radius, up to a constant.
+// Returns the area of a narrow sector of this radius, up to a constant factor.
 double areaAt(double radius) {
     return radius * radius;
 }
 
-// Returns the cumulative share of the light over angles in [0, π).
+// Returns a table of the fraction of the aperture's light on lines with angles from 0 up to i·π/angleSteps.
 std::vector<double> lightUpToAngles(const Aperture& aperture) {
     std::vector<double> sums(angleSteps + 1, 0.0);
     for (std::size_t i = 0; i < angleSteps; ++i) {
@@ -39,15 +39,15 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
-// Position of a line in the pixel, and shading position along a segment.
+// Position of a line in the pixel, and position of the shading point in a segment.
 struct WheelPoint {
     glm::dvec2 pixel{0};  // [0, 1)
     double shading = 0;
 };
 
-// Returns one point per line of the wheel. Pixel positions are a net: two coordinates of the sequence. A third
-// coordinate assigns them to lines, so that they are well distributed over the wheel too. Shading positions advance by
-// the golden ratio from line to line.
+// Returns one point per line of the wheel. Two coordinates of the low-discrepancy sequence are the positions in the
+// pixel. A third coordinate assigns positions to lines, so that they are well distributed over the wheel too. Shading
+// positions advance by the golden ratio from line to line.
 std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_t variant, std::uint32_t lines) {
     std::vector<SequencePoint> points;
     for (std::uint32_t line = 0; line < lines; ++line)
@@ -68,7 +68,7 @@ std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_
 
 double apertureRim(const Aperture& aperture, double angle) {
     if (aperture.bladeCount < 3) return 1;
-    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // the corners are at multiples of this angle
+    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // angle between corners; one corner is at angle 0
     const double fromMiddle = angle - (std::floor(angle / blade) + 0.5) * blade;
     return (1 - aperture.bladeCurvature) * std::cos(blade / 2) / std::cos(fromMiddle) + aperture.bladeCurvature;
 }

@@ -1,14 +1,13 @@
 #pragma once
-// The lines of each pixel: a wagon wheel through the lens centre (Tzeng et al. 2012). Line i of n has the angle π·(i +
-// r)/n. Each variant of ray_sets.h rotates the wheel by another r and offsets the lines in the pixel differently.
-// Without this, lines of one direction at the same position of all pixels would be visible as strobing, which the paper
-// leaves unsolved.
+// Lines of each pixel: a wagon wheel of n lines through the lens centre (Tzeng et al. 2012), in which line i has the
+// angle π·(i + r)/n. Each variant (ray_sets.h) has its own rotation r of the wheel and its own positions of the lines
+// in the pixel. Equal lines in all pixels would be visible as strobing, an open problem in the paper.
 //
-// The lines' positions in the pixel are well distributed over the pixel and the wheel together. With few lines, these
-// positions alone antialias surfaces in focus.
+// The lines' positions in the pixel are well distributed over the pixel and the wheel jointly, because surfaces in
+// focus are antialiased by the positions alone.
 //
-// Angles are measured in equal shares of the aperture's light, so that all lines have equal weight for any aperture
-// without an image.
+// Angles are spaced so that equal amounts of the aperture's light pass between them. Thus all lines have equal weight
+// for any aperture without an image.
 
 #include "lens/aperture.h"
 #include "render/lens_space/ray_sets.h"
@@ -16,18 +15,21 @@
 namespace defocus::engine {
 
 struct LineSets {
-    // LensAndPixel: vector (u, k·v) from the centre to the rim; values: backward, forwardShare, shading position on a
-    // segment [0, 1).
+    // GpuRay::lensAndPixel.xy is the vector (u, k·v) from the lens centre to the rim, where k = image width / height.
+    // GpuRay::values are LineLight::backward, LineLight::forwardShare and the position of the shading point in a
+    // segment, [0, 1).
     RaySets sets;
-    // Per line: xy is a unit vector across it in (u, v); z is the max distance of a variant from the line.
+    // Per line: xy is the unit vector in (u, v) across the mean of the line's variants; z is the max distance of a
+    // variant from that mean line.
     std::vector<glm::vec4> strips;
 };
 
-// Returns the lines of a plan. `turned`: false for the same wheel and position in all pixels, as published. Throws
-// Error for an aperture image.
+// Returns the lines for a plan. If `turned` is false, all pixels have the same wheel and positions, as published.
+// Throws Error if the lens has an aperture image.
 LineSets lineSets(const FramePlan& plan, bool turned);
 
-// Returns the distance from the aperture's centre to its rim at `angle`, before rotation and anamorphic squeeze.
+// Returns the distance from the aperture's centre to its rim at `angle` in radians, without blade rotation and
+// anamorphic squeeze.
 double apertureRim(const Aperture& aperture, double angle);
 
 }  // namespace defocus::engine

@@ -37,8 +37,8 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
         ways[i] = corners[i].c * line.direction;
     }
     std::array<Linear, 3> edges;
-    Linear sum;         // E, the sum of the edge functions
-    Linear beyondNear;  // D − near·E, where D sums the edge functions times w
+    Linear sum;         // E: sum of the edge functions
+    Linear beyondNear;  // D − near·E, where D is the sum of the edge functions times w
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
@@ -49,7 +49,7 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
         beyondNear.slope += edges[i].slope * (corners[i].w - line.nearPlane);
     }
     std::vector<LineInterval> seen;
-    if (sum.at0 == 0 && sum.slope == 0) return seen;  // triangle without area
+    if (sum.at0 == 0 && sum.slope == 0) return seen;  // triangle has no area
     for (const bool front : {true, false}) {
         if (!front && !doubleSided) break;
         const double side = front ? 1 : -1;

@@ -7,8 +7,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int smallestTile = 4;  // px per side
-constexpr int maxTiles = 3;      // per side of a query, to select a level of matching size
+constexpr int smallestTile = 4;  // side in px of the finest level's tiles
+constexpr int maxTiles = 3;      // a query reads at most 3 x 3 tiles, of a level with large enough tiles
 
 int shared(int size, int parts) {
     return (size + parts - 1) / parts;

@@ -1,6 +1,6 @@
 #pragma once
-// A pyramid of the farthest depth of square tiles (Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility).
-// Depth is reversed: 0 at infinity, 1 at the near plane.
+// Pyramid of the farthest depth in square tiles of a depth buffer (Greene, Kass and Miller 1993, Hierarchical Z-Buffer
+// Visibility). Depth is reversed: 0 at infinity, 1 at the near plane.
 
 #include <span>
 #include <vector>
@@ -9,11 +9,11 @@ namespace defocus::engine {
 
 class DepthTiles {
 public:
-    // `depths`: width·height values, row by row from the bottom.
+    // Builds the pyramid from `depths`: width · height values, row by row from the bottom.
     void build(std::span<const float> depths, int width, int height);
 
-    // Returns a lower bound (farthest value) of the depths of pixels [left, right) × [bottom, top). This rectangle must
-    // lie in the buffer and not be empty.
+    // Returns a lower bound of the depth values of pixels [left, right) × [bottom, top); depth is reversed, so no pixel
+    // is farther away. The rectangle must be inside the buffer and not empty.
     [[nodiscard]] float farthest(int left, int right, int bottom, int top) const;
 
 private:
@@ -21,7 +21,7 @@ private:
         int columns = 0, rows = 0;
         std::vector<float> min;
     };
-    std::vector<Level> levels_;  // tiles of 4, 8, 16, … px; the last level has one tile
+    std::vector<Level> levels_;  // with tiles of 4, 8, 16, … px; the last level is one tile
 };
 
 }  // namespace defocus::engine

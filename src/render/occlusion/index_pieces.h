@@ -1,6 +1,6 @@
 #pragma once
-// Cuts a level's clusters into pieces of a few neighbouring triangles, each with a bounding box. Clusters have up to 64
-// triangles; their larger boxes would often reach in front of the occluder.
+// Divides the clusters of a level of detail into pieces of a few neighbouring triangles with a bounding box, for the
+// occlusion test. Clusters have up to 64 triangles, and their larger boxes would often extend in front of occluders.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,12 +13,12 @@ namespace defocus::engine {
 inline constexpr std::uint32_t maxPieceTriangles = 8;
 
 struct IndexPiece {
-    IndexRange indices;   // into Pyramid::indices
+    IndexRange indices;   // range in Pyramid::indices
     glm::vec3 centre{0};  // centre of the bounding box, object units
-    glm::vec3 reach{0};   // half the side lengths of the box
+    glm::vec3 reach{0};   // half the side lengths of the box, object units
 };
 
-// Returns the pieces of a primitive at a level, in index order.
+// Returns the pieces of a primitive at a level of detail, in index order.
 std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level, std::uint32_t primitive);
 
 }  // namespace defocus::engine

@@ -10,9 +10,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double snapping = 0.25;           // px: bound on how far a rasterizer moves a vertex, with margin
-constexpr double transformation = 0x1p-20;  // Relative to a position's terms: error of their sum in single precision.
-constexpr double interpolation = 0x1p-14;   // relative error of a triangle's interpolated depths
+constexpr double snapping = 0.25;           // px: upper bound of a rasterizer's rounding of vertex positions
+constexpr double transformation = 0x1p-20;  // relative single-precision error of a transformed position
+constexpr double interpolation = 0x1p-14;   // relative error of depths that are interpolated in a triangle
 
 }  // namespace
 
@@ -26,7 +26,8 @@ bool seesBoxes(const ObjectPlan& object) {
            object.refinement == Refinement::none;
 }
 
-// Same formula as throughLens of shaders/include/lens.glsl: the pinhole's (x, y) and (a + b·w)·(u, k·v) + w·jitter.
+// Uses the formula of throughLens in shaders/include/lens.glsl: clip position (x, y) in a pinhole view, plus the circle
+// of confusion a + b·w times lens point (u, k·v), plus w·jitter.
 LensSight::LensSight(const FramePlan& plan, const ObjectPlan& object, std::uint32_t sample)
     : nearPlane_(plan.view.nearPlane) {
     const LensSample& lens = plan.samples[sample];

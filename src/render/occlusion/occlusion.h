@@ -1,12 +1,13 @@
 #pragma once
-// Finds the triangles that each lens sample hides, from its own depth buffer, so that a software rasterizer can skip
-// them. A hidden triangle costs such a rasterizer nearly as much as a visible one.
+// Finds the triangles that are hidden in a lens sample from the sample's depth buffer, so that a software rasterizer
+// can skip them. Without culling, a hidden triangle costs nearly as much as a visible triangle.
 //
-// The first sample of a block draws all triangles and sorts pieces of levels into visible and hidden. Each other sample
-// first draws the visible pieces. It then tests the hidden pieces against its own depths and draws those that may be
-// visible. (Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, use the previous frame where this uses the
-// first sample.) No visible triangle is lost. Of two surfaces with equal depth, the one drawn first is visible, which
-// may differ from the result without occlusion culling.
+// In the first sample of a block, all triangles are drawn, and the pieces of each level (index_pieces.h) are classified
+// as visible or hidden. In each later sample, the pieces classified as visible are drawn first. The hidden pieces are
+// then tested against the sample's depth buffer, and drawn if they may be visible, so no visible triangle is lost.
+// Source: Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, where the previous frame takes the role of
+// the first sample. Where two surfaces have equal depth, the visible surface may differ from that without culling,
+// because the order of draws differs.
 
 #include <cstdint>
 #include <map>
@@ -20,7 +21,7 @@
 
 namespace defocus::engine {
 
-// A primitive of an object at one level, as a pass draws it for a range of samples.
+// Draw of a primitive of an object at one level of detail, for a range of samples.
 struct OccludableDraw {
     std::uint32_t object = 0;  // index into FramePlan::objects
     std::uint32_t level = 0;
@@ -37,7 +38,7 @@ struct RemainingDraw {
     std::uint32_t indexCount = 0;
 };
 
-// Draws with hidden pieces removed, ordered by draw, or by sample first if samples differ.
+// Draws without hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
@@ -48,33 +49,34 @@ public:
     // `world` must outlive this object.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Begins a plan, which must outlive the drawing. Culling stays off if it can't pay: with few triangles, or if the
+    // Prepares culling for `plan`, which must exist until the last draw. Culling is off with few triangles, and if the
     // lens or motion rules out the test.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
 
-    // Returns whether all triangles of `sample` must be drawn so that its depths sort the pieces.
+    // Returns whether all triangles of `sample` must be drawn, because its depths are needed for sortBy().
     [[nodiscard]] bool needsDepthsOf(std::uint32_t sample) const;
-    // Sorts the pieces by sample `sample`, of which all triangles were drawn into layer `layer` of `depths`.
+    // Classifies the pieces as visible or hidden in sample `sample`, all of whose triangles were drawn into layer
+    // `layer` of `depths`.
     void sortBy(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer);
-    // Returns whether the sorting found enough hidden triangles to skip.
+    // Returns whether the latest sortBy() found enough hidden triangles for culling to be faster.
     [[nodiscard]] bool hidesMuch() const { return hidesMuch_; }
 
-    // Returns the draws to submit first, for all samples: pieces visible in the sorting sample, and objects that can't
-    // be tested.
+    // Returns the draws to submit first for all samples: the pieces classified as visible, and objects that cannot be
+    // tested.
     [[nodiscard]] const RemainingDraws& shown() const { return shown_; }
-    // Returns the further pieces that samples [first, first + count) may show after those draws. Sample `first` is in
-    // layer `layer` of `depths`, the others in the following layers.
+    // Returns the other pieces that may be visible in samples [first, first + count), after shown() has been drawn. The
+    // depths of sample `first` are in layer `layer` of `depths`, those of later samples in the layers after it.
     [[nodiscard]] RemainingDraws uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                            std::uint32_t layer) const;
 
 private:
     struct Piece {
         const IndexPiece* piece = nullptr;
-        bool shown = true;  // whether the sorting sample shows it
+        bool shown = true;  // whether it is classified as visible
     };
     struct Sorted {
         OccludableDraw draw;
-        std::vector<Piece> pieces;  // pieces in the plan's visible clusters
+        std::vector<Piece> pieces;  // pieces of the clusters that the plan draws
         bool canHide = false;
     };
 
@@ -86,7 +88,7 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // Keyed by mesh, level and primitive.
+    // By mesh, level and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
     std::vector<Sorted> sorted_;  // empty if culling is off
     std::int64_t sortedBlock_ = -1;

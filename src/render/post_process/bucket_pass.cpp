@@ -32,7 +32,7 @@ BucketPass::BucketPass(const PinholeImage& opaque, LayerFormat format, const std
 
 void BucketPass::draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectSet& bucket) {
     constexpr float nothing[4] = {};
-    constexpr float farthest = 0;  // reversed depth
+    constexpr float farthest = 0;  // depth is reversed
     colorTarget_.bind();
     glClearNamedFramebufferfv(colorTarget_.name(), GL_COLOR, 0, nothing);
     surfaces.drawTranslucent(sample, 1, image_.color, bucket);

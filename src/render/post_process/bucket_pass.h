@@ -1,9 +1,10 @@
 #pragma once
-// Draws a bucket of alpha-blended objects as a separate pinhole image (Garcia 2018) on a transparent background.
+// Draws a bucket (transparency_buckets.h) of alpha-blended objects as a separate pinhole image on a transparent
+// background (Garcia 2018).
 //
-// Pixels hidden by opaque surfaces are black with zero coverage, at the opaque depth. In pixels without bucket
-// surfaces, coverage is zero and the depth is extrapolated from nearby bucket surfaces. A blur then spreads the
-// bucket's edges as disks.
+// Pixels hidden by opaque surfaces are black with zero coverage and have the opaque depth. Pixels without a surface of
+// the bucket have zero coverage and a depth extrapolated from nearby surfaces of the bucket, so that the bucket's edges
+// are blurred like its surfaces.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -14,12 +15,13 @@ namespace defocus::engine {
 
 class BucketPass {
 public:
-    // `opaque` must have the format `format` and outlive this pass.
+    // `opaque` is the image of the opaque surfaces. It must have the format `format` and outlive this object.
     BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder);
 
-    // `surfaces` must be prepared, and `opaque` must hold the same sample.
+    // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the opaque image must show
+    // the same sample.
     void draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectSet& bucket);
-    // Image of the bucket drawn last.
+    // Returns the image of the latest draw().
     [[nodiscard]] PinholeImage& image() { return image_; }
     [[nodiscard]] std::size_t bytes() const {
         return image_.bytes() + surfaceDepth_.bytes() + surfaceOwnBlur_.bytes() + known_.bytes();
@@ -28,8 +30,8 @@ public:
 private:
     const PinholeImage* opaque_;
     PinholeImage image_;
-    GlTexture surfaceDepth_, surfaceOwnBlur_;  // of the bucket's nearest surfaces
-    GlTexture known_;                          // depth and own blur of these surfaces, with mipmaps
+    GlTexture surfaceDepth_, surfaceOwnBlur_;  // of the nearest surfaces of the bucket
+    GlTexture known_;                          // depth and own blur of these surfaces with mipmaps, for extrapolation
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

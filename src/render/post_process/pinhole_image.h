@@ -1,5 +1,5 @@
 #pragma once
-// A pinhole image for the post-process methods: colour and depth of the scene seen through the lens centre.
+// Pinhole image for the post-process methods: colour and depth of the scene as seen from the lens centre.
 
 #include <cstddef>
 #include <optional>
@@ -11,20 +11,21 @@ namespace defocus::engine {
 
 struct PinholeImage {
     PinholeImage() = default;
-    // `format` must hold alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a pass computes the depth.
-    // `keepsOwnBlur`: also stores the blur controls of surfaces.
+    // `format` must have alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a fragment shader writes the
+    // depth. If `keepsOwnBlur`, the blur controls of surfaces are stored too.
     PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur);
 
-    // Binds the inputs of shaders/include/pinhole.glsl: depth and blur controls.
+    // Binds depth and blur controls for shaders/include/pinhole.glsl.
     void attachForBlur() const;
-    // Switches what `color` reads as: with `on` the coverage in red, green and blue, else the radiance.
+    // Sets the texture swizzle of `color`: if `on`, shaders read the coverage in red, green and blue; otherwise the
+    // radiance.
     void readAsCoverage(bool on);
     [[nodiscard]] std::size_t bytes() const { return color.bytes() + depth.bytes() + ownBlur.bytes(); }
 
     GlTexture color;    // premultiplied linear radiance, with coverage as alpha
-    GlTexture depth;    // reversed: near plane over distance; 0 is infinity
-    GlTexture ownBlur;  // Blur controls of surfaces: factor and offset; empty if no surface has its own.
-    // Outside this rectangle the blurred image is black with zero coverage and needs no drawing. Empty: the full image.
+    GlTexture depth;    // reversed: near plane / distance; 0 is infinity
+    GlTexture ownBlur;  // blur controls of surfaces: factor and offset; empty if no surface has any
+    // Rectangle outside which the blurred image is black with zero coverage and need not be drawn. nullopt: full image.
     std::optional<TexelRectangle> part;
 };
 

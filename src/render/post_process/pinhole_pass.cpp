@@ -1,4 +1,4 @@
-// Hammersley 1960, Monte Carlo Methods for Solving Multivariable Problems (the points in the pixel).
+// Source of the subpixel offsets: Hammersley 1960, Monte Carlo Methods for Solving Multivariable Problems.
 
 #include "render/post_process/pinhole_pass.h"
 
@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t lightPoints = 16;  // points on each light for a pinhole's shadows
+constexpr std::uint32_t lightPoints = 16;  // points on each light for soft shadows in a pinhole image
 
 ShaderDefines definesOf(LayerFormat format) {
     ShaderDefines defines = layerFormatDefines(format);
@@ -17,7 +17,7 @@ ShaderDefines definesOf(LayerFormat format) {
     return defines;
 }
 
-// Enables or disables writing the surfaces' own blur. The sky and translucent surfaces must leave it unchanged.
+// Enables or disables writes of the surfaces' blur controls, which the sky and translucent surfaces must not change.
 void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);
@@ -87,7 +87,7 @@ void PinholePass::draw(std::uint32_t index) {
     shadows_.draw(index, 1);
     target_.bind();
     glDepthMask(GL_TRUE);
-    constexpr float farthest = 0;  // reversed depth
+    constexpr float farthest = 0;  // depth is reversed
     const float nothing[4] = {0, 0, 0, transparent_ ? 0.0f : 1.0f};
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
     glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);

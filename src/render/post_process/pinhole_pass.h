@@ -1,6 +1,6 @@
 #pragma once
-// Draws the input of the post-process methods: the scene with its sky through the lens centre, and the depth of each
-// pixel.
+// Draws the input of the post-process methods: colour, including the sky, and depth of the scene as seen from the lens
+// centre.
 
 #include <optional>
 #include <vector>
@@ -16,29 +16,31 @@
 namespace defocus::engine {
 
 // Returns a plan for `count` samples at the lens centre, with each object at the integer level nearest to its λ. The
-// samples are Hammersley points over the pixel; a single one is at its centre. The plan keeps its lens, and so its CoC.
-// Moving objects are drawn as in the middle of the exposure. Each pinhole uses 16 points per light.
+// samples' positions in the pixel are Hammersley points; a single sample is at the pixel's centre. The plan's lens and
+// circle of confusion do not change. Moving objects are drawn at the middle of the exposure. Soft shadows use 16 points
+// per light in each sample.
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
 
 class PinholePass {
 public:
-    // `format` must hold alpha (rgba16f, rgba32f). `ownBlur`: also stores the blur controls of surfaces. Needs a
-    // current GL context.
+    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are stored too. Needs a
+    // current OpenGL context.
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                 const std::filesystem::path& shaderFolder);
 
-    // `frame` must have been uploaded for `pinholes` with one layer, and must outlive the drawing. Objects in `buckets`
-    // are left to drawBucket.
+    // Prepares drawing of `pinholes`. `frame` must have been uploaded for `pinholes` with one layer, and must exist
+    // until the last draw. Objects in `buckets` are drawn only by drawBucket().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
-    // Draws sample `index`. Alpha-blended surfaces outside buckets write their depth in a second pass. The background
-    // seen through them is then blurred like them (Scheuermann 2004).
+    // Draws sample `index`. Alpha-blended surfaces that are in no bucket write their depth in a second pass, so that
+    // the background visible through them is blurred by their depth (Scheuermann 2004).
     void draw(std::uint32_t index);
-    // Image of the sample drawn last: linear radiance with coverage as alpha (1 for an opaque background), and depth.
+    // Returns the image of the latest draw(): linear radiance with coverage as alpha (1 for an opaque background), and
+    // depth.
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
-    // Draws a bucket of the sample drawn last, without the parts that image() hides, on a transparent background.
-    // Bucket 0 is the farthest.
+    // Draws a bucket of sample `index`, the sample of the latest draw(), on a transparent background, without the parts
+    // that surfaces in image() hide. Bucket 0 is the farthest.
     [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
@@ -51,11 +53,11 @@ private:
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
     Target target_;
-    bool transparent_ = false;  // whether the background is transparent
+    bool transparent_ = false;  // true if the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // one per bucket, see reachOf
+    std::vector<TexelRectangle> reaches_;  // one per bucket; see reachOf
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

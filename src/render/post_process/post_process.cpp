@@ -77,7 +77,7 @@ private:
         pinhole.readAsCoverage(false);
     }
 
-    // Writes the blurred coverage into the alpha of the layer.
+    // Writes the blurred coverage of the pinhole image into the layer's alpha.
     void drawCoverage() {
         blurCoverage(pinhole_->image());
         sum_->layers().bind();
@@ -87,7 +87,7 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    // Composites a blurred bucket over the layer.
+    // Blurs a bucket's image and composites it over the layer.
     void layOver(PinholeImage& bucket) {
         if (!process_->blursAsTheLens()) bucket.part.reset();
         process_->draw(bucket, frame_, radianceTarget_);
@@ -103,7 +103,7 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    // Allocates an intermediate image of the frame's size and format, unless it exists.
+    // Allocates an intermediate image of the frame's size and format, unless `image` already has them.
     void prepareImage(GlTexture& image, Target& target) const {
         const LayerSumInfo& frame = sum_->info();
         const TextureFormat format = layerTextureFormat(frame.format);
@@ -123,7 +123,7 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            sum_.reset();  // frees the old sum first: memory may not hold both
+            sum_.reset();  // free the old sum first: memory may not hold both
             sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
             pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
@@ -142,8 +142,8 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred; allocated with a transparent background or buckets
-    GlTexture radiance_;  // blurred radiance of a bucket; allocated with buckets
+    GlTexture coverage_;  // blurred; only with a transparent background or buckets
+    GlTexture radiance_;  // blurred radiance of a bucket; only with buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;
     Fullscreen fullscreen_;

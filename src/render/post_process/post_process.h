@@ -1,6 +1,6 @@
 #pragma once
-// Common renderer of the post-process methods, which blur pinhole images. Several pinholes spread over the pixel are
-// blurred one by one and averaged for antialiasing (setting "pinholes").
+// Renderer of the post-process methods, which blur pinhole images. For antialiasing, several pinhole images with
+// different subpixel offsets are blurred separately and averaged (setting "pinholes").
 
 #include <memory>
 
@@ -11,26 +11,27 @@
 
 namespace defocus::engine {
 
-// Blurs a pinhole image by its depth.
+// Interface of a method's blur of a pinhole image by depth.
 class PostProcess {
 public:
     virtual ~PostProcess() = default;
-    // Prepares resources for the images of this plan. Called for each frame, before draw.
+    // Prepares the blur for a frame; called before the frame's first draw().
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
-    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. The result must be linear in the
-    // radiance, so that the same blur applies to coverage. Only PinholeImage::part must be drawn.
+    // Draws `pinhole` blurred into `output`: linear radiance, alpha 1. The blur must be a linear function of the
+    // radiance, because it is applied to coverage too. Pixels outside PinholeImage::part may be omitted.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
-    // Returns false if the blur may exceed that of the plan's lens.
+    // Returns whether the blur is nowhere larger than the lens blur in the plan.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Settings that all these methods share.
+// Return settings that all post-process methods share; `standard` is the default.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* standard);
 
-// `options.settings` must be complete. With a transparent background each pinhole is blurred twice: its premultiplied
-// radiance, and its coverage. The same holds for each bucket of alpha-blended surfaces (transparency_buckets.h).
+// Returns a renderer that blurs with `process`. `options.settings` must be complete. With a transparent background,
+// each pinhole image is blurred twice: its premultiplied radiance and its coverage. So is each bucket of alpha-blended
+// surfaces (transparency_buckets.h).
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 

@@ -1,4 +1,4 @@
-// Garcia 2018, Circular Separable Convolution Depth of Field (transparency).
+// Source: Garcia 2018, Circular Separable Convolution Depth of Field (transparency).
 
 #include "render/post_process/transparency_buckets.h"
 
@@ -15,10 +15,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minStep = 1;  // px, in diameter
-constexpr double margin = 24;  // px: small images and pre-blurred copies have large pixels
+constexpr double minStep = 1;  // min difference between the blur diameters of two buckets, px
+constexpr double margin = 24;  // px; reduced images in the blur have pixels of several image pixels
 
-// Returns the middle of a blur range, signed px; clamped to disks as wide as the image.
+// Returns the middle of a range of signed blur diameters in px, clamped to the image's width.
 double middleOf(const CocRange& coc, double width) {
     return 0.5 * (std::clamp(coc.nearest, -width, width) + std::clamp(coc.farthest, -width, width));
 }
@@ -30,8 +30,8 @@ bool overlapInTheImage(const ObjectPlan& a, const ObjectPlan& b, const FramePlan
     return glm::all(glm::lessThan(boxA.ndcMin, boxB.ndcMax)) && glm::all(glm::lessThan(boxB.ndcMin, boxA.ndcMax));
 }
 
-// Returns the blended objects for buckets, front to back. Skips transmitting objects, and objects behind one of them or
-// behind a skipped one.
+// Returns the indices of blended objects for buckets, front to back. Omits transmitting objects, and objects behind a
+// transmitting or an omitted object.
 std::vector<std::size_t> blendedObjects(const FramePlan& plan) {
     std::vector<std::size_t> blended;
     std::vector<std::size_t> staying;
@@ -55,7 +55,7 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 
     struct Step {
         double height = 0;       // px
-        std::size_t behind = 0;  // index into `blended` of the nearest object behind the step
+        std::size_t behind = 0;  // index into `blended` of the first object behind the step
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };
@@ -89,7 +89,7 @@ TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) 
         min = everywhere ? glm::dvec2(0) : glm::min(min, (box.ndcMin + 1.0) * 0.5 * size);
         max = everywhere ? size : glm::max(max, (box.ndcMax + 1.0) * 0.5 * size);
     }
-    // In front of the focus, a blur may gather as widely as the largest blur there.
+    // In front of the focus plane, a method may gather with the largest blur in the image.
     for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
     const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
     min = glm::clamp(glm::floor(min - reach), glm::dvec2(0), size);

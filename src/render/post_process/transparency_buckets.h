@@ -1,6 +1,5 @@
 #pragma once
-// Groups alpha-blended objects that are blurred together. Garcia 2018 sorts transparent surfaces into buckets by depth,
-// and blurs each bucket separately.
+// Divides alpha-blended objects into buckets by depth; each bucket is blurred separately (Garcia 2018).
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +9,17 @@
 
 namespace defocus::engine {
 
-// Indices of objects of the plan, front to back.
+// Indices into FramePlan::objects, front to back.
 using TransparencyBucket = std::vector<std::size_t>;
 
-// Returns at most `max` buckets, the farthest first. Each is a run of blended objects in depth order, split at the
-// largest differences between the mid blurs of neighbouring objects. Objects whose blurs differ by less than a pixel
-// share a bucket. Objects that may be visible through a transmitting surface are in no bucket, since that surface
-// copies the image drawn before it. Without lens blur there are no buckets.
+// Returns at most `max` buckets, the farthest first. The blended objects, in depth order, are divided where the blur
+// differs most between neighbours. Neighbours whose blurs differ by less than 1 px are in the same bucket. Objects that
+// may be visible through a transmitting surface are in no bucket, because the surface shows a copy of the image drawn
+// before it. Without lens blur, there are no buckets.
 std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max);
 
-// Returns the rectangle of the image, in px from its lower left corner, that the blurred bucket may touch. Empty for an
-// empty bucket.
+// Returns a rectangle, in px from the image's lower left corner, that contains the blurred bucket; empty for an empty
+// bucket.
 TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -10,9 +10,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gap = 2;  // px between the images of a point in neighbouring samples
+constexpr double gap = 2;  // px between the images of a blurred point in neighbouring samples
 constexpr std::uint32_t movingSamples = 4 * blockSamples;
-constexpr std::uint32_t shadowSamples = 64;  // needed for smooth penumbrae and sky shadows
+constexpr std::uint32_t shadowSamples = 64;  // min for smooth penumbrae and sky shadows
 
 }  // namespace
 

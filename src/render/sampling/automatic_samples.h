@@ -1,6 +1,6 @@
 #pragma once
-// Default number of lens samples of an image: derived from the largest blur, and for large blurs from the estimated
-// error of the image, which depends on its contrast.
+// Default number of lens samples of an image. It follows from the largest blur; for large blurs, it is the max, and
+// sampling ends earlier once the estimated error is small.
 
 #include <cstdint>
 
@@ -10,16 +10,15 @@ namespace defocus::engine {
 
 inline constexpr std::uint32_t minAutomaticSamples = 32;
 inline constexpr std::uint32_t maxAutomaticSamples = 1024;
-// RMSE of the display-encoded image, as in StopSettings: half a step of 8 bits.
+// Target RMSE of the display-encoded image (see StopSettings): half a step of 8 bits.
 inline constexpr double automaticError = 0.002;
 
-// Returns 32 samples, or complete blocks of 64 up to 1,024 samples. N points spread over the disk of the plan's largest
-// blur, c px, are about c·√(π/(4N)) px apart; N makes this distance 2 px. Plans with shadow maps get at least 64
-// samples, plans with motion at least four blocks. Objects that reach the near plane have unbounded blur and are
-// ignored.
+// Returns the number of samples: 32, or complete blocks of 64 up to 1,024. N points in a disk of c px, the largest blur
+// diameter, are approximately c·√(π/(4N)) px apart; N is chosen for a distance of 2 px. With shadow maps, N is at least
+// 64; with motion, at least 256. Objects that extend to the near plane have unbounded blur and are ignored.
 std::uint32_t samplesForBlur(const FramePlan& plan);
 
-// Returns the largest blur diameter of the plan's objects, px. Ignores objects with unbounded blur; 0 without others.
+// Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects.
 double largestBoundedBlur(const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -10,14 +10,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double levelShare = 0.5;       // of the intended error; the total is then 1.12 times the sampling error
-constexpr double withoutLevelError = 4;  // factor on the expected samples if the level error is unknown
+constexpr double levelShare = 0.5;       // max level error relative to the intended error; √(1 + 0.5²) = 1.12
+constexpr double withoutLevelError = 4;  // factor on the expected samples, if the level error is unknown
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
-// The first estimate needs two blocks.
+// Sample count of the first error estimate, which needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 
-// Returns the number of samples rounded up to complete blocks.
+// Returns `samples` rounded up to complete blocks.
 std::uint32_t wholeBlocks(double samples) {
     return static_cast<std::uint32_t>(std::ceil(samples / blockSamples)) * blockSamples;
 }
@@ -40,7 +40,7 @@ const char* stopReasonText(StopReason reason) {
 
 double LevelError::at(double thresholdSamples) const {
     if (!(atCoarse > 0)) return 0;
-    // Explicit thresholds are the same for both measurements: the power is then 0.
+    // If thresholds are set explicitly, both measurements are equal, and the exponent is 0.
     const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
     return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, maxLevelPower));
 }
@@ -66,7 +66,7 @@ std::uint32_t BlockSchedule::expectedSamples() const {
     return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
-// Returns the number of samples whose default thresholds the next block uses.
+// Returns the sample count whose default level-of-detail thresholds the next block uses.
 double BlockSchedule::thresholdSamples() const {
     const double expected = expectedSamples();
     if (automatic_) return expected;
@@ -77,7 +77,7 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Returns the total error; level error and sampling error are independent.
+// Returns the total error from a sampling error and the level error so far, which are assumed to be independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }
@@ -106,13 +106,14 @@ bool BlockSchedule::endBlock(const FramePlan& plan, double seconds, const std::f
         estimate_.add(mean(), samples_);
         const double error = estimate_.error().value_or(0);
         if (stop_.targetError && error > 0) {
-            // The sampling error gets the rest of the target beside the level error, at least 44 % of it.
+            // The squares of sampling error and level error sum to the square of the target. The sampling error may be
+            // at least 44 % of the target.
             const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
             const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
             expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);
         }
-        // Far from the target the next estimate is later, but at most at twice the samples, so that half of them can be
-        // compared.
+        // Choose the sample count of the next estimate: 80 % of the expected samples, but at most twice the present
+        // samples, because an estimate compares images with about n/2 and n samples.
         const double due =
             stop_.targetError ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
         nextEstimate_ = wholeBlocks(due);
@@ -135,7 +136,8 @@ std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, dou
     if (stop_.targetError && estimated && withLevels(*estimate_.error()) <= *stop_.targetError)
         return StopReason::targetError;
     if (samples_ >= stop_.sampleLimit) return StopReason::sampleCount;
-    // Don't begin a block that would end too late: an unfinished block lacks some of its levels.
+    // Do not start a block that would end after the time limit: in an incomplete block, some objects lack samples at
+    // some levels.
     const double nextEnd = seconds + (seconds - secondsBefore_);
     if (stop_.timeLimit && nextEnd > *stop_.timeLimit) return StopReason::timeLimit;
     return {};

@@ -1,5 +1,5 @@
-// Owen 1997, Scrambled Net Variance for Integrals of Smooth Functions; for edges: Mitchell 1996, Consequences of
-// Stratified Sampling in Graphics.
+// Sources of the exponents: Owen 1997, Scrambled Net Variance for Integrals of Smooth Functions; for edges Mitchell
+// 1996, Consequences of Stratified Sampling in Graphics.
 
 #include "render/sampling/error_estimate.h"
 
@@ -17,7 +17,8 @@ namespace {
 
 constexpr double maxPixelsSeen = 1 << 20;
 
-// Returns a hash that selects the pixel of a tile. It differs from tile to tile, so regular patterns cause no bias.
+// Returns a hash of a tile's position, which selects one pixel of the tile. Random pixels avoid bias by regular
+// patterns.
 std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
     return fmix32(x * 0x9e3779b9u + y * 0x85ebca6bu + 1);
 }
@@ -74,8 +75,8 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     height_ = mean.height;
     Kept latest{samples, encodedPixels(mean)};
 
-    // Average the estimates from all earlier images with 25 to 75 % of the samples. Without any, use the image closest
-    // to half.
+    // Average the estimates from all earlier images with 25 to 75 % of the samples. If there is none, use the image
+    // closest to 50 %.
     const auto share = [&](const Kept& kept) { return static_cast<double>(kept.samples) / samples; };
     const auto squared = [&](const Kept& kept) {
         const double factor = errorOverDifference(kept.samples, samples);
@@ -95,7 +96,7 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     }
     if (count > 0) error_ = std::sqrt(sum / count);
 
-    // Keep the images that later ones may be compared with.
+    // Keep the images with which later images may be compared.
     kept_.push_back(std::move(latest));
     while (kept_.size() > 2 && kept_[1].samples <= samples / 4) kept_.erase(kept_.begin());
 }

@@ -1,18 +1,19 @@
 #pragma once
-// Estimates the error of the mean of N lens samples, from means of fewer samples of the same sequence.
+// Estimates the error of the mean of n lens samples from means of fewer samples of the same sequence.
 //
 // Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
-// blocks is not that of one divided by √n. The model is instead that the error of k successive blocks is proportional
-// to k^(−a). Two stretches of blocks then differ by a known multiple of the error of their mean, for any scene. Let
-// s(k) = k^(−2a), with m blocks followed by n − m others. The covariance of the two stretches' errors is
+// blocks is not the error of one block divided by √n. Model: the error of the mean of k successive blocks is
+// proportional to k^(−a). The difference of the means of two successive ranges of blocks is then a known multiple of
+// the error of their common mean, for any scene. Let s(k) = k^(−2a) and M(k) the mean of the first k blocks. For a
+// range of m blocks and the next n − m blocks, the covariance of the errors of the two means is
 //   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)).
 // Then, in units of the squared error of one block,
 //   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c), E|M(n) − truth|² = s(n).
-// Random samples (a = 1/2) give the familiar σ/√n.
+// Random samples (a = 1/2) give σ/√n.
 //
-// The stretches compared are as long as possible, about half of the samples each. The extrapolation from their
-// difference to the error is then short: an exponent that is off by 0.1 changes the result by an eighth. An estimate
-// from single blocks would depend far more on the exponent.
+// The ranges compared are as long as possible, about half of the samples each. Thus the estimate depends little on the
+// exponent: an error of 0.1 in a changes the result by an eighth. An estimate from single blocks would depend on it far
+// more.
 
 #include <cstdint>
 #include <optional>
@@ -22,27 +23,28 @@
 
 namespace defocus::engine {
 
-// The exponent a of lens samples in an image. Random points have 0.5, straight edges under a well distributed set have
-// 0.75. The mean over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
+// Exponent a for lens samples. It is 0.5 for random points, and 0.75 for straight edges with well distributed points.
+// The mean measured over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
 // (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
-// Returns |M(n) − truth| over |M(n) − M(m)|, as above; 0 < m < n.
+// Returns the expected ratio of RMS differences |M(n) − truth| / |M(n) − M(m)|, where M(k) is the mean of the first k
+// blocks, 0 < m < n, and the error of k blocks is proportional to k^(−exponent).
 double errorOverDifference(double m, double n, double exponent = lensSampleExponent);
 
-// Returns the RMS difference of two images of equal size, over the same pixels and encoded values as
+// Returns the RMS difference of two images of equal size, over the same pixels and display-encoded values as
 // ErrorEstimate::error.
 double encodedDifference(const ImageView& a, const ImageView& b);
 
 class ErrorEstimate {
 public:
     // Adds the mean of the first `samples` samples of a frame: linear, at least 3 channels (a fourth is ignored).
-    // `samples` must grow from call to call. Uses and keeps at most about a million pixels, one of each k × k tile.
-    // Throws Error if the image size changes.
+    // `samples` must increase from call to call. Uses at most about a million pixels: one of each k × k tile. Throws
+    // Error if the image size changes.
     void add(const ImageView& mean, std::uint32_t samples);
 
-    // Returns the RMS error of the latest image over its pixels and channels, in display-encoded values in [0, 1] at EV
-    // 0. Empty before there are two images.
+    // Returns the RMS error of the latest image over pixels and channels, in display-encoded values in [0, 1] at EV 0;
+    // nullopt for fewer than two images.
     [[nodiscard]] std::optional<double> error() const { return error_; }
     [[nodiscard]] std::uint32_t samples() const { return kept_.empty() ? 0 : kept_.back().samples; }
 
@@ -54,7 +56,7 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count on
+    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count
     std::optional<double> error_;
 };
 

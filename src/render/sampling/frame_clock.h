@@ -1,6 +1,6 @@
 #pragma once
-// The times of a frame for RenderStats: wall-clock time of setup and frame, measured with the GPU idle, and timer
-// queries of waves.
+// Measures the times of a frame for RenderStats: wall-clock times of setup and drawing, after waiting for the GPU, and
+// GPU times of waves.
 
 #include <chrono>
 
@@ -11,16 +11,16 @@ namespace defocus::engine {
 
 class FrameClock {
 public:
-    // Discards the times of the previous frame.
+    // Starts the setup; discards the times of the previous frame.
     void beginSetup();
-    // Ends the setup and begins the frame; waits for the GPU.
+    // Waits for the GPU; ends the setup and starts the frame.
     void beginFrame();
     void beginWave() { timer_.begin(); }
     void endWave() { timer_.end(); }
-    // Ends the frame; waits for the GPU.
+    // Waits for the GPU; ends the frame.
     void endFrame();
 
-    // Fills in times, device and driver. Unfinished times are 0.
+    // Sets times, device and driver of `stats`. Times that have not ended are 0.
     void fill(RenderStats& stats);
 
 private:

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Marks all levels of the drawn meshes as used, so that no upload interrupts a movement.
+// Returns the plan with all levels of drawn meshes marked as used, so that no upload delays a later frame.
 FramePlan withAllLevels(FramePlan plan) {
     if (plan.settings.lod != LodMode::off)
         for (std::vector<bool>& used : plan.levelsUsed) used.assign(used.size(), true);
@@ -73,11 +73,11 @@ void ProgressiveImage::planBlock() {
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 
-// Ends the block and returns whether another one follows.
+// Ends the block and returns whether another block follows.
 bool ProgressiveImage::endBlock() {
     ++block_;
     if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
-    // A block with fewer samples is final: nothing is blurred, or the method uses no lens samples.
+    // A block with fewer than 64 samples is the last: nothing is blurred, or the method uses no lens samples.
     return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// An image that is refined while nothing moves: a first block of 64 lens samples, then further blocks added to the same
-// sum. Each block is planned for the samples that the sum will then hold, so levels get finer as the sampling error
-// falls. While the scene moves, each frame is drawn at once with few samples.
+// Image of an interactive window. While the scene moves, each frame is drawn completely with few samples. While nothing
+// moves, blocks of 64 lens samples are added to the same sum. Each block has the level-of-detail thresholds for the
+// number of samples in the sum, so levels get finer as the sampling error decreases.
 
 #include <memory>
 #include <optional>
@@ -13,33 +13,33 @@ namespace defocus::engine {
 
 class ProgressiveImage {
 public:
-    // `world` must outlive this object; its pose may change between frames. While the image grows, options.wave samples
-    // are drawn at once (0: 4), as small waves keep to the time limit. Needs a current GL context.
+    // `world` must outlive this object; its pose may change between frames. grow() draws waves of options.wave samples
+    // (0: 4); small waves keep its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
-    // Draws a complete frame of settings.sampleCount samples, or with the samples of `plan`.
+    // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
     void drawFrame(const View& view, const RenderSettings& settings);
     void drawFrame(FramePlan plan);
 
-    // Begins an image that grow() refines to `max` samples (rounded up to blocks). Level-of-detail thresholds follow
-    // the samples in the sum after each block.
+    // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks. The thresholds of a block
+    // are those for the samples in the sum after this block.
     //
-    // With `targetError`, for methods that sum blocks, the image is finished once its estimated error is below this
-    // value. Thresholds then follow the expected final number of samples (sampling/block_schedule.h).
+    // With `targetError`, for methods that sum blocks, the image is complete once its estimated error is below this
+    // value. Thresholds are then those of BlockSchedule.
     void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
-    // Draws waves for about `milliseconds`, at least one. Returns false once the image is finished.
+    // Draws waves until about `milliseconds` have passed, at least one wave. Returns false once the image is complete.
     bool grow(double milliseconds);
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
     [[nodiscard]] bool finished() const { return finished_; }
-    // For images with a target error: whether it is reached, and the latest estimate.
+    // For images with a target error, return whether it is reached, and the latest estimate.
     [[nodiscard]] bool converged() const;
     [[nodiscard]] std::optional<double> estimatedError() const;
-    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the frame or the latest block
+    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of the latest grow()
+    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of latest grow()
 
 private:
     void planBlock();
@@ -53,7 +53,7 @@ private:
     std::uint32_t growingWave_;
     std::uint32_t block_ = 0;
     std::uint32_t blocks_ = 0;
-    std::optional<BlockSchedule> schedule_;  // used only with a target error
+    std::optional<BlockSchedule> schedule_;  // nullopt without a target error
     bool usesLensSamples_ = true;
     bool sumsBlocks_ = false;
     bool finished_ = true;

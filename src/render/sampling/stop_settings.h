@@ -1,5 +1,5 @@
 #pragma once
-// Conditions that end a frame whose number of lens samples is open.
+// Conditions that end a frame whose number of lens samples is not known in advance.
 
 #include <cstdint>
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace defocus::engine {
 
-// With a target error or a time limit, blocks of 64 samples are added until one of them is reached. Levels of detail
-// get finer with the expected number of samples. RenderSettings::sampleCount is then ignored.
+// With a target error or a time limit, blocks of 64 samples are added until the target or a limit is reached, and
+// RenderSettings::sampleCount is ignored. Levels of detail are finer for a larger expected number of samples.
 struct StopSettings {
-    // RMSE of the display-encoded image at EV 0, estimated from the differences between blocks; 1e-6 … 1.
+    // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. The error is estimated from differences between
+    // blocks.
     std::optional<double> targetError = {};
-    // s from the start of the frame, 0.001 … 1e6. At least one block is drawn. No block begins that is predicted to end
-    // later.
+    // Seconds from the start of the frame, 0.001 … 1e6. At least one block is drawn. A block is not started if its
+    // predicted end is after the limit.
     std::optional<double> timeLimit = {};
     std::uint32_t sampleLimit = maxSamples;
-    // The number of samples follows from the blur, and for large blurs from the estimated error; see
-    // automatic_samples.h.
+    // True if the number of samples is chosen automatically; see automatic_samples.h.
     bool automatic = false;
 
     // Returns whether a target error or a time limit is set.

@@ -1,5 +1,5 @@
-// Scheuermann 2004, Advanced Depth of Field (slides of the Game Developers Conference); Mitchell 1991, Spectrally
-// Optimal Sampling for Distribution Ray Tracing.
+// Sources: Scheuermann 2004, Advanced Depth of Field (slides of the Game Developers Conference); Mitchell 1991,
+// Spectrally Optimal Sampling for Distribution Ray Tracing.
 
 #include "render/scheuermann/scheuermann.h"
 
@@ -20,15 +20,15 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double publishedLargest = 10;  // px, diameter
-// Radius factor for taps in the small image, whose pixels are 4 times as wide.
+constexpr double publishedLargest = 10;  // max blur diameter in px
+// Factors on the tap radius in the small image, whose pixels are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
-constexpr float trueSmallRadius = 0.25f;  // same distance in both images
-constexpr int smallReduction = 4;         // factor per side
+constexpr float trueSmallRadius = 0.25f;  // same tap positions in both images
+constexpr int smallReduction = 4;         // factor per side between the image and the small image
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
-// Uniform block of shaders/scheuermann/gather.frag, std140.
+// Uniform block in shaders/scheuermann/gather.frag (std140).
 struct GpuTaps {
     glm::vec4 taps[maxTaps];
 };
@@ -66,7 +66,7 @@ public:
         if (!thinLens_) {
             const BlurrinessPlanes planes = withPlanesByHand(
                 blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width), byHand);
-            // Blurriness is piecewise linear in depth, with one slope on each side of the focus.
+            // Blurriness is piecewise linear in depth, with one slope in front of and one behind the focus plane.
             const auto focus = static_cast<float>(planes.focus);
             glProgramUniform4f(blurriness_.name(), 1, focus, static_cast<float>(1 / (planes.focus - planes.near)),
                                static_cast<float>(1 / (planes.far - planes.focus)), static_cast<float>(planes.cutoff));
@@ -76,7 +76,7 @@ public:
 
     void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) override {
         frame.bind(0);
-        // Store colour with blurriness, and a small pre-blurred copy.
+        // Draw colour with blurriness, and a small pre-blurred copy.
         sharpTarget_.bind();
         pinhole.color.attach(0);
         pinhole.attachForBlur();
@@ -88,7 +88,7 @@ public:
         reduced_.attach(0);
         fullscreen_.draw(preblur_);
 
-        // Gather the taps.
+        // Draw the result by gathering the taps.
         output.bind();
         sharp_.attach(0);
         small_.attach(1);
@@ -149,9 +149,9 @@ private:
         gather_ = pass("scheuermann/gather.frag", std::move(gather));
     }
 
-    // Places the taps: the disk's points, mapped to the aperture's shape if it isn't a disk. Behind the focus a blur
-    // has the shape of the aperture. Its pixels gather from the opposite direction, so the taps there are the aperture
-    // rotated by 180°; in front of the focus they are not rotated.
+    // Computes the taps: the points of the disk, mapped to the aperture's shape if the aperture is not a disk. The blur
+    // of a point behind the focus plane has the shape of the aperture, so its pixels must gather from the aperture
+    // rotated by 180°. In front of the focus plane, taps are not rotated.
     void placeTaps(const Lens& lens) {
         const Aperture aperture = makeAperture(lens);
         shaped_ = !isUniformDisk(aperture);
@@ -169,14 +169,14 @@ private:
     std::uint32_t taps_;
     bool thinLens_;
     bool unlimited_;
-    bool bytes_;  // bytes of encoded colour, as published; false: half floats
+    bool bytes_;  // true: 8-bit encoded colour, as published; false: half floats
     MethodSettings settings_;
-    std::vector<glm::vec2> points_;  // points of the disk
-    bool shaped_ = false;            // the aperture isn't a disk
+    std::vector<glm::vec2> points_;  // in the unit disk
+    bool shaped_ = false;            // true if the aperture is not a disk
     float largestRadius_ = 0;        // px
     GlTexture sharp_, reduced_, small_;
     Target sharpTarget_, reducedTarget_, smallTarget_;
-    ShaderDefines defines_;  // defines of the current programs
+    ShaderDefines defines_;  // defines of the compiled programs
     Program blurriness_, reduce_, preblur_, gather_;
     Buffer tapBuffer_;
     Fullscreen fullscreen_;
@@ -185,11 +185,11 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    const double radius = largest / width;  // in C/w
+    const double radius = largest / width;  // in units of C/w
     BlurrinessPlanes planes;
-    // C(w)/w = a/w + b is −radius at the near plane and +radius at the far plane; a < 0.
+    // At depth w, C(w)/w = a/w + b with a < 0. It is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);
-    if (std::isinf(focusDistance)) {  // focus at infinity has nothing behind it
+    if (std::isinf(focusDistance)) {  // nothing is behind the focus plane
         planes.focus = 2 * planes.near;
         planes.far = std::numeric_limits<double>::infinity();
         planes.cutoff = 0;
@@ -201,7 +201,7 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    // Blurriness is half the cutoff at twice the focus distance.
+    // The blurriness at twice the focus distance is half the cutoff.
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }

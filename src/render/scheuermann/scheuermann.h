@@ -1,16 +1,17 @@
 #pragma once
-// Method "scheuermann": Scheuermann 2004, Advanced Depth of Field (ATI; also Riguer, Tatarchuk and Isidoro 2003). A
-// pinhole image is gathered at the taps of a Poisson disk as large as the centre's circle of confusion. Each tap mixes
-// the image with a small pre-blurred copy, by its own blurriness. A tap nearer than the centre is weighted by its blur,
-// so that sharp foreground doesn't leak into the background.
+// Method "scheuermann": Scheuermann 2004, Advanced Depth of Field (ATI; also Riguer, Tatarchuk and Isidoro 2003). Each
+// pixel gathers a pinhole image at the taps of a Poisson disk as large as the pixel's circle of confusion. Each tap
+// interpolates between the image and a small pre-blurred copy by the blurriness at the tap. A tap nearer than the pixel
+// is weighted by its blurriness, so that sharp foreground does not leak into the background.
 //
-// Blurriness and relative depth share one channel: −1 in front of the focal range, 0 in focus, 1 behind, stored as 0 …
-// 1. As published, it is linear in depth between three planes. The near and far planes here are the depths at which the
-// thin lens reaches the max circle of confusion. If the lens never reaches it behind the focus plane, the line passes
-// through the depth of half the blur at infinity. It is clamped to the blur at infinity. Settings of the method
-// override these depths, as the artist does in the slides.
+// One signed value is both blurriness and relative depth: −1 at the near plane, 0 in focus, 1 at the far plane, stored
+// as 0 … 1. As published, it is linear in depth between three planes. By default, the near and far planes are the
+// depths at which the lens has the max circle of confusion. If the lens never has it behind the focus plane, the far
+// plane is chosen so that the value is correct at the depth of half the blur at infinity, and the value is clamped to
+// the blur at infinity. Settings of the method override the planes, which artists set in the slides.
 //
-// The taps follow the shape and density of the lens's aperture: blades, rings and images. A cat's eye is ignored.
+// The taps have the shape and density of the lens's aperture: blades, rings and aperture images. The cat's eye is
+// ignored.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -22,7 +23,8 @@
 
 namespace defocus::engine {
 
-// Maps depth to blurriness, −1 … cutoff: (z − focus)/(focus − near) in front, (z − focus)/(far − focus) behind.
+// Maps depth z to blurriness in [−1, cutoff]: (z − focus)/(focus − near) in front of the focus plane, (z − focus)/(far
+// − focus) behind.
 struct BlurrinessPlanes {
     double near = 0;   // m
     double focus = 0;  // m
@@ -30,7 +32,7 @@ struct BlurrinessPlanes {
     double cutoff = 1;
 };
 
-// Planes set by the artist, m; 0: the value that blurrinessPlanes() computes. The cutoff is in (0, 1].
+// Planes set by the user, in m; 0: value of blurrinessPlanes(). The cutoff is in (0, 1].
 struct PlanesByHand {
     double near = 0;
     double focus = 0;
@@ -38,16 +40,16 @@ struct PlanesByHand {
     double cutoff = 0;
 };
 
-// Returns `planes` with the artist's values. A near or far plane that is not set keeps its ratio to the focus distance.
-// Throws Error unless near < focus < far.
+// Returns `planes` with the user's values. If only the focus is set, near and far keep their ratio to it. Throws Error
+// unless near < focus < far.
 BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesByHand& byHand);
 
-// Returns the planes of a lens with an aperture, at any focus distance. `largest`: diameter of the max circle of
-// confusion, px, > 0.
+// Returns the planes of a lens with nonzero aperture. `largest` is the max diameter of the circle of confusion in px, >
+// 0; `width` is the image's width in px.
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width);
 
-// Returns `count` points of the unit disk with large mutual distances (best candidates, Mitchell 1991). The first is
-// the centre. The points are the same in each call.
+// Returns `count` points in the unit disk with large mutual distances (best candidates, Mitchell 1991). The first point
+// is the centre. All calls return the same points.
 std::vector<glm::vec2> poissonDisk(std::uint32_t count);
 
 Method scheuermannMethod();

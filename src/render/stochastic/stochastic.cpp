@@ -7,9 +7,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 8;                                // px
-constexpr std::uint32_t maxEntries = 40'000;                          // list entries of a tile per dispatch
-constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // per wave
+constexpr std::uint32_t pointTile = 8;                                // tile side in px
+constexpr std::uint32_t maxEntries = 40'000;                          // max list entries of a tile per dispatch
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // bytes per wave
 
 class StochasticKernel final : public VisibilityKernel {
 public:

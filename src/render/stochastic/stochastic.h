@@ -1,8 +1,8 @@
 #pragma once
-// Stochastic rasterization: each pixel has its own points on the lens, in the pixel and in time, and each point sees
-// the nearest triangle (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization;
-// for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using Time-Continuous Triangles).
-// With few samples the error is noise, whereas the accumulation shows overlaid images.
+// Method "stochastic": each pixel has its own sample points on the lens, in the pixel and in time, and finds the
+// nearest triangle for each (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization; for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using Time-Continuous
+// Triangles). With few samples, the error is noise, whereas method "accumulation" shows superimposed images.
 
 #include "render/methods.h"
 

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Memory of a software driver itself: compiled programs, and the triangles that it bins until a layer is finished.
+// Memory of a software driver: compiled programs, and triangles that it bins until a layer is complete.
 constexpr std::uint64_t programBytes = 80u << 20;
 constexpr std::uint64_t binnedTriangleBytes = 96;
 constexpr std::uint64_t maxBinnedBytes = 256u << 20;
@@ -23,7 +23,7 @@ std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
 }
 
-// Returns a − b, clamped to 0.
+// Returns max(a − b, 0).
 std::uint64_t remainder(std::uint64_t a, std::uint64_t b) {
     return a > b ? a - b : 0;
 }
@@ -32,7 +32,7 @@ std::uint64_t pixelsOf(int width, int height) {
     return std::uint64_t(width) * std::uint64_t(height);
 }
 
-// Returns the bytes that a software driver needs for the plan's meshes, the scene's textures and its own programs.
+// Returns the bytes that a software driver needs for the plan's meshes, the scene's textures and the compiled programs.
 std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
     std::uint64_t bytes = programBytes;
     for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {
@@ -60,8 +60,8 @@ std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
     return bytes;
 }
 
-// Returns the needs of the frame and the memory available to the process at this time. `drawn`: bytes of layers and
-// sums that are about to be replaced. `heldByDevice`: bytes of the scene on a GPU.
+// Returns the needs of the frame and the memory that is available to the process now. `drawn` is the size of layers and
+// sums that will be replaced; `heldByDevice` is the size of the scene on a GPU; both in bytes.
 TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
                          std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
     TilingNeeds needs;
@@ -75,7 +75,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.askedWave = limits.wave;
     needs.shared = currentIsSoftware();
     if (needs.shared) {
-        needs.layerPixel += sizeof(float);  // a copy of the depths, for the occlusion test
+        needs.layerPixel += sizeof(float);  // copy of the depths for the occlusion test
         needs.layerMaps += std::min(
             plan.trianglesDrawn / std::max<std::size_t>(plan.samples.size(), 1) * binnedTriangleBytes, maxBinnedBytes);
     }
@@ -90,14 +90,15 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     return needs;
 }
 
-// Returns the first row of the plan's first cell. Drawing it costs everything that a tile needs except its pixels.
+// Returns a tile of one row at the top of the plan's first cell. Drawing it allocates all memory that a tile needs
+// except for its pixels.
 Tile trialTile(const FramePlan& plan) {
     const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
     const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();
     return {{cell.left, cell.top, cell.width, 1}, cell};
 }
 
-// Returns the bytes of the trial's layer, shadow maps and sums.
+// Returns the bytes of the layer, shadow maps and sums of the tile `trial`.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
     return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
            pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;
@@ -140,7 +141,7 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     renderer.setWave(1);
     renderer.start(tileOf(plan, trial));
     renderer.advance();
-    static_cast<void>(renderer.image());  // drivers may hold layers until their result is read
+    static_cast<void>(renderer.image());  // drivers may keep layers until the result is read
     return currentNeeds(world, plan, limits, limit, drawn, remainder(renderer.stats().peakBytes, drawn));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Memory needs of a frame, available memory, and the decision to draw in one piece or in tiles.
+// Computes the memory needs of a frame and the available memory, and decides whether the frame must be drawn in tiles.
 
 #include <cstdint>
 #include <optional>
@@ -11,42 +11,42 @@
 
 namespace defocus::engine {
 
-// Memory and format of layers that a request sets.
+// A request's limits on memory and layers.
 struct DrawLimits {
-    std::optional<std::uint64_t> memory;  // limit of the process in bytes; empty: three quarters of the free memory
-    std::uint32_t wave = 0;               // K, lens samples drawn at once; 0: as many as fit into memory
+    std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
+    std::uint32_t wave = 0;               // lens samples per wave K; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
 };
 
-// Returns the total bytes that the process may use, from the current free memory.
+// Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
-// Returns the bytes of layers to draw at once in one piece: the default of RendererOptions, or a quarter of the rest of
-// `limit` if that is less.
+// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of what `limit` leaves to the
+// process if that is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
-// Returns the number of layers drawn at once under a memory limit: limits.wave, or as many as fit into a quarter of the
-// memory beside sums and images. `needs`: those before the upload.
+// Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
+// a quarter of the memory. `needs` are those of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
-// Returns the needs of the full frame before its scene is uploaded. Includes meshes and textures on software drivers,
-// which keep them in main memory. Needs a current GL context.
+// Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and
+// textures, which are in main memory. Needs a current OpenGL context.
 TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns the needs of the frame with its scene uploaded and its shaders built. Draws one row to measure them.
+// Draws one row of the frame, which uploads the scene and compiles shaders, and returns the needs measured afterwards.
 TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
                           std::uint64_t limit);
 
-// Returns whether a frame of this size certainly fits into `limit` bytes in one piece, without its plan.
-// `mapsPossible`: the frame may have shadow maps.
+// Returns true only if a frame of this size fits into `limit` bytes without tiles for any plan. `mapsPossible`
+// says whether the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns whether the frame, before any drawing, must be drawn in tiles. Throws Error (see refuseTiles) if so and
-// `method` can't draw tiles. Needs a current GL context if the method does.
+// Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if it must
+// but `method` cannot. Needs a current OpenGL context if the method needs one.
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
                      std::uint64_t limit);
 
-// Throws Error: "640 x 480 px don't fit into 100 MiB in one piece, and REASON".
+// Throws Error, e.g. "640 x 480 px don't fit into 100 MiB in one piece, and REASON".
 [[noreturn]] void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& reason);
 
 }  // namespace defocus::engine

@@ -12,9 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* tileAttribute = "defocus:tile";  // "1/4", or "rows"
+constexpr const char* tileAttribute = "defocus:tile";  // value: "1/4" or "rows"
 constexpr const char* byMemory = "rows";
-constexpr int rowsAtOnce = 64;  // rows in memory while tiles are joined
+constexpr int rowsAtOnce = 64;  // max rows in memory while files are joined
 
 RowFileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     RowFileHeader header;
@@ -43,7 +43,7 @@ std::string rowsText(const RowRange& rows) {
                                       : fmt::format("rows {} to {}", rows.first, rows.end - 1);
 }
 
-// Returns the number of parts if all tiles are shares of the same number of parts.
+// Returns the number of parts if all files are parts of the same number of parts; otherwise nullopt.
 std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
     std::optional<int> count;
     for (const RowFile& tile : tiles) {
@@ -81,8 +81,8 @@ RowFileHeader readRowHeader(const fs::path& path) {
 
 ImageRowWriter rowFileWriter(const fs::path& path, const RowFileHeader& header, int channels) {
     Metadata metadata = header.metadata;
-    metadata.erase("defocus:seconds");    // differs from run to run
-    metadata["capDate"] = std::string();  // without it, OpenImageIO writes the current time
+    metadata.erase("defocus:seconds");    // not reproducible
+    metadata["capDate"] = std::string();  // otherwise, OpenImageIO writes the current time
     metadata[settingsAttribute] = header.settings;
     metadata[tileAttribute] = header.share.empty() ? byMemory : header.share;
     return {path,     header.width,   header.rows.end - header.rows.first,       channels,

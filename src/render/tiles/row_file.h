@@ -1,7 +1,7 @@
 #pragma once
-// Files with some rows of a frame, over its full width and with all lens samples. Each is an EXR image whose display
-// window is the frame and whose data window is the rows, so viewers show the rows in position. Joining copies pixels,
-// with a few rows in memory at a time.
+// Files with a range of rows of a frame, with its full width and all lens samples. Each is an EXR image whose display
+// window is the frame and whose data window is the rows, so viewers show the rows at their position in the frame. Files
+// are joined by copying pixels, with a few rows in memory at a time.
 
 #include <filesystem>
 #include <string>
@@ -14,12 +14,12 @@
 namespace defocus::engine {
 
 struct RowFileHeader {
-    int width = 0;  // size of the frame, px
+    int width = 0;  // size of the frame in px
     int height = 0;
     RowRange rows;
-    std::string settings;  // settings of the frame; equal for all parts
-    std::string share;     // "1/4" for a requested share of the rows; empty: as many rows as memory allowed
-    Metadata metadata;     // metadata of the full frame
+    std::string settings;  // settings of the frame, equal for all parts
+    std::string share;     // "1/4": requested part of the rows; empty: chosen by memory
+    Metadata metadata;     // of the full frame
 };
 
 struct RowFile {
@@ -27,20 +27,20 @@ struct RowFile {
     RowFileHeader header;
 };
 
-// Returns whether the file's metadata mark it as rows of a frame; false for an unreadable file.
+// Returns whether the file's metadata mark it as a row file; false for an unreadable file.
 bool isRowFile(const std::filesystem::path& path);
 
-// Returns the header of a row file. Throws Error naming the file.
+// Returns the header of a row file. Throws Error, with the path in its message, if it cannot be read.
 RowFileHeader readRowHeader(const std::filesystem::path& path);
 
-// Opens a file for writing the header's rows. `channels`: number of channels of the images written.
+// Opens a row file for writing the rows of `header`. `channels` is the number of channels of the rows.
 ImageRowWriter rowFileWriter(const std::filesystem::path& path, const RowFileHeader& header, int channels);
 
-// Returns the files sorted by rows. Throws Error naming the files if rows overlap or are missing, or if settings
-// differ.
+// Returns the row files of a frame, sorted by rows. Throws Error, with the paths in its message, if rows overlap or are
+// missing, or if settings differ.
 std::vector<RowFile> completeRows(const std::vector<std::filesystem::path>& paths);
 
-// Returns the row ranges that no file covers; `files` must be sorted by rows.
+// Returns the ranges of rows of a frame of `height` rows that are in no file; `files` must be sorted by rows.
 std::vector<RowRange> missingRows(const std::vector<RowFile>& files, int height);
 
 struct JoinedOutput {
@@ -48,7 +48,8 @@ struct JoinedOutput {
     WriteOptions write;
 };
 
-// Writes the joined frame of completeRows() to each output. Throws Error naming the file.
+// Joins the files of completeRows() and writes the frame to each output. Throws Error, with the path in its message, if
+// a file cannot be read or written.
 void joinRows(const std::vector<RowFile>& files, const std::vector<JoinedOutput>& outputs, const Metadata& metadata);
 
 }  // namespace defocus::engine

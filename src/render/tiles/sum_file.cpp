@@ -17,13 +17,13 @@ constexpr const char* firstAttribute = "defocus:firstSample";
 constexpr const char* endAttribute = "defocus:endSample";
 constexpr const char* frameSamplesAttribute = "defocus:frameSamples";
 constexpr const char* secondsAttribute = "defocus:seconds";
-constexpr const char* noBlocks = "none";  // EXR files need at least one channel
+constexpr const char* noBlocks = "none";  // layer of a part without blocks: EXR files need at least one channel
 
 std::string layerName(std::uint32_t firstSample, const char* what) {
     return fmt::format("samples{:05}.{}", firstSample, what);
 }
 
-// Helpers for the alpha channel.
+// Returns whether the alpha of all pixels is `value`.
 
 bool alphaIs(const Image& image, float value) {
     for (std::size_t i = 3; i < image.pixels.size(); i += 4)
@@ -45,7 +45,8 @@ Image withAlpha(const Image& image, float alpha) {
     return result;
 }
 
-// Helpers for reading and checking parts.
+// Returns the metadata attribute `name`. Throws Error, with `file` in its message, if it is missing or has another
+// type.
 
 template <typename Value>
 Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
@@ -66,7 +67,7 @@ struct NamedPart {
     FramePart part;
 };
 
-// Throws Error unless the sorted parts form one frame: no gap, no overlap, equal settings.
+// Throws Error unless the sorted parts form a complete frame: no gap, no overlap, equal settings.
 void checkComplete(const std::vector<NamedPart>& parts) {
     const FramePart& first = parts.front().part;
     std::uint32_t next = 0;
@@ -137,7 +138,8 @@ FramePart readPart(const fs::path& path) {
 }
 
 MergedFrame mergeParts(const std::vector<fs::path>& paths) {
-    // Read all parts without keeping their sums, and sort them by samples. The sums are read again one part at a time.
+    // Read all parts and sort them by samples, but do not keep their sums: these are read again below, one part at a
+    // time.
     std::vector<NamedPart> parts;
     for (const fs::path& path : paths) {
         parts.push_back({path, readPart(path)});
@@ -159,7 +161,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
             seconds += std::get<double>(own->second);
         for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
     }
-    merged.metadata.try_emplace("capDate", std::string());  // no time stamp, as in the frames of a video
+    merged.metadata.try_emplace("capDate", std::string());  // otherwise, OpenImageIO writes the current time
     if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
     merged.image = merge.image();
     return merged;

@@ -1,10 +1,9 @@
 #pragma once
-// Files with the sums of some lens samples of a frame.
+// Files with the sums of a range of lens samples of a frame.
 //
-// The frame's sum adds finished blocks of 64 samples in order, each as value and compensation
-// (render/accumulation/layer_sum.h). Compensated sums are not associative to the last bit, so a file stores each block
-// separately: one layer for the value and one for the compensation, 32-bit float, ZIP. Alpha is omitted for opaque
-// backgrounds, where it equals the number of samples.
+// A frame's sum is the sum of its blocks of 64 samples, added in order (render/accumulation/layer_sum.h). Compensated
+// sums are not exactly associative, so a file stores each block separately, in two layers: value and compensation,
+// 32-bit float, ZIP. Alpha is omitted for opaque backgrounds, where it equals the number of samples.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,16 +16,17 @@
 namespace defocus::engine {
 
 struct FramePart {
-    SampleRange range;               // clipped to the frame's samples
-    std::uint32_t frameSamples = 0;  // samples of the full frame
-    std::string settings;            // settings of the frame; equal for all parts
+    SampleRange range;               // clamped to the frame's samples
+    std::uint32_t frameSamples = 0;  // of the full frame
+    std::string settings;            // settings of the frame, equal for all parts
     int width = 0;
     int height = 0;
     std::vector<BlockSum> blocks;
-    Metadata metadata;  // metadata of the full frame
+    Metadata metadata;  // of the full frame
 };
 
-// `path` must end in .exr. Both functions throw Error naming the file.
+// `path` must end in .exr. Both functions throw Error, with the path in its message, if the file cannot be read or
+// written.
 void writePart(const std::filesystem::path& path, const FramePart& part);
 FramePart readPart(const std::filesystem::path& path);
 
@@ -35,8 +35,8 @@ struct MergedFrame {
     Metadata metadata;
 };
 
-// Merges the parts of one frame, in any order. Throws Error naming the files if parts overlap, are missing, cut a block
-// or differ in settings. Needs a current GL context.
+// Merges the parts of one frame, given in any order. Throws Error, with the paths in its message, if parts overlap, are
+// missing, divide a block or differ in settings. Needs a current OpenGL context.
 MergedFrame mergeParts(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace defocus::engine

@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the rows of the image that one tile of the band accounts for in rowsDone().
+// Returns the contribution of one tile of the band to rowsDone().
 double rowsOfTile(const Band& band) {
     return static_cast<double>(band.rows.end - band.rows.first) / static_cast<double>(band.tiles.size());
 }
@@ -24,7 +24,7 @@ bool TileWalk::advance() {
     if (!std::exchange(drawing_, true)) renderer_->start(tileOf(*plan_, tile));
     if (renderer_->advance()) return true;
 
-    // The tile is finished.
+    // The tile is complete.
     drawing_ = false;
     addTileStats(stats_, renderer_->stats());
     ++tiles_;

@@ -1,6 +1,5 @@
 #pragma once
-// Draws bands of a frame tile by tile. Stills, videos and the library all use it for frames that don't fit into memory
-// in one piece.
+// Draws a frame that exceeds the memory, band by band and tile by tile.
 
 #include <functional>
 #include <vector>
@@ -13,19 +12,19 @@ namespace defocus::engine {
 
 class TileWalk {
 public:
-    // Receives the pixels of a finished tile, in the tile's size.
+    // Receives the pixels of a complete tile, in the tile's size.
     using Sink = std::function<void(const Tile& tile, Image&& pixels)>;
 
-    // All arguments must outlive this object. `plan` is that of the full frame; the method must draw tiles
-    // (Method::drawsTiles).
+    // All arguments must outlive this object. `plan` is the plan of the full frame. The renderer's method must draw
+    // tiles (Method::drawsTiles).
     TileWalk(Renderer& renderer, const FramePlan& plan, const std::vector<Band>& bands, Sink sink);
 
-    // Draws one wave of the current tile. Returns false once all tiles are finished.
+    // Draws one wave of the current tile. Returns false once all tiles are complete.
     bool advance();
 
-    // Number of image rows finished, including a fraction for the current tile.
+    // Returns the number of complete image rows, plus a fraction for complete tiles and samples of the current band.
     [[nodiscard]] double rowsDone() const;
-    // Summed over all finished tiles.
+    // Returns the sum of the statistics of all complete tiles.
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
     [[nodiscard]] int tiles() const { return tiles_; }
 
@@ -35,17 +34,17 @@ private:
     const std::vector<Band>* bands_;
     Sink sink_;
     std::size_t band_ = 0;
-    std::size_t tile_ = 0;  // index into the band
+    std::size_t tile_ = 0;  // index into Band::tiles
     bool drawing_ = false;
     double rowsDone_ = 0;
     RenderStats stats_;
     int tiles_ = 0;
 };
 
-// Copies a tile's pixels into `rows`, which holds rows of the full image from `firstRow` on.
+// Copies a tile's pixels into `rows`, whose first row is row `firstRow` of the full image.
 void placeTile(Image& rows, int firstRow, const Tile& tile, const Image& pixels);
 
-// Adds the stats `added` of a tile to `sum`, both of one frame: sums times and triangles, keeps the larger peak.
+// Adds the statistics of a tile to those of its frame: times and triangles are summed; the larger peak is kept.
 void addTileStats(RenderStats& sum, const RenderStats& added);
 
 }  // namespace defocus::engine

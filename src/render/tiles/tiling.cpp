@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint64_t maxLayers = 64;
-constexpr std::uint64_t shareOfLayers = 4;  // at most a quarter of the memory, so that bands have many rows
+constexpr std::uint64_t shareOfLayers = 4;  // layers get at most 1/4 of the memory, so that bands have many rows
 constexpr int minRows = 16;
 
 std::uint64_t product(int a, int b) {
@@ -23,12 +23,13 @@ std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
     return cellsOf(needs.width, needs.height);
 }
 
-// Software drivers still hold the previous tile's layers while new ones are allocated.
+// Returns how many copies of the layers exist at once: software drivers keep those of the previous tile while new
+// layers are allocated.
 std::uint64_t layerCopies(const TilingNeeds& needs) {
     return needs.shared ? 2 : 1;
 }
 
-// Returns the needs with the memory of kept images subtracted.
+// Returns the needs with TilingNeeds::keptBytes subtracted from the available memory.
 TilingNeeds besidePictures(TilingNeeds needs) {
     const auto take = [&](std::uint64_t& memory) { memory -= std::min(memory, needs.keptBytes); };
     take(needs.hostMemory);
@@ -36,7 +37,7 @@ TilingNeeds besidePictures(TilingNeeds needs) {
     return needs;
 }
 
-// Returns the number of rows of a band if the layers take `layers` bytes.
+// Returns the max number of rows of a band if the layers take `layers` bytes.
 std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std::uint64_t layers) {
     layers *= layerCopies(needs);
     if (layers >= needs.deviceMemory) return 0;
@@ -46,8 +47,8 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
     return needs.shared ? left / (device + host) : std::min(left / device, needs.hostMemory / host);
 }
 
-// Returns the number of bands for `length` rows with at most `max` rows per band. Prefers equal heights, with up to 50
-// % more bands. For a new height, new sums are allocated while drivers still hold the old ones.
+// Returns the number of bands for `length` rows with at most `max` rows each. Uses up to 50 % more bands for equal
+// heights, because a band of another height needs new sums while drivers still keep the old sums.
 int bandCount(int length, int max) {
     const int fewest = (length + max - 1) / max;
     for (int count = fewest; count <= fewest + fewest / 2; ++count)
@@ -59,7 +60,7 @@ int bandCount(int length, int max) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
     const std::uint64_t min = layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
-    // Adds 5 % for variations between runs.
+    // Add 5 % for variations between runs.
     const std::string enough =
         needs.shared && needs.elsewhere > 0
             ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
@@ -68,7 +69,7 @@ int bandCount(int length, int max) {
          bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
-// Returns the band of rows that lie in one row of cells.
+// Returns the band for `rows`, which must be within one row of cells.
 Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
     Band band{rows, {}};
     for (const PixelRectangle& cell : cells)
@@ -102,7 +103,8 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // Divide each row of cells into equal bands, except for the last. A change of size reallocates layers and sums.
+    // Divide each row of cells into bands of equal height, except for the last band, because a change of size
+    // reallocates layers and sums.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);

@@ -1,4 +1,4 @@
-// glTF 2.0 specification: accessors, data alignment and sparse accessors (3.6.2), normalised integers (3.11).
+// Source: glTF 2.0 specification; accessors, data alignment and sparse accessors (3.6.2), normalised integers (3.11).
 #include "scene/gltf/accessor.h"
 
 #include <algorithm>
@@ -9,14 +9,14 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// Returns the bytes of a component type, or 0 for types that glTF lacks. tinygltf also knows INT and DOUBLE.
+// Returns the bytes of a component type; 0 for types that are not in glTF, such as tinygltf's INT and DOUBLE.
 std::size_t componentBytes(int componentType) {
     if (componentType == TINYGLTF_COMPONENT_TYPE_INT || componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) return 0;
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
     return static_cast<std::size_t>(std::max(bytes, 0));
 }
 
-// Memory layout of an accessor element: `columns` columns of `rows` components. Columns of a matrix are aligned to four
+// Memory layout of an accessor element: `columns` columns of `rows` components. Columns of matrices are aligned to four
 // bytes.
 struct Layout {
     std::size_t rows = 1;
@@ -44,8 +44,8 @@ const tinygltf::Accessor& accessorAt(const Source& source, int index) {
     return source.model.accessors[static_cast<std::size_t>(index)];
 }
 
-// Throws Error unless `count` elements of `elementBytes`, starting at `offset` and `stride` bytes apart, lie inside the
-// buffer view.
+// Throws Error unless `count` elements of `elementBytes` bytes, spaced by `stride` bytes from byte `offset`, lie inside
+// buffer view `view`.
 void checkRange(const Source& source, const std::string& what, int view, std::uint64_t offset, std::uint64_t count,
                 std::uint64_t elementBytes, std::uint64_t stride) {
     const std::uint64_t available = viewBytes(source, view).size();
@@ -104,8 +104,8 @@ double loadComponent(const std::byte* bytes, int componentType) {
     }
 }
 
-// Calls store(element, component, value) for each component of the accessor: first the buffer view, then the sparse
-// elements.
+// Calls store(element, component, value) for each component of an accessor. Values of sparse elements come last, so
+// that they replace those of the buffer view.
 template <typename Store>
 void forEachComponent(const Source& source, int index, const std::string& what, const Store& store) {
     const tinygltf::Accessor& accessor = accessorAt(source, index);
@@ -194,7 +194,7 @@ std::vector<float> readFloats(Source& source, int accessor, int components, cons
     takeBudget(source, elementCount(source, accessor), perElement * sizeof(float), what);
     std::vector<float> result(elementCount(source, accessor) * perElement);
     const double scale = normalisationScale(source, accessor);
-    // Signed normalised integers are clamped to −1, such as −128/127 and −32768/32767 (3.11).
+    // Clamp signed normalised integers to −1, because −128/127 and −32768/32767 are less than −1 (3.11).
     const bool clamps = scale != 1.0;
     forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
         result[element * perElement + component] = static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);

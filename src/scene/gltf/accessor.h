@@ -1,6 +1,6 @@
 #pragma once
-// Typed reading of accessors: all component types, normalised integers, interleaved data, matrices and sparse
-// substitution. Accessors without data read as zeros. Internal to the loader.
+// Reads accessors as floats or integers: all component types, normalised integers, interleaved data, matrices and
+// sparse elements. Accessors without data read as zeros. Internal to the glTF loader.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -13,23 +13,25 @@
 
 namespace defocus::engine::gltf {
 
-// Throws Error unless every accessor has a known type and lies inside its buffer view. Reads no element.
+// Throws Error unless every accessor has a known type and lies inside its buffer view.
 void checkAccessors(const Source& source);
 
 std::size_t elementCount(const Source& source, int accessor);
-int componentCount(const Source& source, int accessor);  // 1 (SCALAR), 2 to 4 (vectors), 16 (MAT4) …
+int componentCount(const Source& source, int accessor);  // per element: 1 (SCALAR), 2 to 4 (VEC2 to VEC4), 16 (MAT4) …
 
-// Returns the divisor of the accessor's normalised integers; 1 if it is not normalised.
+// Returns the divisor that maps the accessor's normalised integers to [0, 1] or [−1, 1]; 1 for an accessor that is not
+// normalised.
 double normalisationScale(const Source& source, int accessor);
 
-// Returns all elements as floats; normalised integers become [0, 1] or [−1, 1]. Throws Error that names `what` unless
-// each element has `components` components.
+// Returns all elements as floats; normalised integers become [0, 1] or [−1, 1]. Throws Error, with `what` in its
+// message, unless each element has `components` components.
 std::vector<float> readFloats(Source& source, int accessor, int components, const std::string& what);
 
-// Same for unscaled integers (indices, joints). Throws Error for accessors of float or signed type.
+// Returns all elements as integers, e.g. indices and joints. Throws Error under the same condition, and for accessors
+// of float or signed type.
 std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int components, const std::string& what);
 
-// Same as readFloats, grouped into vectors.
+// Same as readFloats, with one glm vector per element.
 template <typename Vector>
 std::vector<Vector> readVectors(Source& source, int accessor, const std::string& what) {
     constexpr int components = Vector::length();

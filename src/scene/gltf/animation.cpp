@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.7.3 (skins) and 3.11 (animations); KHR_animation_pointer.
+// Source: glTF 2.0 specification, 3.7.3 (skins) and 3.11 (animations); KHR_animation_pointer.
 #include "scene/gltf/animation.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 // Property that an animation channel drives.
 struct Target {
     ChannelPath path = ChannelPath::translation;
-    std::uint64_t index = 0;  // index of the file's node, camera or light
+    std::uint64_t index = 0;  // index of the node, camera or light in the file
     std::string lensValue;
 };
 
@@ -34,7 +34,7 @@ std::optional<ChannelPath> lightPathNamed(const std::string& name) {
     return std::nullopt;
 }
 
-// Returns the parts of a JSON pointer: "/nodes/3/scale" → nodes, 3, scale.
+// Splits a JSON pointer: "/nodes/3/scale" → nodes, 3, scale.
 std::vector<std::string> pointerParts(const std::string& pointer) {
     std::vector<std::string> parts;
     for (std::size_t at = 0; at < pointer.size();) {
@@ -70,7 +70,8 @@ std::optional<Target> pointedTarget(const std::string& pointer) {
     return path ? std::optional(Target{*path, *index, ""}) : std::nullopt;
 }
 
-// Returns the property that a channel drives. Notes channels that cannot be played and returns nullopt.
+// Returns the property that a channel drives. If the property cannot be animated, adds an entry to Source::ignored and
+// returns nullopt.
 std::optional<Target> targetOf(Source& source, const nlohmann::json& json) {
     const auto path = json["path"].get<std::string>();
     if (path == "pointer") {
@@ -143,13 +144,14 @@ void readKeys(Source& source, const tinygltf::AnimationSampler& sampler, std::si
         fault(source.document, "{}: its values are not finite", what);
     if (channel.path != ChannelPath::rotation || channel.interpolation == Interpolation::cubicSpline) return;
     for (std::size_t i = 0; i < channel.values.size(); i += 4) {
-        // A zero quaternion means no rotation.
+        // Replace a zero quaternion by the identity rotation.
         float* value = &channel.values[i];
         if (value[0] == 0 && value[1] == 0 && value[2] == 0 && value[3] == 0) value[3] = 1;
     }
 }
 
-// Returns the target's index among the kept nodes, cameras or lights; −1 if the scene does not contain the target.
+// Returns the target's index in Scene::nodes, cameras or lights; −1 if the target is a node outside the chosen glTF
+// scene.
 int keptTarget(const Source& source, const Target& target, const Hierarchy& hierarchy, const std::string& what) {
     const bool node = ofNode(target.path);
     const bool light = target.path == ChannelPath::lightColor || target.path == ChannelPath::lightIntensity ||
@@ -235,7 +237,7 @@ std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy) {
 
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins) {
-    // Largest joint index with a positive weight, per mesh.
+    // Find the largest joint index with a positive weight per mesh.
     std::vector<std::size_t> largest(meshes.size());
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const auto look = [&](const std::vector<glm::u16vec4>& joints, const std::vector<glm::vec4>& weights) {

@@ -1,17 +1,18 @@
 #pragma once
-// Animation clips and skins. Internal to the loader.
+// Reads animation clips and skins. Internal to the glTF loader.
 
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
 
 namespace defocus::engine::gltf {
 
-// Returns the clips of the kept nodes. Channels of other nodes are dropped; channels that cannot be played are noted.
+// Returns the file's clips. Channels of nodes that are not in `hierarchy` are dropped. Channels of unsupported
+// properties are listed in Source::ignored.
 std::vector<AnimationClip> readAnimations(Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes);
 
 std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy);
 
-// Throws Error if a mesh refers to joints that its node's skin lacks.
+// Throws Error if a mesh has joint indices beyond the joints of its node's skin.
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins);
 

@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.7.2 (meshes).
+// Source: glTF 2.0 specification, 3.7.2 (meshes).
 #include "scene/gltf/attributes.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ public:
         return componentCount(source_, primitive_.attributes.at(name));
     }
 
-    // Returns the attribute's values; empty if the primitive lacks it.
+    // Returns the values of attribute `name`; empty if the primitive lacks this attribute.
     template <typename Vector>
     std::vector<Vector> read(const std::string& name) const {
         const auto found = primitive_.attributes.find(name);
@@ -84,7 +84,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Returns vertex colours as RGBA, clamped to [0, 1] as the specification requires.
+// Returns vertex colours as RGBA, clamped to [0, 1] as glTF requires.
 std::vector<glm::vec4> readColors(const AttributeReader& reader) {
     std::vector<glm::vec4> result;
     if (!reader.has("COLOR_0")) return result;
@@ -112,10 +112,10 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-constexpr float maxBlur = 1e6f;  // limit of _COC values: mm on the sensor, or a factor on the lens's blur
+constexpr float maxBlur = 1e6f;  // max of _COC… attributes: mm on the sensor, or a factor on the lens's blur
 
-// Returns one scalar per vertex; empty if the primitive lacks the attribute. Throws Error for values outside [min,
-// maxBlur].
+// Returns the scalar attribute `name` per vertex; empty if the primitive lacks it. Throws Error for values outside
+// [min, maxBlur].
 std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float min,
                                const std::string& what) {
     if (!reader.has(name)) return {};
@@ -131,8 +131,8 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
     return values;
 }
 
-// Returns vertex blurs: _COC_SCALE · blur + _COC_OFFSET. The blur is the lens's, or _COC, or the linear change from
-// _COC_0 to _COC_1 during the exposure.
+// Returns the blur per vertex, _COC_SCALE · c + _COC_OFFSET. c is the lens's circle of confusion, unless the primitive
+// has attribute _COC, or _COC_0 and _COC_1 for a linear change during the exposure.
 std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
     const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);
@@ -165,7 +165,7 @@ bool normalise(glm::vec3& vector) {
     const glm::dvec3 wide = vector;
     const double length = glm::length(wide);
     if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // Vectors of unit length within single precision stay unchanged.
+    // Do not change vectors that have unit length within single precision.
     if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
     return true;
 }
@@ -191,7 +191,7 @@ void repairTangents(VertexBlock& block) {
     }
 }
 
-// Sets negative and non-finite weights to 0 and returns the sum of the others.
+// Sets negative and non-finite weights to 0. Returns the sum of the remaining weights.
 double usableSum(glm::vec4& weight) {
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
@@ -201,7 +201,7 @@ double usableSum(glm::vec4& weight) {
     return sum;
 }
 
-// Normalises the weights of all influences to sum 1. Vertices without a positive weight follow their first joint.
+// Normalises each vertex's joint weights to sum 1. A vertex without a positive weight follows its first joint.
 void repairWeights(VertexBlock& block) {
     Vertices& vertices = block.vertices;
     bool furtherCount = false;

@@ -1,5 +1,5 @@
 #pragma once
-// A primitive's vertex attributes and morph targets as a VertexBlock. Internal to the loader.
+// Reads a primitive's vertex attributes and morph targets as a VertexBlock. Internal to the glTF loader.
 
 #include "scene/gltf/draco.h"
 #include "scene/gltf/source.h"
@@ -7,17 +7,18 @@
 
 namespace defocus::engine::gltf {
 
-// Reads the attributes of `primitive`; `draco` (or nullptr) holds its compressed data. All attributes must have as many
-// elements as POSITION. Normals stay empty if the file has none; tangents are then dropped, as the standard requires.
+// Returns the attributes of `primitive`, which are read from `draco` if it is not nullptr. Without normals in the file,
+// normals are empty and tangents are dropped, as glTF requires. Throws Error, with `what` in its message, unless all
+// attributes have as many elements as POSITION.
 VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
                            const std::string& what);
 
-// Removes triangles with a NaN or infinite corner and returns their number.
+// Removes triangles with a NaN or infinite position and returns their number.
 std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
                            std::span<std::vector<std::uint32_t>* const> indices);
 
-// Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and weights sum to 1.
-// Non-finite and near-zero vectors are replaced.
+// Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and joint weights sum to
+// 1. Non-finite and near-zero normals and tangents are replaced.
 void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 }  // namespace defocus::engine::gltf

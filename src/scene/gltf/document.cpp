@@ -1,4 +1,5 @@
-// glTF 2.0 specification: URIs (3.6) and GLB (4). RFC 2397 (data URIs), RFC 3986 (percent-encoding), RFC 4648 (base64).
+// Sources: glTF 2.0 specification, URIs (3.6) and GLB (4); RFC 2397 (data URIs), RFC 3986 (percent-encoding), RFC 4648
+// (base64).
 #include "scene/gltf/document.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr std::uint32_t jsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
-constexpr std::size_t longestMessage = 400;  // bytes
+constexpr std::size_t longestMessage = 400;  // max bytes of an error message
 
 using Bytes = std::span<const std::byte>;
 
@@ -43,8 +44,8 @@ struct Container {
     std::optional<Bytes> binary;
 };
 
-// Splits a .glb into its JSON and binary chunks. tinygltf's reader is not used: it parses the JSON and reads external
-// files before any check.
+// Splits a GLB file into its JSON and binary chunks. tinygltf's GLB reader is not used: it parses the JSON and reads
+// external files before their sizes can be checked.
 Container splitGlb(const Document& document, Bytes bytes) {
     if (bytes.size() < headerBytes) fault(document, "truncated: a .glb needs a header of {} bytes", headerBytes);
     if (littleEndian32(bytes, 0) != glbMagic) fault(document, "not a .glb file: its magic number is wrong");
@@ -74,7 +75,7 @@ Container splitGlb(const Document& document, Bytes bytes) {
     return result;
 }
 
-// Replaces control characters in names, since names are printed to terminals.
+// Replaces control characters in all "name" properties, because names are printed to terminals.
 void freeNames(nlohmann::json& json) {
     if (json.is_object())
         if (const auto found = json.find("name"); found != json.end() && found->is_string()) {
@@ -114,7 +115,7 @@ void checkVersion(const Document& document) {
         fault(document, "glTF version {} is not supported (only 2.0)", needed != version ? needed : version);
 }
 
-// Decodes percent-encoding. tinygltf's decoder is not used because it turns + into a space.
+// Decodes percent-encoding in a URI. tinygltf's decoder is not used because it turns + into a space.
 std::string percentDecoded(std::string_view text) {
     if (text.find('%') == std::string_view::npos) return std::string(text);
     std::string result;
@@ -129,8 +130,8 @@ std::string percentDecoded(std::string_view text) {
     return result;
 }
 
-// Returns nullopt for text that is not base64. Skips line breaks and accepts missing padding. tinygltf's decoder is ten
-// times slower and does not report invalid characters.
+// Decodes base64; skips line breaks and accepts missing padding. Returns nullopt for invalid characters, which
+// tinygltf's decoder, also ten times slower, does not report.
 std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
     static const std::array<int, 256> digits = [] {
         std::array<int, 256> table{};
@@ -173,8 +174,8 @@ std::vector<std::byte> readDataUri(const Document& document, const std::string& 
     return {bytes.begin(), bytes.end()};
 }
 
-// Returns whether the URI has a scheme: letters, digits, '+', '-' or '.' before a colon. A single letter is not a
-// scheme but a drive or part of a file name.
+// Returns whether the URI has a scheme: two or more letters, digits, '+', '-' or '.' before the first colon. A single
+// letter is a drive or part of a file name.
 bool hasScheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string_view::npos && colon > 1 &&
@@ -189,7 +190,7 @@ std::string oneLine(std::string text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
     if (text.size() <= longestMessage) return text;
     std::size_t end = longestMessage;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // keeps UTF-8 characters intact
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // cut between UTF-8 characters
     return text.substr(0, end) + "…";
 }
 
@@ -207,8 +208,8 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
     if (isDataUri(uri)) return std::nullopt;
     if (hasScheme(uri)) fault(document, "{}: '{}' is not a relative path; only local files are read", what, uri);
 
-    // The standard requires percent-encoded names, so the decoded path is tried first. Some exporters write names
-    // unencoded.
+    // glTF requires percent-encoded URIs, so try the decoded path first. Some exporters write file names without
+    // encoding.
     const std::filesystem::path asWritten = document.folder / uri;
     const std::filesystem::path decoded = document.folder / percentDecoded(uri);
     if (uri.empty() || uri.find('\0') != std::string::npos || std::filesystem::path(percentDecoded(uri)).is_absolute())
@@ -229,8 +230,8 @@ Document readDocument(const std::filesystem::path& path) {
     document.file = path.string();
     document.folder = path.parent_path();
 
-    // GLB is recognised by its magic number, not by its extension. A broken container is treated as GLB if it is
-    // named .glb.
+    // A file is GLB if it has the magic number or the extension .glb, so that errors of a damaged .glb file name the
+    // GLB header.
     const std::vector<std::byte> bytes = readFile(path);
     document.fileBytes = bytes.size();
     if (bytes.empty()) fault(document, "the file is empty: not valid JSON");

@@ -1,6 +1,6 @@
 #pragma once
-// glTF file split into its parts without interpreting them: JSON, binary chunk of a .glb, and access to external files.
-// Internal to the loader.
+// Splits a glTF file into JSON and the binary chunk of a .glb file, and reads the files and data URIs that the JSON
+// refers to. Internal to the glTF loader.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,36 +16,36 @@
 namespace defocus::engine::gltf {
 
 struct Document {
-    std::string file;                                   // path as given by the user, for messages
+    std::string file;                                   // path as given by the user, for error messages
     std::filesystem::path folder;                       // base folder of relative URIs
     nlohmann::json json;                                // always a JSON object
     std::optional<std::vector<std::byte>> binaryChunk;  // only for .glb files
     std::uint64_t fileBytes = 0;
 };
 
-// Reads the file at `path`. Throws Error for an invalid container or JSON: length, magic number, version, byte order
-// mark or nesting.
+// Reads a .gltf or .glb file. Throws Error if the JSON or the GLB container is invalid: length, magic number, version,
+// byte order mark or nesting depth.
 Document readDocument(const std::filesystem::path& path);
 
-// Returns the number of entries in the JSON's array `name`.
+// Returns the number of entries in the JSON's top-level array `name`; 0 if it does not exist.
 std::size_t entryCount(const Document& document, std::string_view name);
 
-// Returns whether the URI embeds its data ("data:").
+// Returns whether the URI contains its data ("data:…").
 bool isDataUri(const std::string& uri);
 
-// Returns the regular file that a URI refers to, relative to the document; nullopt for data URIs. Throws Error if the
-// file is missing. `what` names the URI's owner in messages.
+// Returns the path of the file that a URI refers to, relative to the document's folder; nullopt for data URIs. Throws
+// Error if there is no such regular file. `what` describes the object with the URI in error messages.
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
 
-// Returns the bytes of a data URI or file. Data URIs may have any media type, in base64 (also with line breaks) or
-// percent-encoding.
+// Returns the bytes of a data URI or of the file that a URI refers to. Data URIs may have any media type, and base64
+// (also with line breaks) or percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
-// a file stays one short line.
+// Returns `text` as one short line for error messages, which may contain names from a file: control characters become
+// spaces, and text beyond 400 bytes is cut.
 std::string oneLine(std::string text);
 
-// Throws Error "FILE: message" as one line.
+// Throws Error with the one-line message "FILE: …", where FILE is the document's path.
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
     throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));

@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression (Khronos glTF extension), decoded with Google's Draco library.
+// Decodes KHR_draco_mesh_compression (Khronos glTF extension) with Google's Draco library.
 #include "scene/gltf/draco.h"
 
 #include <draco/compression/decode.h>
@@ -17,7 +17,8 @@ struct DracoPrimitive::Decoded {
 
 namespace {
 
-// Converts one attribute value to floats. Returns false if the stored type cannot be converted.
+// Converts one vertex's value of an attribute to floats; integers are divided by `scale`. Returns false if the stored
+// type cannot be converted.
 bool convert(const draco::PointAttribute& attribute, draco::AttributeValueIndex index, int components, double scale,
              float* result) {
     if (attribute.data_type() == draco::DT_FLOAT32)

@@ -1,6 +1,6 @@
 #pragma once
-// KHR_draco_mesh_compression: a primitive's triangles and attributes, decoded from one compressed buffer view. Internal
-// to the loader.
+// KHR_draco_mesh_compression: decodes a primitive's triangles and attributes from one compressed buffer view. Internal
+// to the glTF loader.
 
 #include <map>
 #include <memory>
@@ -11,10 +11,11 @@
 
 namespace defocus::engine::gltf {
 
-// Decoded primitive. Attributes are read from it by name, since their accessors have no data.
+// Decoded primitive with its attributes by name. The file's accessors of these attributes have no data.
 class DracoPrimitive {
 public:
-    // Decodes a primitive's extension object `json`. Throws Error that names `what` if the data is invalid.
+    // Decodes the primitive that extension object `json` describes. Throws Error, with `what` in its message, if the
+    // data is invalid.
     DracoPrimitive(Source& source, const nlohmann::json& json, const std::string& what);
     ~DracoPrimitive();
     DracoPrimitive(DracoPrimitive&&) noexcept;
@@ -23,7 +24,7 @@ public:
     [[nodiscard]] std::size_t vertexCount() const;
     [[nodiscard]] std::vector<std::uint32_t> triangles() const;
     [[nodiscard]] bool has(const std::string& attribute) const;
-    // Returns `components` floats per vertex; integers are divided by `scale` (see normalisationScale).
+    // Returns an attribute as `components` floats per vertex; integers are divided by `scale` (see normalisationScale).
     [[nodiscard]] std::vector<float> floats(const Source& source, const std::string& attribute, int components,
                                             double scale) const;
 

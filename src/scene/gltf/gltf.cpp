@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Throws Error if world matrices overflow: finite local matrices can multiply to infinity.
+// Throws Error if a node's world matrix is not finite: products of finite local matrices can overflow.
 void checkPlacement(const gltf::Source& source, const Scene& scene) {
     const Pose pose = unmeasuredPoseAt(scene, 0, -1);
     const auto finite = [](const glm::dmat4& matrix) {
@@ -35,10 +35,10 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
             gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
 }
 
-// Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
+// Takes each object's memory from the source's budget. Instances share a mesh but need memory of their own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
-    constexpr std::uint64_t objectBytes = 2304;                   // measured per object, over pose and rendering
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // joint matrices in the pose and in the render plan
+    constexpr std::uint64_t objectBytes = 2304;                   // measured per object, for its pose and its rendering
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // per joint, in the pose and in the frame's plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;
@@ -60,8 +60,8 @@ std::vector<std::string> extensionsOf(const gltf::Source& source) {
     return {names.begin(), names.end()};
 }
 
-// Returns the unit from the extras of the asset or the scene: a name such as "cm", or metres. nullopt: not given;
-// glTF's own unit is the metre.
+// Returns the metres per unit from the extras of the scene or the asset, given as a name such as "cm" or as a number.
+// Returns nullopt if the extras state no unit.
 std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
     const nlohmann::json& json = source.document.json;
     std::vector<const nlohmann::json*> holders;
@@ -85,7 +85,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     Scene scene;
     scene.file = path;
 
-    // 1. Materials first: their normal maps decide which meshes need tangents.
+    // Read materials before meshes: meshes with normal maps need tangents.
     scene.materials = gltf::readMaterials(source);
     scene.textures = gltf::readTextures(source);
     gltf::Images images = gltf::readImages(source, progress);
@@ -94,7 +94,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 
-    // 3. Hierarchy and animation.
+    // Read the hierarchy and the animation.
     gltf::Hierarchy hierarchy = gltf::readHierarchy(source);
     scene.cameras = gltf::readCameras(source);
     scene.lights = gltf::readLights(source);
@@ -106,7 +106,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.nodes = std::move(hierarchy.nodes);
     scene.roots = std::move(hierarchy.roots);
 
-    // 4. Checks, unit, extensions and notes.
+    // Check the world matrices, and read the unit and the extensions.
     checkPlacement(source, scene);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
@@ -121,7 +121,7 @@ Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
     try {
         return readScene(source, path, progress);
     } catch (const nlohmann::json::exception& exception) {
-        // Safety net: checkSchema should already have rejected such a file.
+        // Reached only if checkSchema has missed an error in the JSON.
         gltf::fault(source.document, "not valid glTF: {}", exception.what());
     } catch (const std::bad_alloc&) {
         gltf::fault(source.document, "it does not fit into memory");

@@ -1,11 +1,11 @@
 #pragma once
-// Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use: an invalid file
-// throws Error with the file's name and the fault. Unsupported required extensions throw Error too; other content that
-// is not drawn is listed in Scene::ignored with its reason.
+// Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use. An invalid file
+// or an unsupported required extension throws Error with the file's path. Other content that is not drawn is listed in
+// Scene::ignored with the reason.
 //
-// Missing data is completed as the standard requires. Primitives without normals are flat-shaded with unshared
-// vertices; missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer
-// vertices than its accessors. Nodes are those of the default scene, else of the first scene, else all.
+// Missing data is completed as glTF requires. Primitives without normals are flat-shaded with unshared vertices;
+// missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer vertices than
+// its accessors. Nodes are those of the default scene, else of the first scene, else all.
 
 #include <filesystem>
 

@@ -1,6 +1,6 @@
-// glTF 2.0 specification: textures (3.8), materials (3.9). Extensions: KHR_texture_transform, KHR_materials_unlit,
-// KHR_materials_emissive_strength and KHR_materials_pbrSpecularGlossiness. Material layers: KHR_materials_ior,
-// _specular, _transmission, _volume, _clearcoat and _sheen.
+// Sources: glTF 2.0 specification, textures (3.8) and materials (3.9). Extensions: KHR_texture_transform,
+// KHR_materials_unlit, _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _clearcoat
+// and _sheen.
 #include "scene/gltf/material.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-constexpr double dielectricReflectance = 0.04;  // at normal incidence
-constexpr double minShare = 1e-6;               // lower bound of a divisor when solving for the base colour
+constexpr double dielectricReflectance = 0.04;  // reflectance at normal incidence
+constexpr double minShare = 1e-6;               // lower bound of divisors in the conversion from specular-glossiness
 
 // ---- materials ----------------------------------------------------------------------------------
 
@@ -25,8 +25,8 @@ float numberOf(const nlohmann::json& json, const char* name, double otherwise) {
     return toFloat(json.value(name, otherwise));
 }
 
-// Returns the matrix T · R · S of uv' = T · R · S · uv. The rotation is counter-clockwise in the image, whose v axis
-// points down.
+// Returns the matrix T · R · S (offset, rotation, scale) that transforms (u, v, 1). The rotation is counter-clockwise
+// in the image, whose v axis points down.
 glm::mat3 textureTransform(const nlohmann::json& json) {
     const auto offset = json.value("offset", std::vector<double>{0, 0});
     const auto scale = json.value("scale", std::vector<double>{1, 1});
@@ -37,7 +37,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
-// Returns the texture reference `name` of `owner`. A texture that cannot be drawn is noted and omitted.
+// Returns the texture reference `name` of the JSON object `owner`. A texture that cannot be drawn is omitted and listed
+// in Source::ignored.
 TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* name) {
     TextureUse use;
     const auto found = owner.find(name);
@@ -78,9 +79,9 @@ glm::dvec3 colorOf(const nlohmann::json& json, const char* name) {
     return color;
 }
 
-// Returns the metalness m at which the base colours b from the diffuse d and the specular s agree. They are b = d·(1 −
-// max s) / ((1 − 0.04)(1 − m)) and s = 0.04·(1 − m) + b·m, solved for brightness values. `left` is 1 − max s. Source:
-// Khronos, "Convert between workflows", KHR_materials_pbrSpecularGlossiness.
+// Returns the metalness m for diffuse colour d and specular colour s: the solution of b = d·(1 − max s) / ((1 − 0.04)(1
+// − m)) and s = 0.04·(1 − m) + b·m with base colour b, where colours are replaced by their brightness. `left` is 1 −
+// max s. Source: Khronos, "Convert between workflows", KHR_materials_pbrSpecularGlossiness.
 double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double left) {
     const auto brightness = [](const glm::dvec3& c) {
         return std::sqrt(glm::dot(glm::dvec3(0.299, 0.587, 0.114), c * c));
@@ -93,8 +94,9 @@ double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double
     return std::clamp((root - b) / (2 * dielectricReflectance), 0.0, 1.0);
 }
 
-// Converts to the closest metallic-roughness material. The conversion is exact if diffuse and specular are the same
-// grey, or if the specular is that of a dielectric. Materials with a specular texture are treated as dielectrics.
+// Converts a specular-glossiness material to the closest metallic-roughness material. The conversion is exact if
+// diffuse and specular colours are the same grey, or if the specular colour is 0.04. Materials with a specular texture
+// are treated as dielectrics.
 void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
     glm::dvec3 specular = colorOf(json, "specularFactor");

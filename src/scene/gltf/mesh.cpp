@@ -1,4 +1,4 @@
-// glTF 2.0 specification, 3.7.2 (meshes): strips and fans, flat normals, tangents.
+// Source: glTF 2.0 specification, 3.7.2 (meshes): strips and fans, flat normals, tangents.
 #include "scene/gltf/mesh.h"
 
 #include <algorithm>
@@ -12,21 +12,22 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// Accessors of a primitive's attributes and morph targets. Primitives with equal accessors share vertices.
+// Accessor indices of a primitive's attributes and morph targets, by attribute name. Primitives with equal accessors
+// share vertices.
 struct VertexSource {
     std::map<std::string, int> attributes;
     std::vector<std::map<std::string, int>> targets;
     auto operator<=>(const VertexSource&) const = default;
 };
 
-// Primitives of one mesh that share vertices.
+// Primitives of one mesh that share vertices; a Draco-compressed primitive forms its own group.
 struct Group {
     VertexSource vertices;
-    std::vector<std::size_t> members;  // indices of the mesh's primitives
+    std::vector<std::size_t> members;  // indices into the mesh's primitives
     bool compressed = false;
 };
 
-// Vertices that were read last: some files use one set of attributes for many meshes.
+// Cache of the most recently read vertices, because some files use the same accessors for many meshes.
 struct LastBlock {
     VertexSource vertices;
     VertexBlock block;
@@ -41,7 +42,7 @@ std::vector<std::uint32_t> triangleList(int mode, const std::vector<std::uint32_
         const std::uint32_t a = fan ? indices[i + 1] : indices[i];
         const std::uint32_t b = fan ? indices[i + 2] : indices[i + 1 + i % 2];
         const std::uint32_t c = fan ? indices[0] : indices[i + 2 - i % 2];
-        // Strips contain degenerate triangles, which repeat a vertex, to turn corners.
+        // Drop degenerate triangles, which repeat a vertex to join two strips.
         if (a != b && b != c && c != a) result.insert(result.end(), {a, b, c});
     }
     return result;
@@ -65,7 +66,8 @@ std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primiti
     return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode, indices);
 }
 
-// Returns true for triangle primitives with positions; other primitives are noted.
+// Returns whether a primitive consists of triangles and has positions; otherwise lists it in Source::ignored. Throws
+// Error for unknown modes.
 bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         fault(source.document, "{}: unknown mode {}", what, primitive.mode);
@@ -103,7 +105,8 @@ std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, c
     return groups;
 }
 
-// Returns the texture coordinate set of the first normal map among the primitives; −1 without normal maps.
+// Returns the texture coordinate set (0 or 1) of the first normal map among the primitives' materials; −1 without
+// normal maps.
 int normalMapUvSet(const std::vector<Primitive>& primitives, const std::vector<Material>& materials) {
     for (const Primitive& primitive : primitives) {
         if (primitive.material < 0) continue;
@@ -140,7 +143,7 @@ public:
     }
 
 private:
-    // Reads the triangles and vertices of a group and appends them to the mesh.
+    // Reads the triangles and vertices of a group. Appends the vertices to the mesh and returns the primitives.
     std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json,
                                      const Group& group, const std::string& label) {
         const std::string what = fmt::format("{}, primitive {}", label, group.members.front());
@@ -179,7 +182,7 @@ private:
         return last_->block;
     }
 
-    // Repairs the attributes and adds missing normals and tangents.
+    // Repairs the attributes, and adds normals if they are missing, and tangents if they are missing and needed.
     VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
                        const std::string& what) {
         repair(source_, block, lists);
@@ -205,7 +208,7 @@ private:
     Source& source_;
     const std::vector<Material>& materials_;
     std::optional<LastBlock> last_;
-    std::uint64_t dropped_ = 0;  // triangles of the mesh with non-finite positions
+    std::uint64_t dropped_ = 0;  // triangles of the current mesh that were dropped because of non-finite positions
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression (glTF vendor extension), decoded with the meshoptimizer library.
+// Decodes EXT_meshopt_compression (glTF vendor extension) with the meshoptimizer library.
 #include "scene/gltf/meshopt.h"
 
 #include <meshoptimizer.h>
@@ -35,7 +35,8 @@ CompressedView compressedView(const Source& source, std::size_t index, const nlo
     return view;
 }
 
-// Throws Error if the view breaks the extension's limits, on which the decoders rely.
+// Throws Error if the mode, stride, filter or count of a compressed view violates the extension; meshoptimizer does not
+// check them.
 void checkLimits(const Source& source, const CompressedView& view) {
     const bool attributes = view.mode == "ATTRIBUTES";
     if (!attributes && view.mode != "TRIANGLES" && view.mode != "INDICES")

@@ -1,11 +1,12 @@
 #pragma once
-// EXT_meshopt_compression: decompresses all compressed buffer views. Internal to the loader.
+// Decompresses buffer views with EXT_meshopt_compression. Internal to the glTF loader.
 
 #include "scene/gltf/source.h"
 
 namespace defocus::engine::gltf {
 
-// Fills Source::unpackedViews. Throws Error for invalid data.
+// Fills Source::unpackedViews with the decompressed bytes of all compressed buffer views. Throws Error for invalid
+// data.
 void unpackMeshoptViews(Source& source);
 
 }  // namespace defocus::engine::gltf

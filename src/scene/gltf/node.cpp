@@ -1,4 +1,5 @@
-// glTF 2.0 specification: scenes and nodes (3.5), cameras (3.10). EXT_mesh_gpu_instancing, KHR_lights_punctual.
+// Sources: glTF 2.0 specification, scenes and nodes (3.5) and cameras (3.10); EXT_mesh_gpu_instancing;
+// KHR_lights_punctual.
 #include "scene/gltf/node.h"
 
 #include <algorithm>
@@ -13,9 +14,9 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// ---- which nodes --------------------------------------------------------------------------------
+// ---- choice of nodes ----------------------------------------------------------------------------
 
-// Returns each node's parent, or −1. Throws Error for nodes with two parents and for cycles.
+// Returns the index of each node's parent; −1 for a root. Throws Error for nodes with two parents and for cycles.
 std::vector<int> parentsOf(const Source& source) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
@@ -26,7 +27,7 @@ std::vector<int> parentsOf(const Source& source) {
             parent = static_cast<int>(i);
         }
 
-    // Each node has at most one parent, so nodes that cannot be reached from a root form a cycle.
+    // Search for cycles: each node has at most one parent, so nodes that no root reaches are in or below a cycle.
     std::vector<bool> reached(nodes.size());
     std::vector<int> stack;
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -66,7 +67,8 @@ std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std
     return roots;
 }
 
-// Marks the nodes of the scene, and the joints of their skins with all ancestors.
+// Returns for each node whether it is needed: the descendants of `roots`, the joints of their skins, and the joints'
+// ancestors.
 std::vector<bool> neededNodes(const Source& source, const std::vector<int>& parents, const std::vector<int>& roots) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;
     std::vector<bool> needed(nodes.size());
@@ -140,7 +142,8 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     return static_cast<int>(light);
 }
 
-// Returns cocScale from the node's extras, a factor on the blur of its mesh; 1 if absent.
+// Returns `cocScale` from the node's extras, a factor on the blur of the node's subtree; 1 if absent. Throws Error
+// unless it is a number ≥ 0.
 double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
     const auto extras = json.find("extras");
     if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
@@ -174,8 +177,8 @@ Node readNode(Source& source, std::size_t index) {
 
 // ---- cameras ------------------------------------------------------------------------------------
 
-// Returns the numbers and booleans among the extras of a camera or its node. Blender exports custom properties as
-// extras.
+// Returns the numbers and booleans (0 or 1) in the extras of a camera or a camera's node. Blender exports custom
+// properties as extras.
 std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json) {
     std::map<std::string, double, std::less<>> values;
     const auto extras = json.find("extras");
@@ -187,10 +190,11 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json
     return values;
 }
 
-// Reads the draft extension EXT_camera_physical, whose lengths are in metres. Values from the extras take precedence.
+// Reads the draft extension EXT_camera_physical, whose lengths are in metres, into `camera`. Values from the extras
+// take precedence.
 void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
     constexpr double millimetres = 1e3;
-    constexpr double longest = 10;  // m; a larger focal length, such as 35, was probably meant in millimetres
+    constexpr double longest = 10;  // m; a larger focal length, such as 35, is probably in millimetres
     const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
     if (extension == nullptr) return;
     const auto number = [&](const nlohmann::json& value, const char* name) {
@@ -212,7 +216,7 @@ void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::s
         ignore(source, label, "its EXT_camera_physical has a focal length of more than 10 m; is it in millimetres?");
 }
 
-// Returns the aperture image's path from the extras; empty if there is none.
+// Returns the path of the aperture image from the extras of a camera or a camera's node; empty if there is none.
 std::string apertureImageOf(const nlohmann::json& camera) {
     const auto extras = camera.find("extras");
     if (extras == camera.end() || !extras->is_object()) return {};
@@ -220,7 +224,7 @@ std::string apertureImageOf(const nlohmann::json& camera) {
     return path != extras->end() && path->is_string() ? path->get<std::string>() : std::string();
 }
 
-// Adds lens properties that the artist set on the camera's node. Properties of the camera itself take precedence.
+// Adds lens properties from the extras of camera nodes to their cameras. Extras of the camera itself take precedence.
 void addNodeExtras(const Source& source, std::vector<Camera>& cameras) {
     for (std::size_t i = 0; i < source.model.nodes.size(); ++i) {
         if (source.model.nodes[i].camera < 0) continue;
@@ -238,8 +242,8 @@ bool isFromBlender(const Source& source) {
            generator->get<std::string>().starts_with("Khronos glTF Blender I/O");
 }
 
-// Rotates the aperture blades by half a step. At rotation 0, Blender has the middle of a blade edge on the right; here
-// a corner is there.
+// Converts the blade rotation from Blender's convention. At rotation 0, the aperture's rightmost point is the middle of
+// an edge in Blender, but a corner here.
 void turnBlades(Camera& camera) {
     const double count = camera.lensValue("bladeCount").value_or(0);
     if (count >= 3) camera.lens["bladeRotation"] += 180 / count;
@@ -252,7 +256,7 @@ Hierarchy readHierarchy(Source& source) {
     const std::vector<int> parents = parentsOf(source);
     const std::vector<int> roots = sceneRoots(source, parents, result.sceneName);
 
-    // Keep the needed nodes, in file order.
+    // Keep needed nodes in file order.
     const std::vector<bool> needed = neededNodes(source, parents, roots);
     result.kept.assign(parents.size(), -1);
     for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -261,7 +265,7 @@ Hierarchy readHierarchy(Source& source) {
         result.nodes.push_back(readNode(source, i));
     }
 
-    // Link the kept nodes.
+    // Set the parents and children of kept nodes.
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (!needed[i] || parents[i] < 0) continue;
         const int parent = result.kept[static_cast<std::size_t>(parents[i])];

@@ -1,20 +1,21 @@
 #pragma once
-// Hierarchy of the chosen scene: nodes, instances, cameras and lights. Internal to the loader.
+// Reads the hierarchy of the chosen glTF scene: nodes, instances, cameras and lights. Internal to the glTF loader.
 
 #include "scene/gltf/source.h"
 
 namespace defocus::engine::gltf {
 
-// Kept nodes: those of the default scene, else of the first scene, else all. Joints outside that scene and their
-// ancestors are kept too.
+// Kept nodes: those of the file's default scene, else of its first scene, else all nodes. Joints outside the scene, and
+// their ancestors, are kept too.
 struct Hierarchy {
     std::vector<Node> nodes;
     std::vector<int> roots;
-    std::vector<int> kept;  // maps glTF nodes to indices into `nodes`, or -1
+    std::vector<int> kept;  // for each node of the file: its index in `nodes`; −1 if it is not kept
     std::string sceneName;
 };
 
-// Throws Error for cycles, for nodes with two parents, and if instance attributes differ in count.
+// Reads the kept nodes. Throws Error for cycles, for nodes with two parents, and if the attributes of a node's
+// instances differ in count.
 Hierarchy readHierarchy(Source& source);
 
 std::vector<Camera> readCameras(Source& source);

@@ -1,4 +1,4 @@
-// glTF 2.0 specification, chapter 5 (properties reference), and the supported extensions' specifications.
+// Source: glTF 2.0 specification, chapter 5 (properties reference), and the specifications of the supported extensions.
 #include "scene/gltf/schema.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ enum class Kind {
     strings,
     boolean,
     number,
-    numbers,    // array; must have `length` entries unless `length` is 0
+    numbers,    // array of numbers; of `length` entries unless `length` is 0
     size,       // integer ≥ 0
     index,      // integer index into the top-level array `target`
     indices,    // array of indices
     indexMap,   // object whose values are indices
-    indexMaps,  // array of index maps
+    indexMaps,  // array of objects whose values are indices
     object,     // object with the given `properties`
     objects,    // array of objects
 };
@@ -236,7 +236,7 @@ constexpr Property animationSamplerProperties[] = {required({"input", Kind::inde
 constexpr Property animationProperties[] = {nameProperty, required(objects("channels", animationChannelProperties)),
                                             required(objects("samplers", animationSamplerProperties))};
 
-// ---- the whole file -----------------------------------------------------------------------------
+// ---- root ---------------------------------------------------------------------------------------
 
 constexpr Property rootExtensions[] = {object("KHR_lights_punctual", lightsProperties)};
 constexpr Property rootProperties[] = {
@@ -250,9 +250,9 @@ constexpr Property rootProperties[] = {
     objects("skins", skinProperties),         objects("textures", textureProperties),
     object("extensions", rootExtensions)};
 
-// ---- the walk -----------------------------------------------------------------------------------
+// ---- check --------------------------------------------------------------------------------------
 
-// JSON numbers are exact integers only up to 2^53. Indices must also fit an int.
+// JSON numbers represent all integers exactly only up to 2^53.
 constexpr std::uint64_t largestSize = 1ull << 53;
 
 class Checker {

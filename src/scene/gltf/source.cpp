@@ -27,11 +27,11 @@ constexpr std::array<std::string_view, 17> supportedExtensions = {
     "KHR_texture_transform",
 };
 
-// Rendering without a common extension that is not supported.
+// How files with an unsupported extension are drawn.
 struct Fallback {
     std::string_view extension;
     std::string_view look;
-    bool mayBeRequired;  // the geometry is complete without it, so a warning suffices
+    bool mayBeRequired;  // true: a file that requires the extension is drawn, because its geometry is complete
 };
 constexpr std::array<Fallback, 6> fallbacks = {{
     {"KHR_materials_iridescence", "not supported; drawn without iridescence", true},
@@ -91,8 +91,8 @@ void readBuffers(Source& source, const Progress& progress) {
     }
 }
 
-// Checks that views lie inside their buffers. The standard allows buffers without data; reading from such a buffer is
-// the error.
+// Throws Error if a buffer view exceeds its buffer. glTF allows buffers without data; viewBytes throws when one is
+// read.
 void checkViews(const Source& source) {
     for (std::size_t i = 0; i < source.model.bufferViews.size(); ++i)
         if (!source.unpackedViews[i] && source.buffers[static_cast<std::size_t>(source.model.bufferViews[i].buffer)])
@@ -121,15 +121,15 @@ Source openSource(const std::filesystem::path& path, const Progress& progress) {
     checkSchema(source.document);
     checkExtensions(source);
 
-    // 2. Parse the structure.
+    // 2. Convert the JSON to tinygltf structures.
     source.model = readStructure(source.document);
 
-    // 3. Read the buffers and decompress views.
+    // 3. Read the buffers and decompress buffer views.
     readBuffers(source, progress);
     unpackMeshoptViews(source);
     checkViews(source);
 
-    // 4. Check that accessors lie inside their views.
+    // 4. Check that accessors lie inside their buffer views.
     checkAccessors(source);
     return source;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Document with its buffers and its JSON as tinygltf structures; input of all readers of the loader. tinygltf parses
-// only JSON that passed checkSchema, and never reads files, images or binary data. Internal to the loader.
+// Document with its buffers and its JSON as tinygltf structures, from which materials, meshes, nodes and animations are
+// read. tinygltf parses only JSON that passed checkSchema, and never reads files, images or binary data. Internal to
+// the glTF loader.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,15 +21,15 @@
 
 namespace defocus::engine::gltf {
 
-// Memory that the scene may still take. It rejects small files that claim billions of vertices, pixels or objects. The
-// limit leaves room for real scenes, which exceed their file's size through sharing, compression and zero-filled
+// Memory limit of a scene, to reject small files that claim billions of vertices, pixels or objects. The limit is 512
+// MiB plus 256 times the file size: valid scenes may exceed their file size by sharing, compression and zero-filled
 // accessors.
 class UnpackBudget {
 public:
-    // Raises the limit for a file that is read. Call it once per file.
+    // Raises the limit for a file of `fileBytes` bytes that is read. Call it once per file.
     void grant(std::uint64_t fileBytes);
-    [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total of all granted files
-    // Takes `count` elements of `elementBytes` each. Returns false if they exceed the limit.
+    [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total size of the files passed to grant()
+    // Reserves memory for `count` elements of `elementBytes` each. Returns false if it exceeds the remaining limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
 
 private:
@@ -40,40 +41,42 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;                                             // JSON parsed by readStructure
-    std::vector<std::optional<std::vector<std::byte>>> buffers;        // empty entry: fallback buffer without data
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // per buffer view; EXT_meshopt_compression
+    tinygltf::Model model;                                             // from readStructure
+    std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by view; EXT_meshopt_compression only
     UnpackBudget budget;
-    std::set<std::filesystem::path> files;  // external files already granted to the budget
+    std::set<std::filesystem::path> files;  // external files whose size was added to the budget
     std::vector<Ignored> ignored;
     std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // (what, reason) → index into `ignored`
 };
 
-// Reads and checks a file: container, schema, extensions, structure, buffers, compressed views and accessor ranges.
-// Throws Error if any step fails.
+// Reads and checks a file: container, schema, extensions, structure, buffers, compressed buffer views and accessor
+// ranges. Throws Error if a check fails.
 Source openSource(const std::filesystem::path& path, const Progress& progress);
 
-// Returns the bytes of a buffer view. Throws Error if it has no data or exceeds its buffer.
+// Returns the bytes of a buffer view. Throws Error if its buffer has no data or is too short.
 std::span<const std::byte> viewBytes(const Source& source, int view);
 
-// Takes `count` elements of `elementBytes` from the budget. Throws Error that names `what` if they exceed it.
+// Reserves memory for `count` elements of `elementBytes` in the budget. Throws Error, with `what` in its message, if
+// the budget is exceeded.
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
-// Raises the budget by the size of the URI's file. Data URIs and repeated files have no effect.
+// Calls budget.grant() for the file that `uri` refers to. Data URIs and repeated files have no effect.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
-// Notes content that is not drawn; equal notes share one entry.
+// Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their
+// counts added.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
-// Same for content that cannot be drawn correctly because the file is damaged.
+// Same as ignore(), for content that cannot be drawn correctly because the file is damaged.
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);
 
-// Returns the extension `name` of a JSON object, or nullptr.
+// Returns the extension `name` of a JSON object; nullptr if it is absent.
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name);
 
-// Returns a label for messages, such as "mesh 3 'Wheel'".
+// Returns a label for error messages, such as "mesh 3 'Wheel'".
 std::string labelOf(const char* kind, std::size_t index, const std::string& name);
 
-// Converts to float and clamps to its finite range.
+// Converts to float, clamped to the range of finite floats.
 float toFloat(double value);
 
 }  // namespace defocus::engine::gltf

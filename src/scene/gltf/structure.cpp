@@ -1,5 +1,5 @@
-// Calls tinygltf's per-object parsers directly, since its public interface would parse the JSON text again. Only this
-// file can call them because it compiles tinygltf's implementation.
+// Calls tinygltf's per-object parsers, which are available only where its implementation is compiled. tinygltf's public
+// interface would parse the JSON text again.
 #define TINYGLTF_IMPLEMENTATION
 #include "scene/gltf/structure.h"
 
@@ -9,9 +9,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr bool keepText = false;  // extras and extensions as text; the readers use the JSON instead
+constexpr bool keepText = false;  // whether tinygltf stores extras and extensions as text; Document::json has them
 
-// Parses each entry of the array `name`, if it exists, into `objects`.
+// Converts each entry of array `name` of the JSON object `owner`, if the array exists, with `read` into `objects`.
 template <typename Object, typename Read>
 void readEach(const Document& document, const Json& owner, const char* name, std::vector<Object>& objects,
               const Read& read) {
@@ -23,7 +23,7 @@ void readEach(const Document& document, const Json& owner, const char* name, std
         if (!read(objects[i], error, (*entries)[i])) fault(document, "not valid glTF: {}", error);
 }
 
-// Throws Error for primitives that tinygltf cannot read, since it drops them silently.
+// Throws Error if tinygltf has silently dropped primitives that it cannot read.
 void checkPrimitives(const Document& document, const tinygltf::Model& model) {
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
         if (model.meshes[m].primitives.size() != document.json["meshes"][m]["primitives"].size())

@@ -1,8 +1,8 @@
 #pragma once
-// tinygltf's structures in a renamed namespace. tinygltf is compiled into this library (structure.cpp), and the new
-// name avoids clashes with a program's own copy. Internal to the loader.
+// Includes tinygltf with its namespace renamed. structure.cpp compiles tinygltf into this library; the new name avoids
+// clashes with another copy in a program. Internal to the glTF loader.
 
-#include <fstream>  // tinygltf needs it, but does not include it with TINYGLTF_NO_FS
+#include <fstream>  // tinygltf needs <fstream>, but does not include it with TINYGLTF_NO_FS
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE

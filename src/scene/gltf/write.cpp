@@ -1,4 +1,4 @@
-// glTF 2.0 specification: buffers and accessors (3.6), meshes (3.7.2).
+// Source: glTF 2.0 specification, buffers and accessors (3.6) and meshes (3.7.2).
 
 #include "scene/gltf/write.h"
 
@@ -29,7 +29,7 @@ namespace tinygltf = gltf::tinygltf;
 
 constexpr std::uint32_t unused = 0xffffffffu;
 
-// Vertices and triangles to write.
+// Vertices and triangles of the mesh that are written.
 struct Written {
     std::vector<std::uint32_t> vertices;                // indices into the mesh's vertices, in output order
     std::vector<std::vector<std::uint32_t>> triangles;  // output vertex indices; one list per primitive with triangles
@@ -64,7 +64,7 @@ Written chooseTriangles(const Mesh& mesh) {
     return written;
 }
 
-// Returns the normal at unit length, computed in double precision; +y for zero or non-finite normals.
+// Normalises a vector in double precision; returns +y for a zero or non-finite vector.
 glm::vec3 unitNormal(const glm::vec3& normal) {
     const glm::dvec3 wide = normal;
     const double length = glm::length(wide);
@@ -119,12 +119,12 @@ std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices verti
         if (!uv.empty()) attributes[name] = appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
-    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF requires consecutive set numbers
+    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF does not allow set 1 without set 0
     if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
     return attributes;
 }
 
-// Replaces invalid UTF-8, since nlohmann's writer throws on it.
+// Returns `text` with invalid UTF-8 bytes replaced, because nlohmann::json throws when it writes them.
 std::string utf8(const std::string& text) {
     using Json = nlohmann::json;
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
