@@ -25,12 +25,12 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the wanted settings
-    std::filesystem::path other;               // with `resume`: existing image with other settings, to be replaced; empty: none
+    std::filesystem::path other;               // with `resume`: image with other settings, to be replaced; empty: none
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
-    std::optional<SampleRange> sampleRange;  // write the partial sums of these samples to FRAME.partFIRST-END.exr; only with a single EXR output
+    std::optional<SampleRange> sampleRange;  // write partial sums to FRAME.partFIRST-END.exr; one EXR output only
     FilmSettings settings;                   // without encoding; the target error is the only stop condition used
     bool metered = false;                    // whether FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file

@@ -21,7 +21,7 @@ struct SequenceBase {
     CameraChoice camera;
     bool cameraStands = false;                     // camera stays where `view` has it; false: it follows its node
     std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values
-    glm::dvec3 centre{0.0};                        // scene's centre at the start of the shot; default centre of turntables
+    glm::dvec3 centre{0.0};                        // scene's centre at the start; default centre of turntables
     std::vector<std::string> hidden;               // nodes that aren't drawn
     ShutterSettings shutter;                       // exposure of each frame; the camera may move meanwhile
 };

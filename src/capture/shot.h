@@ -44,7 +44,7 @@ struct FocusTrack {
 struct CameraKeys {
     std::vector<Key<Place>> positions;
     std::vector<Key<Place>> targets;  // points that the camera looks at; frames as in `positions`
-    std::vector<Key<double>> rolls;   // degrees about the view axis, counter-clockwise seen from behind; frames as in `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise from behind; frames as in `positions`
     Easing easing = Easing::smooth;
 };
 
@@ -75,7 +75,7 @@ inline Request shotDefaults() {
 }
 
 struct Shot {
-    std::filesystem::path file;  // for messages; paths in the shot are relative to the file's folder, outputs to the current folder
+    std::filesystem::path file;  // for messages; paths in the shot are relative to its folder
     // Values that are constant during the shot. The time is that of frame 0.
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
@@ -86,12 +86,12 @@ struct Shot {
     double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
     double animationSpeed = 1;           // speed factor of the animation; 0: no motion
-    std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: open for the full frame interval
+    std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;        // by lens field: constant or keyed values
     std::map<std::string, LensTrack, std::less<>> methodKeys;  // by method setting (MethodSetting::keyed): keyed values
-    bool animateSeed = false;                                  // new sample positions in each frame, which makes the noise move
+    bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};
     std::filesystem::path video;  // empty: no video
