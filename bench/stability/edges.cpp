@@ -40,7 +40,7 @@ double edgeError(const Edge& edge) {
     const glm::dvec3 far(0.1, 0.3, 0.8);
     BoardScene boards(view, {squareAt(view, edge.depth, 2, near), squareAt(view, edge.wall, 1e6, far)});
     boards.settings.sampleCount = edgeSamples;
-    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * edge.depth / view.width;  // m per px
+    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * edge.depth / view.width;  // m/px
     const double half = 1e5 * pixel;
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), edgeTurn, glm::dvec3(0, 0, 1));
     boards.world.pose.objects[0].worldFromObject = glm::scale(

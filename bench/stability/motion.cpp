@@ -44,8 +44,7 @@ Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);
         const View view = boardView(128, 64);
-        const double pixel =
-            view.lens.horizontalAperture / view.lens.focalLength * squareDepth / view.width;  // m per px
+        const double pixel = view.lens.horizontalAperture / view.lens.focalLength * squareDepth / view.width;  // m/px
         const double place = way * (0.5 - std::abs(2 * phase - 1));
         return glm::translate(glm::dmat4(1), glm::dvec3(pixel * place, 0, 0)) * middle;
     };
