@@ -57,8 +57,8 @@ const std::array<Kernel, 5> publishedKernels = {{
 // ---- one kernel's weights ---------------------------------------------------------------------------------------
 
 struct Problem {
-    Values squaredRadii;  // of the quadrature nodes in the square
-    Values weights;       // areas of the nodes
+    Values squaredRadii;  // squared distances of the quadrature nodes from the centre
+    Values weights;       // areas of the quadrature nodes
     Values roots;         // square roots of the weights, increased in the square's corners by the guard
     Values target;        // disk values times `roots`
 };

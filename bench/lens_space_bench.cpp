@@ -40,7 +40,7 @@ using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
-constexpr double tableBlur = 0.1;     // fraction of the image's width
+constexpr double tableBlur = 0.1;     // blur as a fraction of the image's width
 constexpr double largestError = 0.1;  // max RMSE against accumulation
 
 struct Measured {
@@ -106,7 +106,7 @@ RenderSettings byScore(std::uint32_t samples) {
 RenderSettings ofThreeLevels(std::uint32_t samples) {
     RenderSettings settings = byScore(samples);
     settings.lod = LodMode::nearest;
-    settings.thresholds.blur = 0.25;  // as in the preset tzeng2012
+    settings.thresholds.blur = 0.25;  // value of the preset tzeng2012
     return settings;
 }
 

@@ -65,7 +65,7 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
-constexpr std::size_t distancePoints = 40'000;  // points on each surface
+constexpr std::size_t distancePoints = 40'000;  // sample points on each surface
 
 // Returns the min CPU time of this thread over all runs, s; unlike wall-clock time, it excludes other load on the
 // machine.
@@ -313,7 +313,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // as in the committed tables
+    settings.sequence = Sequence::halton;  // sequence of the committed tables
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -560,7 +560,7 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
-    std::vector<std::vector<glm::vec3>> seen;  // skip repeated meshes
+    std::vector<std::vector<glm::vec3>> seen;  // to skip repeated meshes
     for (const auto& [name, scene] : scenes)
         for (const Mesh& mesh : scene.meshes) {
             if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;

@@ -34,7 +34,7 @@ struct LensCamera {
     double lensRadius = 0;       // m; 0: pinhole
     double reciprocalFocus = 0;  // 1/m; 0: focus at infinity
 
-    // Only with a foreground limit.
+    // Members that are used only with a foreground limit.
     double lensDepth = 0;  // α, m; 0: no foreground limit, the lens is at the eye
     double cone = 0;       // tangent of the half angle of the cone
 };

@@ -15,8 +15,8 @@ inline constexpr int packetsPerTile = packetsPerTileRow * packetsPerTileRow;
 // Origin and slopes of the rays of a tile for a shared lens sample. Computed in double and rounded once, so that no
 // accuracy is lost.
 struct TileRays {
-    std::array<float, tileSide> slopeX{};  // by pixel column
-    std::array<float, tileSide> slopeY{};  // by pixel row
+    std::array<float, tileSide> slopeX{};  // slopes by pixel column
+    std::array<float, tileSide> slopeY{};  // slopes by pixel row
     float originX = 0;
     float originY = 0;
 };

@@ -30,9 +30,9 @@ private:
     // Surface data by Embree geometry id. An additional geometry, a single black triangle, represents a miss.
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id of a miss
-        std::vector<std::int32_t> firstColor;         // index into cornerColors
+        std::vector<std::int32_t> firstColor;         // index of a geometry's first colour
         std::vector<std::int32_t> colorsPerTriangle;  // 3; 0: all triangles have the same colours
-        std::vector<float> red, green, blue;          // of baseColorFactor
+        std::vector<float> red, green, blue;          // components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three colours per triangle
     };
     // Sky radiance for a ray at elevation e: horizon + |sin e|·(zenith − horizon); below the horizon, with nadir

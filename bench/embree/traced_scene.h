@@ -23,11 +23,11 @@ namespace defocus::engine {
 // A primitive of an object, as one Embree geometry.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;  // of the mesh, or posed
+    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
-    glm::mat3 worldNormalFromObject{1.0f};  // not normalised
-    glm::mat3 worldFromCamera{1.0f};        // for directions only
+    glm::mat3 worldNormalFromObject{1.0f};  // transforms normals, without normalising
+    glm::mat3 worldFromCamera{1.0f};        // transforms directions
     glm::dvec3 camera{0.0};                 // position of the camera in world space, m
     float facing = 1;                       // −1 if the transform mirrors and thus reverses the winding, else 1
 };

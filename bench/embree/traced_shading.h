@@ -15,7 +15,7 @@ struct SurfaceHit {
     float v = 0;                 // barycentric weight of the triangle's third corner
     glm::vec3 facet{0.0f};       // triangle normal, not normalised
     glm::vec3 direction{0.0f};   // direction of the ray
-    float distance = 0;          // ray parameter, in units of `direction`
+    float distance = 0;          // ray parameter: distance in units of `direction`
     glm::vec3 origin{0.0f};
 };
 

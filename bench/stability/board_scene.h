@@ -15,7 +15,7 @@ struct Board {
     double depth = 2;        // m
     glm::dvec2 centre{0};    // m, in the plane at `depth`
     glm::dvec2 halfSize{1};  // m
-    glm::vec3 radiance{1};   // linear
+    glm::vec3 radiance{1};   // linear RGB
 };
 
 // Returns the view of a camera at the origin with a 50 mm f/1 lens and a 36 mm sensor, focused at 2 m.
@@ -60,7 +60,7 @@ struct BlurredLight {
 // no other light.
 struct LightPlace {
     double depth = 6;      // m
-    double pixels = 3;     // width, px
+    double pixels = 3;     // width of the light, px
     glm::dvec2 offset{0};  // from the image's centre, px (right, up)
     int channel = 0;
 };

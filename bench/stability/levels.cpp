@@ -61,7 +61,7 @@ Mesh besetGrid() {
     Mesh mesh = gridMesh(24, 1, 1);
     auto& indices = mesh.primitives[0].indices;
     for (std::uint32_t i = 0; i < 100; ++i) indices.insert(indices.end(), {i, i, i + 1});     // repeated index
-    for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear
+    for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear corners
     return mesh;
 }
 
@@ -78,7 +78,7 @@ void addLevelCases(std::vector<StabilityCase>& cases) {
         [] { return flatError(gridMesh(64, 1e6f, 1e6f), 1e12, 1e6); });
     add("flat grid of 1e-6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e-6f, 1e-6f), 1e-12, 1e-6); });
-    for (const float side : {0.1f, 0.7f})  // not exactly representable as floats
+    for (const float side : {0.1f, 0.7f})  // side lengths that floats cannot represent exactly
         add(fmt::format("flat grid of {:g} m", side), "area or height, relative", "the plane", 1e-5, [side] {
             const double exact = static_cast<double>(side);
             return flatError(gridMesh(64, side, side), exact * exact, exact);

@@ -27,7 +27,7 @@ struct StabilityRow {
     StabilityCase subject;
     double error = 0;
     bool leftOut = false;  // this program lacks the method of the reference
-    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // NaN fails
+    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
 };
 
 // Returns all cases. StabilityCase::error needs a current GL context.

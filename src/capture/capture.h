@@ -22,7 +22,7 @@ namespace defocus::engine {
 struct FilmFrame {
     int frame = 0;
     std::vector<std::string> settings;         // settings hash, one per file
-    std::vector<std::filesystem::path> files;  // one per file name pattern
+    std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the wanted settings
     std::filesystem::path other;               // with `resume`: image with other settings, to be replaced; empty: none

@@ -18,7 +18,7 @@ namespace defocus::engine {
 
 struct FrameRange {
     int first = 0;
-    int last = 0;  // inclusive
+    int last = 0;  // last frame, inclusive
 };
 
 inline constexpr int maxFrame = 9'999'999;

@@ -23,9 +23,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Blur {
     double depth = 0;      // m
-    double pixels = 0;     // signed; > 0 behind the focus
+    double pixels = 0;     // signed diameter; > 0 behind the focus
     double onSensor = 0;   // diameter, mm, ≥ 0
-    bool inFocus = false;  // diameter at most CameraFacts::acceptable
+    bool inFocus = false;  // blur diameter is at most CameraFacts::acceptable
 };
 
 // All values that the report prints.

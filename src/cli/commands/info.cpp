@@ -71,8 +71,8 @@ const char* alphaName(AlphaMode mode) {
 }
 
 struct Totals {
-    std::uint64_t triangles = 0;         // each mesh counted once
-    std::uint64_t trianglesInScene = 0;  // each mesh counted once per object that draws it
+    std::uint64_t triangles = 0;         // sum over all meshes
+    std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
     std::uint64_t vertices = 0;
 };
 

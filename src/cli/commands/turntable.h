@@ -25,7 +25,7 @@ struct TurntableCell {
 
 struct TurntableSheet {
     Image image;                                    // linear RGB
-    std::vector<std::vector<TurntableCell>> cells;  // by level, then by view
+    std::vector<std::vector<TurntableCell>> cells;  // positions by level, then by view
 };
 
 // Camera and rotations of the views on a sheet. They are the same for all levels, so that levels can be compared.

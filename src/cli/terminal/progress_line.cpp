@@ -25,7 +25,7 @@ std::string bar(double share, std::size_t width) {
 }  // namespace
 
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns) {
-    const std::size_t room = static_cast<std::size_t>(std::max(columns, 2)) - 1;  // else the terminal would wrap
+    const std::size_t room = static_cast<std::size_t>(std::max(columns, 2)) - 1;  // a full line would wrap
     const std::string percent = fmt::format("{:.0f} %", 100 * share);
     const std::string time = left ? fmt::format(", {} left", durationText(*left)) : std::string();
 

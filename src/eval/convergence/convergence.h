@@ -44,9 +44,9 @@ struct PublishedForm {
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // empty: all methods, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // used for methods with default settings
-    std::vector<PublishedForm> published;                    // used for MethodForm::published
-    RenderSettings plan;                                     // settings of every case, except those in the lists below
+                                     MethodForm::standard};  // measured for methods with default settings
+    std::vector<PublishedForm> published;                    // forms for MethodForm::published
+    RenderSettings plan;                                     // settings of every case; the lists below override them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // only for methods that use lens samples
     // For methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off is not
     // listed.

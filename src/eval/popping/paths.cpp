@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double dollyLength = 0.5;  // fraction of the focus distance
+constexpr double dollyLength = 0.5;  // length as a fraction of the focus distance
 
 struct Depths {
     double nearest = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ namespace {
 constexpr int fishCount = 8;
 constexpr double gridNear = 2;     // depth of the grid's front, m
 constexpr double gridFar = 6;      // depth of the grid's back, m
-constexpr double gridWidth = 0.8;  // fraction of the view's width at each depth
+constexpr double gridWidth = 0.8;  // width of the grid, as a fraction of the view's width
 
 // Sets pose, camera, lens, lights and environment of the built-in school. The caller adds the pyramids.
 void surround(ScalingWorld& result) {

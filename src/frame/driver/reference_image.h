@@ -26,7 +26,7 @@ inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
     std::uint32_t samples = 4096;  // sum over both halves, 2 … maxSamples
-    RendererOptions renderer;      // layerFormat is ignored
+    RendererOptions renderer;      // RendererOptions::layerFormat is ignored
     Shadows shadows = Shadows::automatic;
 };
 
@@ -39,8 +39,8 @@ struct ReferenceImage {
     bool reused = false;      // whether the image was read from a file
 };
 
-// Returns the remark for a table row whose PSNR, FLIP or both differ from the reference by less than the reference's
-// own error; empty if both flags are false.
+// Returns the remark for a table row whose error by PSNR, FLIP or both is below the reference's own error; empty if
+// both flags are false.
 std::string belowReferenceText(bool psnr, bool flip);
 
 // Renders a reference without storing it. Needs a current GL context. Throws Error if the number of samples is outside

@@ -53,7 +53,7 @@ struct Setting {
     std::string example;                // example value, for settings that have neither default nor choices
     std::vector<std::string> excludes;  // names of settings that exclude this one
     SettingEffect effect = SettingEffect::pixels;
-    bool recorded = true;     // written to image metadata
+    bool recorded = true;     // whether it is written to image metadata
     bool repeated = false;    // may be given several times; values accumulate
     bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots

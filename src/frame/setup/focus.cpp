@@ -58,7 +58,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
 // the distance from the image's centre. A small term on the diagonal of the normal equations sets undetermined unknowns
 // to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
-    constexpr double raised = 1e-12;  // term on the diagonal, per point
+    constexpr double raised = 1e-12;  // added to the diagonal for each point
     const double tanX = tanHalfHorizontalFov(lens);
     glm::dmat4 matrix(raised * static_cast<double>(points.size()));
     glm::dvec4 right(0);

@@ -206,7 +206,7 @@ std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<P
 }
 
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
-    // Scene and pose.
+    // Set the scene and its pose.
     PreparedFrame frame;
     frame.scene = scene;
     frame.scaleNote = guessedScaleNote(request, *scene);
@@ -214,7 +214,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
-    // Camera, lights, environment and settings.
+    // Set camera, lights, environment and settings.
     const PlacedCamera placed = place(frame, request);
     // An environment that the request names replaces the default lights.
     frame.ownLights =

@@ -81,7 +81,7 @@ void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
 }
 
 void stepThroughHistory(Document& document, ViewState& state, const ViewActions& actions) {
-    // Complete a running focus pull at once.
+    // Finish a running focus pull immediately.
     if (state.pull) state.lens.focusDistance = state.pull->to;
     state.pull.reset();
     EditHistory& history = document.history;

@@ -14,7 +14,7 @@ std::filesystem::path recentFilesPath();
 struct ViewSettings {
     bool dark = true;
     bool panel = true;
-    double interfaceScale = 1;                 // 0.5 … 3
+    double interfaceScale = 1;                 // factor, 0.5 … 3
     std::optional<double> budgetMilliseconds;  // ms per frame; none: depends on the driver
     int width = 0;                             // size in window units; 0: not stored
     int height = 0;

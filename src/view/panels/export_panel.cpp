@@ -45,7 +45,7 @@ void stillRows(ViewState& state) {
     if (slider("##samples", samples, 1, 4096, ImGuiSliderFlags_Logarithmic)) state.options.samples = samples;
 }
 
-// Draws the question whether to replace the existing file. Returns true once the user has chosen a file name.
+// Asks, inside the dialog, whether to replace the existing file. Returns true once the user has chosen a file name.
 bool replaceRows(const Ui& ui) {
     std::string& path = ui.state.exportPath;
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_PlotHistogramHovered));

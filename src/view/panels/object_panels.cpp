@@ -20,7 +20,7 @@ struct TreeRow {
     int node = -1;
     int depth = 0;
     bool shown = true;    // neither the node nor one of its ancestors is hidden
-    bool parent = false;  // has descendants with meshes
+    bool parent = false;  // the node has descendants with meshes
 };
 
 // Returns the rows of all nodes with meshes at or below them; descendants of collapsed nodes are left out. Iterative,

@@ -38,7 +38,8 @@ void environmentRows(ViewState& state) {
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
 }
 
-// Returns whether the section of settings lists the setting: a setting of samples, method or developers that affects
+// Returns whether the settings section lists a setting: it is in the group samples, method or developer, affects the
+// pixels and has a widget.
 // the pixels and has a widget.
 bool hasPlainRow(const Setting& setting) {
     const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||

@@ -119,7 +119,7 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
 }
 
 double ViewPicture::growthTime(const FrameBudget& budget) const {
-    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // by image and work overlay
+    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // image and work overlay
     return std::max(budget.milliseconds, software_ ? softwareGrowthTime : 0.0) * (shares ? 0.5 : 1);
 }
 
@@ -156,7 +156,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     settings.sampleCount = quality.samples;
     fixThresholds(settings, quality.samples, quality.thresholdBias);
     FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.sides[0]));
-    const double blur = plan.largestBlur / quality.resolution;  // in window pixels
+    const double blur = plan.largestBlur / quality.resolution;  // blur in window pixels
     // Without visible blur, one sample at full resolution looks better than many samples at half the resolution.
     const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < minBlur);
     if (sharp) view = request.view;

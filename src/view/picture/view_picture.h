@@ -30,8 +30,8 @@ struct PictureRequest {
     View view;                       // view at the window's resolution
     RenderSettings settings;         // thresholds, if set, replace those for the number of samples
     std::string settingsKey;         // the image is restarted when this text changes
-    std::uint64_t poseVersion = 0;   // Document::poseVersion
-    std::vector<PictureSide> sides;  // one, or two for comparison
+    std::uint64_t poseVersion = 0;   // value of Document::poseVersion
+    std::vector<PictureSide> sides;  // one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // stops accumulating once the estimated error is below
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ ? first().estimatedError() : std::nullopt;
     }
-    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // first image, linear
+    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // first image, linear RGBA
     [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; empty without an image
     // Returns the second side; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
@@ -82,7 +82,7 @@ private:
     };
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
-    [[nodiscard]] std::uint32_t minSamples() const;                    // min over both sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller sample count of both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);

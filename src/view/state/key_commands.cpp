@@ -13,7 +13,7 @@ using K = KeyContext;
 using Overlay = DisplayOverlay;
 
 constexpr double frameTime = 1.0 / 24;  // s; step of the animation
-constexpr double minScale = 0.5;        // of the interface
+constexpr double minScale = 0.5;        // limits of the interface's scale
 constexpr double maxScale = 3;
 constexpr double scaleStep = 1.1;
 

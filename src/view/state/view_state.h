@@ -30,7 +30,7 @@ glm::dvec2 tanHalfFov(const Lens& lens, const PictureArea& area);
 struct PickedSurface {
     int object = -1;        // index into Pose::objects
     double depth = 0;       // m, along the view axis
-    glm::dvec3 point{0.0};  // world space
+    glm::dvec3 point{0.0};  // in world space
 };
 
 // Returns the surface under a window position; none if the picture shows no surface there.
@@ -58,7 +58,7 @@ struct Message {
 struct FocusMarker {
     bool shown = false;
     std::uint64_t number = 0;  // number of the click, counted from 1
-    glm::dvec3 point{0.0};     // world space
+    glm::dvec3 point{0.0};     // in world space
     double since = 0;          // time of the click, s, as ViewState::now
     std::string name;          // name of the object; empty: no surface was hit
     double distance = 0;       // focus distance, m
@@ -100,7 +100,7 @@ struct SceneState {
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
-    std::vector<glm::dvec3> focusPoints;  // world space; three points determine the plane of focus
+    std::vector<glm::dvec3> focusPoints;  // in world space; three points determine the plane of focus
     std::optional<double> poppingSince;   // start of the popping test, s; none: not running
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;
@@ -112,28 +112,28 @@ struct ViewState : ViewEdit, SceneState {
     PictureArea area;           // window units
     glm::ivec2 pictureSize{1};  // size of the picture, px
 
-    // Camera and scene.
+    // State of camera and scene.
     Navigation navigation = Navigation::orbit;
     double animationSpeed = 1;
 
-    // Picture.
+    // State of the picture.
     DisplaySettings display;  // exposure and tone map are overwritten from `exposure` and `options`
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
-    std::uint32_t maxSamples = 4096;  // limit for a still view
+    std::uint32_t maxSamples = 4096;  // max lens samples of a still view
 
-    // Window.
+    // State of the window.
     bool panel = true;
     bool help = false;
     bool dark = true;
     double interfaceScale = 1;                  // multiplies the scale of the screen
-    std::vector<std::filesystem::path> recent;  // latest first
+    std::vector<std::filesystem::path> recent;  // recent scenes, latest first
     std::deque<Message> messages;
     std::string fault;          // latest error message
     bool printsFaults = false;  // also print error messages on stderr
 
-    // Text fields.
+    // Contents of text fields, and state of their dialogs.
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // whether the field for an environment file is shown
     std::string exportPath = "still.png";

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double fontSize = 15;            // interface units
+constexpr double fontSize = 15;            // in interface units
 constexpr double bitmapShare = 13.0 / 15;  // of fontSize; makes the bitmap font look as large as others
 
 // Ranges of glyphs: Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.

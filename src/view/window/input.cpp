@@ -74,7 +74,7 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
         case WindowEvent::Type::key:
             pressKey(event, context, state, actions);
             break;
-        case WindowEvent::Type::text:  // handled by text fields
+        case WindowEvent::Type::text:  // text fields handle this event
             break;
         case WindowEvent::Type::drop:
             if (!event.paths.empty()) actions.open = event.paths.front();

@@ -153,7 +153,7 @@ void drawFrame(Session& session) {
     session.places = takePlaces();
     const std::vector<WindowEvent> events = fetchEvents(session);
     const SessionOptions& options = session.options;
-    if (session.window.framebufferSize().x < 1 || session.window.framebufferSize().y < 1) {  // minimized
+    if (session.window.framebufferSize().x < 1 || session.window.framebufferSize().y < 1) {  // the window is minimized
         takeScene(session);
         session.window.poll(0.05);
         return;
