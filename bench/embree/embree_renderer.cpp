@@ -103,7 +103,7 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // First pixel of a tile, and sum of its first packet.
+    // First pixel of a tile, and the sums of the tile's packets.
     struct Tile {
         int left = 0;
         int top = 0;

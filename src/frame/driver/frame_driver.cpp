@@ -111,7 +111,7 @@ private:
     std::vector<Band> bands_;
     std::size_t band_ = 0;  // index of the band that is being drawn
     Image rowsOfBand_;
-    Image kept_;  // the whole frame, if there is no row sink
+    Image kept_;  // complete frame; empty if there is a row sink
     int rows_ = 0;
     TileWalk walk_;
 };
