@@ -1,4 +1,4 @@
-// defocus_bench: the program `defocus` (src/cli/run_program.cpp) with the Embree ray tracers in its table of methods.
+// defocus_bench: the program `defocus` (src/cli/run_program.cpp), with the Embree ray tracers in its table of methods.
 
 #include "embree/embree_renderer.h"
 

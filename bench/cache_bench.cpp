@@ -1,8 +1,8 @@
-// Measures what the disk cache of pyramids saves on the built-in school: the times to build, to store and to load.
+// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load them.
 //
-// Held equal: meshes, options, process and all cores. The cache lies in a new temporary folder, and its files are in
-// the page cache when they are read. Loading includes hashing the meshes, as in a run of the program. The fastest of
-// several loads counts. The loaded pyramids are compared with the built ones.
+// Held equal: meshes, options, process and all cores. The cache is a new temporary folder, and its files are in the
+// page cache when they are loaded. Loading includes hashing the meshes, as in the program. The fastest of several loads
+// counts. The loaded pyramids are compared with the built ones.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ int run(const fs::path& folder) {
     std::size_t triangles = 0;
     for (const Mesh& mesh : meshes) triangles += mesh.triangleCount();
 
-    // Build, then store.
+    // Time building, then storing.
     std::vector<Pyramid> built;
     const double building = milliseconds([&] { built = buildPyramids(meshes); });
     const double storing = milliseconds(
@@ -54,7 +54,7 @@ int run(const fs::path& folder) {
     double megabytes = 0;
     for (const CacheFile& file : cacheFiles(folder)) megabytes += static_cast<double>(file.bytes) * 1e-6;
 
-    // Load.
+    // Time loading and hashing.
     double loading = std::numeric_limits<double>::infinity();
     double hashing = std::numeric_limits<double>::infinity();
     CachedPyramids cached;

@@ -1,13 +1,14 @@
-// Fits the separable complex kernels of src/render/circular/circular_kernel.h to the disk by least squares over the
-// square of the taps. Prints them as the table of circular_kernel.cpp, and compares them with the published kernels.
+// Fits the separable complex kernels of src/render/circular/circular_kernel.h to a disk, by least squares over the
+// square that the taps cover. Prints them in the format of the table in circular_kernel.cpp, and compares them with the
+// published kernels.
 //
 // Variable projection (Golub and Pereyra 1973): for given decays and frequencies, the weights A and B solve a linear
-// least-squares problem with one linear constraint, ∫K = ∫D. Only 2n unknowns remain for the Levenberg–Marquardt method
-// (Levenberg 1944, Marquardt 1963). It starts from evenly spread frequencies and from the kernel with one component
-// less plus a new component.
+// least-squares problem with one linear constraint, ∫K = ∫D (kernel K, disk D). Only 2n unknowns remain for the
+// Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963). Its starting points are evenly spread frequencies, and
+// the best kernel with one component less plus a new component.
 //
-// Held equal: extent and disk radius 1, gain (∫K = ∫D), error measure. The published kernels get the extent and the
-// disk radius with the smallest error.
+// Held equal: extent, disk radius 1, gain (∫K = ∫D), error measure. For the published kernels, extent and disk radius
+// are chosen to minimise the error.
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ using Values = Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 
-// Kernels of Niemitalo 2010, in his units.
+// Kernels of Niemitalo 2010: decay, frequency and the two weights of each component, in his units.
 const std::array<Kernel, 5> publishedKernels = {{
     {{0.862325, 1.624835, 0.767583, 1.862321}},
     {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}},
@@ -56,10 +57,10 @@ const std::array<Kernel, 5> publishedKernels = {{
 // ---- one kernel's weights ---------------------------------------------------------------------------------------
 
 struct Problem {
-    Values squaredRadii;  // squared radii of the square's nodes
-    Values weights;       // areas of the nodes
-    Values roots;         // square roots of the weights, increased in the corners by the guard
-    Values target;        // disk values times the roots
+    Values squaredRadii;  // squared distances of the quadrature nodes from the centre
+    Values weights;       // areas of the quadrature nodes
+    Values roots;         // square roots of the weights, increased in the square's corners by the guard
+    Values target;        // disk values times `roots`
 };
 
 Problem problemOf(double extent, double guard) {
@@ -68,7 +69,8 @@ Problem problemOf(double extent, double guard) {
     Problem problem{Values(count), Values(count), Values(count), Values(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const RadialNode& node = nodes[static_cast<std::size_t>(i)];
-        // Area of a ring over the area of its arcs inside the square. An angle of 4·arccos(extent/r) lies outside.
+        // Ratio of a ring's area to the area of its arcs inside the square; an angle of 8·arccos(extent/r) lies
+        // outside.
         const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
         const double ring = pi / (pi - 4 * std::acos(1 / outward));
         problem.squaredRadii[i] = node.squaredRadius;
@@ -80,14 +82,14 @@ Problem problemOf(double extent, double guard) {
 }
 
 struct Fit {
-    Values shape;  // decay and frequency of each component
+    Values shape;  // decays and frequencies of the components, interleaved
     Kernel kernel;
     Values residual;
     double squares = std::numeric_limits<double>::infinity();  // |residual|²
 };
 
-// Two columns per component, √weight·e^(−a·u)·cos b·u and √weight·e^(−a·u)·sin b·u, and the integral of each column
-// over the square.
+// Basis functions of the kernel: two columns per component, √weight·e^(−a·u)·cos b·u and √weight·e^(−a·u)·sin b·u with
+// u = r², and the integral of each function over the square.
 struct Basis {
     Eigen::MatrixXd columns;
     Values energies;
@@ -107,7 +109,7 @@ Basis basisOf(const Problem& problem, const Values& shape) {
 }
 
 // Returns the x that minimises |basis·x − target|² subject to energies·x = energy, by QR. For y = R·x, the constraint
-// is (R⁻ᵀ·energies)·y = energy. The unconstrained optimum is projected onto it along R⁻ᵀ·energies.
+// is (R⁻ᵀ·energies)·y = energy. The unconstrained optimum is projected onto this plane along R⁻ᵀ·energies.
 Values constrainedLeastSquares(const Basis& basis, const Values& target, double energy) {
     const Eigen::Index n = basis.energies.size();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis.columns);
@@ -140,7 +142,8 @@ struct Residual : Eigen::DenseFunctor<double> {
     const Problem& problem;
 };
 
-// Runs the Levenberg–Marquardt method with numerical derivatives until a step's relative gain is below `tolerance`.
+// Runs the Levenberg–Marquardt method with numerical derivatives until the relative gain of a step is below
+// `tolerance`.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());
     Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residual, Eigen::Central>> method(residual);
@@ -161,7 +164,7 @@ Kernel tidied(Kernel kernel) {
     return kernel;
 }
 
-// Returns the best kernels of 1, 2, … `count` components.
+// Returns the best-fitting kernels with 1, 2, … `count` components.
 std::vector<Kernel> fitKernels(double extent, double guard, int count) {
     constexpr double rough = 1e-4;
     constexpr double fine = 1e-10;
@@ -195,7 +198,7 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
 // ---- tables -----------------------------------------------------------------------------------------------------
 
 struct Ripple {
-    double insideMax = 0;  // max |K − 1| for r < 0.9
+    double insideMax = 0;  // max |K − 1| for r < 0.9; K is the kernel's value
     double insideRms = 0;  // RMS of K − 1 for r < 0.9
     double highest = 0;    // max K for r > 1.1 within the square
     double lowest = 0;
@@ -228,7 +231,7 @@ struct Suited {
     double diskRadius = 0;
 };
 
-// Returns the extent in [from, to] and the disk radius around 1.15 with the smallest error, to 0.001.
+// Returns the extent in [from, to] and the disk radius near 1.15 that minimise the error of a kernel, to within 0.001.
 Suited suitedTo(const Kernel& kernel, double from, double to) {
     constexpr int reach = 20;
     Suited best;
@@ -246,7 +249,7 @@ Suited suitedTo(const Kernel& kernel, double from, double to) {
     return best;
 }
 
-// Returns the kernel in units of its disk radius, scaled to ∫K = ∫D. Its extent is then suited.extent /
+// Returns the kernel in units of its disk radius and scaled to ∫K = ∫D. In these units, its extent is suited.extent /
 // suited.diskRadius.
 Kernel inRadii(Kernel kernel, const Suited& suited) {
     const double gain = energyGain(kernel, suited.extent, suited.diskRadius);
@@ -311,7 +314,7 @@ void printTables(const std::vector<Kernel>& kernels) {
     }
 }
 
-// Returns whether the kernels of circular_kernel.cpp equal these, except for the last digits.
+// Returns whether the errors of `kernels` equal those of the kernels in circular_kernel.cpp to within 1e-5.
 bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
     return std::ranges::all_of(kernels, [](const Kernel& kernel) {
         const auto committed = circularKernel(static_cast<int>(kernel.size()));

@@ -1,12 +1,12 @@
-// Measures what cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that face away
-// or lie outside the image for every lens sample and moment (plan/visible/visibility.h). Step 2 also culls occluded
-// clusters for each sample (render/occlusion/occlusion.h).
+// Measures the time that cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that
+// face away or lie outside the image for all lens samples and moments (plan/visible/visibility.h). Step 2 also culls
+// clusters that are occluded in a sample (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
-// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. The frames take turns. Times are
-// the fastest; ratios are medians over the turns. `CPU` is the time of all threads, which other processes on the
-// machine affect less. The images are compared bit by bit.
+// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn alternately.
+// The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends less on
+// other load. The images are compared bit by bit.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ struct Variant {
     std::vector<double> seconds;
     std::vector<double> cpuSeconds;
     Image image;
-    std::uint64_t hidden = 0;  // triangles
+    std::uint64_t hidden = 0;  // triangles culled as occluded
 };
 
 void renderOnce(const World& world, Variant& variant) {
@@ -61,13 +61,13 @@ double medianRatio(std::vector<double> complete, const std::vector<double>& lean
     return complete[turns / 2];
 }
 
-// Returns the plan without occlusion culling.
+// Returns the plan with occlusion culling disabled.
 FramePlan withHidden(FramePlan plan) {
     plan.settings.keepAll = true;
     return plan;
 }
 
-// Returns the plan with all clusters of its levels.
+// Returns the plan with all clusters of its levels: step 1 is disabled.
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {
         object.visible.clear();
@@ -129,7 +129,7 @@ void measure(const std::filesystem::path& path) {
             variants.push_back({std::move(drawn), {}, {}, {}});
     }
     for (int turn = 0; turn < turns; ++turn)
-        for (std::size_t i = 0; i < variants.size(); ++i)  // each variant is first in one of the turns
+        for (std::size_t i = 0; i < variants.size(); ++i)  // rotate the order, so that no variant is always first
             renderOnce(frame.world, variants[(i + static_cast<std::size_t>(turn)) % variants.size()]);
     fmt::print("\n{}\n", frame.sceneName);
     for (std::size_t i = 0; i < variants.size(); i += 3) {

@@ -1,13 +1,13 @@
-// Measures what a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is seen
-// through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving queen in
-// front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per triangle
-// doesn't grow with the blur. A limit only saves triangles beside the image that their blur would bring into it. The
-// limit also makes levels of detail finer.
+// Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is
+// seen through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving
+// queen in front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per
+// triangle doesn't grow with the blur. A limit saves only triangles outside the image that their blur would extend into
+// it. It also makes levels of detail finer.
 //
-// Held equal: camera, lens, size, lens samples, renderer and process. Runs are interleaved; the fastest of each counts.
-// CPU is the time of all threads, which other processes on the machine affect less. `work` is the heat map of --aov
-// work: triangles that touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose
-// bounds over the complete lens cover a pixel. A stochastic rasteriser tests all of them.
+// Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
+// is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
+// touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
+// lens cover a pixel. A stochastic rasteriser tests all of the latter.
 
 #include <fmt/format.h>
 
@@ -55,8 +55,8 @@ void renderOnce(const World& world, Row& row) {
 
 struct Figure {
     const char* scene;
-    double time;     // s
-    double shutter;  // s
+    double time;     // time in the animation, s
+    double shutter;  // exposure, s
     std::vector<double> limits;
 };
 

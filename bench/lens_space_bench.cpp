@@ -1,18 +1,18 @@
 // Repeats the measurements of Tzeng et al. 2012 with our lens-space methods. Compares line samples with stochastic
-// points on equal scenes (their Table 1). Measures the time over the number of lines, the aperture and levels of detail
-// (their Figure 7).
+// points on the same scenes (their Table 1). Measures the time depending on number of lines, aperture and levels of
+// detail (their Figure 7).
 //
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
 // Held equal within a table: scene, camera, light, image size and process. In Table 1, the blur of the most blurred
-// object is a tenth of the image's width. In Figure 7, each row states the blur, and the focus lies in front of all
-// objects. Times are medians of three interleaved frames, after one that compiles the shaders. Errors are RMSE of
-// display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x 8 px are
-// of the means of such squares, which suppress noise and keep structure. "As published" has a buffer of 16 segments,
-// shades each segment at its middle and uses the same wheel in all pixels. It shades surfaces like the other methods,
-// so that the errors show visibility alone. The paper's score chooses the levels. Ours are fractional levels of a
-// pyramid with fitted vertices; the paper has three levels with 100, 75 and 50 % of the vertices. The bench checks that
-// every method's RMSE against the accumulation is below 0.1.
+// object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focus is in front of all
+// objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
+// RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x
+// 8 px compare the means of such squares, which suppresses noise and keeps structure. "As published" has a buffer of 16
+// segments, shades each segment at its middle and uses the same wheel in all pixels. It shades surfaces like the other
+// methods, so that the errors are those of visibility alone. The paper's score selects the levels. Our levels are
+// fractional levels of a pyramid with fitted vertices; the paper has three levels with 100, 75 and 50 % of the
+// vertices. The bench checks that every method's RMSE against accumulation is below 0.1.
 
 #include <fmt/format.h>
 
@@ -40,8 +40,8 @@ using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
-constexpr double tableBlur = 0.1;     // as a fraction of the image's width
-constexpr double largestError = 0.1;  // RMSE
+constexpr double tableBlur = 0.1;     // blur as a fraction of the image's width
+constexpr double largestError = 0.1;  // max RMSE against accumulation
 
 struct Measured {
     double milliseconds = 0;
@@ -49,14 +49,14 @@ struct Measured {
     RenderStats stats;
 };
 
-// A method with its scene and settings.
+// A method to compare, with its scene and its settings.
 struct Contestant {
     const PreparedFrame* frame;
     std::string method;
     RenderSettings settings;
 };
 
-// Measures the contestants, which take turns frame by frame, so that other load on the machine affects all of them.
+// Measures the contestants, drawing their frames alternately, so that other load on the machine affects all of them.
 // With frames = 0, only renders their images.
 std::vector<Measured> measured(const View& view, const std::vector<Contestant>& contestants, int frames = timedFrames) {
     std::vector<std::unique_ptr<Renderer>> renderers;
@@ -138,7 +138,7 @@ double errorOf(const Image& reference, const Image& image, const std::string& na
     return error;
 }
 
-// Returns the RMSE of the display-encoded means of squares of `side` × `side` px.
+// Returns the RMSE between two display-encoded images after averaging over squares of `side` × `side` px.
 double errorOfSquares(const Image& reference, const Image& image, int side) {
     const Image a = displayEncoded(reference);
     const Image b = displayEncoded(image);
@@ -213,7 +213,7 @@ void printFigure7(const std::string& model, int width, int height) {
         frame.sceneName);
     for (const std::uint32_t lines : {4u, 8u, 16u, 32u})
         for (const double share : {0.02, 0.05, 0.1, 0.2}) {
-            if (lines != 16 && share != tableBlur) continue;  // vary one of the two at a time
+            if (lines != 16 && share != tableBlur) continue;  // vary either the lines or the blur
             const View view = blurredView(frame, share, true);
             const std::vector<Measured> all = measured(view, {{&frame, "line", settingsOf(lines)},
                                                               {&frame, "line", byScore(lines)},

@@ -1,6 +1,6 @@
 // Micro-benchmarks of the CPU side of a frame. Held equal: one thread, the same inputs in every run (a mesh, pyramid,
-// world or image pair), default lens and settings. The GPU and the disk are not used. Every benchmark checks its result
-// and reports an error instead of a time if the result is wrong.
+// world or image pair), default lens and settings. GPU and disk are not used. Each benchmark checks its result and
+// reports an error instead of a time if the result is wrong.
 
 #include <benchmark/benchmark.h>
 
@@ -31,12 +31,12 @@ void lensSamplePoint(benchmark::State& state) {
     std::uint64_t index = 0;
     glm::dvec2 sum(0);
     for (auto _ : state) sum += glm::dvec2(lensSample(aperture, sequence, index++, 1).lens);
-    // The mean of all lens points must be near the centre.
+    // The mean of all lens points must be near the lens centre.
     if (index > 1000 && glm::length(sum) / static_cast<double>(index) > 0.05) state.SkipWithError("samples off centre");
 }
 BENCHMARK(lensSamplePoint)->ArgNames({"blades", "sequence"})->ArgsProduct({{0, 6}, {0, 1, 2, 3}});
 
-// Selects an object's level of detail for blurs from 0 to 40 px.
+// Computes an object's level of detail for blurs from 0 to 40 px.
 void levelOfDetailOfObject(benchmark::State& state) {
     const Pyramid pyramid = buildPyramid(smallSchool(1).meshes.front());
     const LodMetric metric = state.range(0) == 0 ? LodMetric::size : LodMetric::error;
@@ -53,7 +53,7 @@ void levelOfDetailOfObject(benchmark::State& state) {
 }
 BENCHMARK(levelOfDetailOfObject)->ArgName("error")->Arg(0)->Arg(1);
 
-// Plans a frame with 64 samples at 1024×768 px and levels from the pyramids.
+// Plans a frame with 64 samples at 1024×768 px, with levels from pyramids.
 void planOfFrame(benchmark::State& state) {
     World world;
     world.scene = std::make_shared<const Scene>(smallSchool(static_cast<int>(state.range(0))));
@@ -94,14 +94,14 @@ void pyramidOfFish(benchmark::State& state) {
 }
 BENCHMARK(pyramidOfFish)->Unit(benchmark::kMillisecond);
 
-// Computes all metrics of two 256×256 images whose display-encoded grey differs by 0.1 on half of the pixels.
+// Computes all metrics for two 256×256 images that differ, on half of the pixels, by a display-encoded grey of 0.1.
 void differenceOfImages(benchmark::State& state) {
     constexpr int size = 256;
     Image reference(size, size, 3);
-    std::fill(reference.pixels.begin(), reference.pixels.end(), 0.2140411f);  // display-encoded 0.5
+    std::fill(reference.pixels.begin(), reference.pixels.end(), 0.2140411f);  // 0.5 after display encoding
     Image test = reference;
     std::fill(test.pixels.begin(), test.pixels.begin() + static_cast<std::ptrdiff_t>(test.pixels.size() / 2),
-              0.3185468f);  // display-encoded 0.6
+              0.3185468f);  // 0.6 after display encoding
     Difference difference;
     for (auto _ : state) difference = compareImages(reference, test);
     if (std::abs(difference.mae - 0.05) > 1e-5 || std::abs(difference.psnr - 10 * std::log10(200.0)) > 1e-3) {

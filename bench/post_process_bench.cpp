@@ -1,9 +1,9 @@
-// Measures the method "circular" (Garcia 2018). Cost of the separable blur over the radius, against a direct gather of
-// the same kernel over its complete square. Possible saving of one pass for both fields. Flatness of the disks by
-// number of components. Error of the storage formats.
+// Measures the method "circular" (Garcia 2018): the time of the separable blur depending on the radius, compared with a
+// direct gather of the same kernel over its complete square; the possible saving by one pass for near and far field;
+// the flatness of the disks by number of components; the error of storage formats.
 //
-// Held equal within a table: image, process, kernel. Runs alternate; the median counts. Checks that separable and
-// direct blur agree.
+// Held equal within a table: image, process, kernel. Runs alternate; the median counts. Checks that the separable and
+// the direct blur agree.
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ double milliseconds(ComplexBlur& blur, const GlTexture& field, const GlTexture& 
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Returns the exponent p of y ~ x^p by a least-squares fit of the logarithms.
+// Returns the exponent p of y ∝ x^p, by a least-squares fit to the logarithms.
 double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     const auto n = static_cast<double>(x.size());
@@ -88,7 +88,7 @@ void costOverRadius() {
         for (int i = 0; i <= runs; ++i) {
             const double first = milliseconds(separable, field, radius);
             const double second = milliseconds(direct, field, radius);
-            if (i == 0) continue;  // shaders are compiled
+            if (i == 0) continue;  // skip the run that compiles the shaders
             a.push_back(first);
             b.push_back(second);
         }
@@ -97,7 +97,7 @@ void costOverRadius() {
         const double ofSeparable = spreadOf(a).median;
         const double ofDirect = spreadOf(b).median;
         fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
-        if (r == 0) continue;  // radius 0 gives the cost of the passes without taps
+        if (r == 0) continue;  // radius 0 shows the time of the passes without taps
         radii.push_back(r);
         separableTimes.push_back(ofSeparable);
         directTimes.push_back(ofDirect);
@@ -106,8 +106,8 @@ void costOverRadius() {
                exponent(radii, directTimes));
 }
 
-// Passes for both fields at once would still read, weight and write both fields. They could save at most the cost of
-// one field's passes without taps.
+// Prints an upper bound on the saving by passes that blur near and far field together. Such passes would still read,
+// weight and write both fields, so they could save at most the time of one field's passes without taps.
 void savedByOnePass() {
     fmt::print(
         "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "
@@ -124,7 +124,7 @@ void savedByOnePass() {
             for (int i = 0; i <= runs; ++i) {
                 const double first = milliseconds(blur, field, radius);
                 const double second = milliseconds(blur, field, none);
-                if (i == 0) continue;  // shaders are compiled
+                if (i == 0) continue;  // skip the run that compiles the shaders
                 with.push_back(first);
                 without.push_back(second);
             }
@@ -175,7 +175,7 @@ void disks() {
                 max = std::max(max, std::abs(deviation));
                 inside += 1;
             }
-        // Width of the edge, from 90 % to 10 % of the level, along the row of the centre.
+        // Measure the width of the disk's edge, from 90 % to 10 % of the level inside, along the row of the centre.
         double high = 0, low = size;
         for (int x = centre; x < size; ++x) {
             const double value = *image.at(x, centre) / level;
@@ -189,7 +189,7 @@ void disks() {
     fmt::print("\n");
 }
 
-// Prints the error that each storage format between the passes causes in an image, against 32-bit floats.
+// Prints the error of an image for each storage format of the data between the passes, relative to 32-bit floats.
 void storages() {
     Request scene;
     scene.size.width = 512;

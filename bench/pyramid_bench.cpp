@@ -1,25 +1,24 @@
-// Compares pyramids with the levels of meshoptimizer and OpenMesh: build time, and similarity of the levels to the
-// mesh.
+// Compares pyramids with levels from meshoptimizer and OpenMesh: build time, and similarity of the levels to the mesh.
 //
-// Time (CPU time). Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is the
+// Time (CPU time). Held equal: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is the
 // complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is repair
-// and collapses alone, by quadrics of positions and attributes, with each level's triangles. "meshoptimizer" is
-// meshopt_simplify from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a mesh of
-// welded positions. Neither of these two produces attributes. "times as fast" compares levels and pyramid with
+// and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer" is
+// meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a mesh
+// with welded positions. Neither of the two produces attributes. "times as fast" compares levels and pyramid with
 // DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the result. --million
-// adds a fish of a million triangles, smooth and flat-shaded.
+// adds a fish with a million triangles, smooth and flat-shaded.
 //
-// Distance. Held equal: the mesh, joined by position, and the triangle count of each level. meshoptimizer simplifies
+// Distance. Held equal: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
 // level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
-// geometric mean of the levels' ratios.
+// geometric mean of the ratios over all levels.
 //
 // Looks. Held equal: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our counts),
-// camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds use it,
-// and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving vertices.
-// Its meshopt_simplify ignores attributes (version 0.18).
+// camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds select
+// it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
+// vertices; its meshopt_simplify ignores attributes (version 0.18).
 //
-// Normals. Our levels with three kinds of normals: fitted; averaged by area from the level's faces at each position;
-// and copied from the surviving vertices.
+// Normals. Compares our levels with three kinds of normals: fitted; area-weighted means over the level's faces at each
+// position; and copied from the surviving vertices.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -66,9 +65,10 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
-constexpr std::size_t distancePoints = 40'000;  // points on each surface
+constexpr std::size_t distancePoints = 40'000;  // sample points on each surface
 
-// Returns the min CPU time of this thread over the runs, in s, which excludes other load on the machine.
+// Returns the min CPU time of this thread over all runs, s; unlike wall-clock time, it excludes other load on the
+// machine.
 double secondsOf(int runs, const std::function<void()>& work) {
     const auto now = [] {
         timespec time{};
@@ -84,7 +84,7 @@ double secondsOf(int runs, const std::function<void()>& work) {
     return min;
 }
 
-// Returns the value of a line of /proc/self/status in bytes; 0 if the line is missing.
+// Returns the value of a line of /proc/self/status, bytes; 0 if the line is missing.
 double memory(const std::string& line) {
     std::ifstream status("/proc/self/status");
     for (std::string text; std::getline(status, text);)
@@ -92,16 +92,16 @@ double memory(const std::string& line) {
     return 0;
 }
 
-// Returns the peak memory of the process during `work`, in bytes beyond the memory before.
+// Returns by how much the peak memory of the process during `work` exceeds the memory before, bytes.
 double peakBytesOf(const std::function<void()>& work) {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the kernel's peak value
     const double before = memory("VmRSS");
     work();
     return memory("VmHWM") - before;
 }
 
-// The surface joined by position, as both other simplifiers require.
+// A mesh welded by position, as meshoptimizer and OpenMesh require.
 struct JoinedSurface {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -116,7 +116,7 @@ JoinedSurface joinedSurface(const Mesh& mesh) {
     return surface;
 }
 
-// Returns a simplification of `indices` to `target` triangles, or more if meshoptimizer can't reach the target.
+// Simplifies `indices` to `target` triangles. Returns more triangles if meshoptimizer can't reach the target.
 std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, std::size_t target) {
     std::vector<std::uint32_t> result(indices.size());
@@ -125,7 +125,7 @@ std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
     return result;
 }
 
-// Simplifies level by level. Returns the number of remaining triangles.
+// Simplifies a mesh from level to level with meshoptimizer. Returns the number of triangles in the last level.
 std::size_t meshoptimizerChain(const JoinedSurface& surface) {
     std::vector<std::uint32_t> indices = surface.indices;
     while (indices.size() / 3 > minTriangles) {
@@ -155,7 +155,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds the levels without fits and measurements. Returns the number of remaining triangles.
+// Builds our levels without fits and error measurements. Returns the number of triangles in the last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -196,11 +196,12 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     std::fflush(stdout);
 }
 
-// Ratios of our distances to the other simplifier's. All levels have equal weight; the mean is geometric.
+// Statistics over levels of the ratio of our level's distance to the other simplifier's. All levels have equal weight;
+// the mean is geometric.
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
-    int within = 0;  // levels with a ratio of at most 1.1
+    int within = 0;  // number of levels with a ratio ≤ 1.1
     double worst = 0;
 
     void add(double ratio) {
@@ -245,7 +246,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
         const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
             return surfaceDistance(prepareSurface(positions, triangles), reference, distancePoints).both.mean;
         };
-        // Distances below the precision of floats, as on flat meshes, count as equal.
+        // Distances below float precision, as on flat meshes, are treated as equal.
         const double exact = 1e-7 * glm::length(mesh.bounds().size());
         const double ratio = std::max(exact, meanDistance(level.positions, indices)) /
                              std::max(exact, meanDistance(joined.positions, peer));
@@ -255,11 +256,11 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
     printRatios(name, mesh.triangleCount(), own, stopped);
 }
 
-// A single static mesh, seen by a camera that frames it.
+// A single static mesh in front of a camera that frames it.
 struct Stage {
     World world;
     View view;
-    double depth = 0;  // m, depth of the mesh's centre
+    double depth = 0;  // m, of the mesh's centre
 };
 
 void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
@@ -289,12 +290,12 @@ double pixelsPerUnit(const Stage& stage) {
     return stage.view.width / (2 * tanHalfHorizontalFov(stage.view.lens) * stage.depth);
 }
 
-// Returns the CoC in px at which the default thresholds use a level.
+// Returns the CoC (px) at which the default thresholds select a level.
 double cocOf(const Stage& stage, const PyramidLevel& level) {
     return level.meanEdge * pixelsPerUnit(stage) / defaultThresholds(LodMetric::size, 64).blur;
 }
 
-// Doubles the camera's distance until level 1 is used at a CoC of at most 1/16 of the image's width.
+// Doubles the camera's distance until level 1 is selected at a CoC of at most 1/16 of the image's width.
 void stepBack(Stage& stage) {
     while (cocOf(stage, stage.world.pyramids[0].levels[1]) > stage.view.width / 16.0) {
         stage.view.worldFromCamera[3] += stage.depth * stage.view.worldFromCamera[2];
@@ -302,7 +303,7 @@ void stepBack(Stage& stage) {
     }
 }
 
-// Sets the f-number that blurs the mesh's centre by `coc` px, for a focus at infinity.
+// Sets the f-number for which the mesh's centre has a CoC of `coc` px, with the focus at infinity.
 void blurBy(Stage& stage, double coc) {
     Lens& lens = stage.view.lens;
     const double aperture = coc * stage.depth * 2 * tanHalfHorizontalFov(lens) / stage.view.width;
@@ -312,7 +313,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // the sequence of the committed tables
+    settings.sequence = Sequence::halton;  // sequence of the committed tables
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -327,7 +328,7 @@ Image drawn(const Stage& stage, std::uint32_t level) {
     return renderer->image();
 }
 
-// Returns the mesh simplified by meshoptimizer to the level's triangle count, primitive by primitive.
+// Returns the mesh simplified by meshoptimizer, primitive by primitive, to the triangle counts of `level`.
 Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
     Mesh peer = mesh;
     for (std::size_t p = 0; p < peer.primitives.size(); ++p)
@@ -337,8 +338,8 @@ Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
     return peer;
 }
 
-// Calls visit(level, CoC) for the levels used at a CoC of 1 to 60 px (a ninth of the image), with the stage set to that
-// blur.
+// Calls visit(level, CoC) for each level that is selected at a CoC from 1 to 60 px (a ninth of the image's width). Sets
+// the stage to that CoC before.
 void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, double)>& visit) {
     const std::size_t count = stage.world.pyramids[0].levels.size();
     if (count < 2) return;
@@ -378,7 +379,7 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
     });
 }
 
-// Returns one normal per position: the area-weighted mean over the level's faces.
+// Returns one normal per vertex: the area-weighted mean over the level's faces at the vertex's position.
 std::vector<glm::vec3> averagedNormals(const Pyramid& pyramid, const PyramidLevel& level) {
     const WeldedPositions places = weldPositions(level.positions);
     std::vector<std::uint32_t> indices = levelIndices(pyramid, level);
@@ -420,8 +421,8 @@ const Mesh& largestMesh(const Scene& scene) {
                              [](const Mesh& a, const Mesh& b) { return a.triangleCount() < b.triangleCount(); });
 }
 
-// Prints how far each level of a mesh differs from level 0 in mean vertex colour, matt light from 26 directions, and
-// covered area along these directions.
+// Prints the differences between each level of a mesh and level 0: mean vertex colour, diffuse light from 26
+// directions, and area covered as seen from these directions.
 void conservedRows(const std::string& name, const Mesh& mesh) {
     constexpr std::size_t points = 60'000;
     constexpr int resolution = 1024;
@@ -440,8 +441,8 @@ void conservedRows(const std::string& name, const Mesh& mesh) {
     }
 }
 
-// Prints the errors of a complete scene against the converged image, averaged over boxes of 32 x 32 px. "CoC px" is the
-// blur of the scene's centre. "full detail" is the error of the same number of samples without levels.
+// Prints the errors of a complete scene relative to the converged image, averaged over boxes of 32 x 32 px. "CoC px" is
+// the CoC at the scene's centre. "full detail" is the error of the same number of samples without levels.
 void blurredRows(const std::string& name, const Scene& scene) {
     constexpr int box = 32;
     World world;
@@ -492,7 +493,8 @@ void blurredRows(const std::string& name, const Scene& scene) {
     }
 }
 
-// Returns the mesh with separate vertices and the face normal at each corner, as in flat-shaded models.
+// Returns the mesh with separate vertices for each triangle and its face normal at each corner, as in flat-shaded
+// models.
 Mesh flatShaded(const Mesh& mesh) {
     Mesh flat;
     Primitive& all = flat.primitives.emplace_back();
@@ -558,7 +560,7 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
-    std::vector<std::vector<glm::vec3>> seen;  // repeated meshes count once
+    std::vector<std::vector<glm::vec3>> seen;  // to skip repeated meshes
     for (const auto& [name, scene] : scenes)
         for (const Mesh& mesh : scene.meshes) {
             if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;

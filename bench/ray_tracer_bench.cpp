@@ -1,9 +1,9 @@
-// Measures the Embree ray tracer: the time per sample and the error against a converged image. Compares separate lens
-// samples for each pixel with lens samples that all pixels share.
+// Measures the Embree ray tracer: time per sample, and error against a converged image. Compares separate lens samples
+// for each pixel with lens samples that all pixels share.
 //
-// Held equal: the unlit school of fish, view, lens, size, samples and process. Runs are interleaved; the fastest of
-// each counts. CPU is the time of all threads, which other processes on the machine affect less. The RMSE is of
-// display-encoded values at a quarter of the size, against many samples with another seed.
+// Held equal: the unlit school of fish, view, lens, size, samples and process. Runs alternate; the fastest of each
+// counts. CPU is the time of all threads, which depends less on other load. The RMSE is of display-encoded values at a
+// quarter of the size, against a converged image with another seed.
 //
 //   defocus_ray_tracer_bench [--samples 32] [--size 1024x768] [--runs 5] [--reference-samples 2048] [--shading lit]
 
@@ -41,7 +41,7 @@ struct Row {
     const char* name;
     EmbreeSampling sampling;
     std::unique_ptr<Renderer> renderer;
-    double milliseconds = std::numeric_limits<double>::infinity();  // per sample
+    double milliseconds = std::numeric_limits<double>::infinity();  // time per sample
     double cpuMilliseconds = std::numeric_limits<double>::infinity();
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Shared main function of the benches. Keeps freed memory, as `defocus` does. Prints an error as one line on stderr,
-// after the program's name, and returns exit code 1.
+// Shared main function of the benches. Keeps freed memory, as `defocus` does. An error is printed as one line on
+// stderr, after the program's name; the exit code is then 1.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Calls run(), which returns the exit code.
+// Calls `run` and returns its exit code.
 template <typename Run>
 int runBench(const char* program, const Run& run) {
     keepFreedMemory();

@@ -1,15 +1,15 @@
-// Compares sets of points on the lens: the selectable sequences, and patterns that need the number of points in
-// advance. The patterns are Vogel's spiral, rings of points and a set relaxed to blue noise.
+// Compares sets of lens points: the selectable sequences, and patterns that depend on the number of points. The
+// patterns are Vogel's spiral, rings of points, and a set relaxed to blue noise.
 //
-// The first table shows the area errors of the points, on the lens and in the pixel. The second shows image errors
-// against the number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference
-// per scene. The reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the
-// RMSE of display-encoded values is averaged as a root mean square, and FLIP as a mean. Patterns take the points in the
-// pixel from `sobol`.
+// The first table shows area errors of the points, on the lens and in the pixel. The second shows image errors by
+// number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference per scene. The
+// reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
+// display-encoded values is averaged as a root mean square, and FLIP as a mean. With the patterns, points in the pixel
+// come from `sobol`.
 //
 //   defocus_sequence_bench [MODEL…]
 //
-// Without models it renders a small school of fish, meshes/bokeh.gltf and meshes/staircase.gltf.
+// Without models, renders a small school of fish, meshes/bokeh.gltf and meshes/staircase.gltf.
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ const std::vector<std::uint32_t> counts = {8, 16, 32, 64, 128, 256, 512, 1024};
 
 struct Pattern {
     std::string name;
-    bool needsCount = false;  // a different count gives different points, so prefixes are not valid sets
+    bool needsCount = false;  // all points depend on the count, so prefixes are not valid sets
     std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
 };
 
@@ -51,7 +51,7 @@ glm::dvec2 polar(double radius, double angle) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// Vogel 1979, A Better Way to Construct the Sunflower Head.
+// Returns the spiral of Vogel 1979, A Better Way to Construct the Sunflower Head.
 std::vector<glm::dvec2> vogelSpiral(std::uint32_t count, std::uint32_t seed) {
     const double golden = fullTurn * (2 - std::numbers::phi);
     std::vector<glm::dvec2> points;
@@ -59,8 +59,8 @@ std::vector<glm::dvec2> vogelSpiral(std::uint32_t count, std::uint32_t seed) {
     return points;
 }
 
-// Returns rings of 1, 6, 12, 18 … points, like the cells of a hexagonal grid; the last ring takes the remaining points.
-// Radii give all points equal areas.
+// Returns rings of 1, 6, 12, 18 … points, as in a hexagonal grid; the last ring gets the remaining points. The radii
+// give all points the same area of the disk.
 std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) {
     std::vector<glm::dvec2> points;
     std::uint32_t size = 1;
@@ -72,7 +72,8 @@ std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) 
     return points;
 }
 
-// Returns points that repel each other on the torus of the square, so that they are even across its edges.
+// Returns points that repel each other, starting from Sobol' points. Distances wrap around at the edges of the unit
+// square, before it is mapped to the disk.
 std::vector<glm::dvec2> relaxed(std::uint32_t count, std::uint32_t seed) {
     std::vector<glm::dvec2> square;
     for (std::uint32_t i = 0; i < count; ++i) square.push_back(sequencePoint(Sequence::sobol, i, seed + 1).lens);
@@ -117,11 +118,11 @@ std::vector<Pattern> patterns() {
 // ---- points alone ---------------------------------------------------------------------------------------------------
 
 struct Region {
-    double area = 0;  // as a fraction of the lens or pixel
+    double area = 0;  // fraction of the lens or pixel area
     std::function<bool(const LensSample&)> holds;
 };
 
-// Returns half planes of the lens: the parts that a blurred straight edge leaves visible.
+// Returns half planes of the lens: the parts of the lens that see past a blurred straight edge.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 32; ++direction)
@@ -134,7 +135,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes that start at the pixel's lower left corner.
+// Returns boxes with one corner in the pixel's lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)
@@ -146,8 +147,8 @@ std::vector<Region> boxes() {
 }
 
 struct Discrepancy {
-    double all = 0;     // RMS over the regions of the area error of all points
-    double prefix = 0;  // max area error over regions and prefixes of at least 16 points
+    double all = 0;     // RMS over the regions of the area error, with all points
+    double prefix = 0;  // max area error over all regions and all prefixes of at least 16 points
     double suffix = 0;
 };
 
@@ -222,7 +223,7 @@ void measurePoints() {
 RendererOptions precise() {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    options.wave = 8;  // an image can be read after every 8 samples
+    options.wave = 8;  // allows reading the image after every 8 samples
     return options;
 }
 
@@ -234,7 +235,8 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
     return settings;
 }
 
-// Renders once and returns the images after each number of samples in `reads` (ascending).
+// Renders a plan once. Returns its images after each number of samples in `reads` (ascending). `samples` replaces the
+// plan's samples unless empty.
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;
@@ -251,7 +253,7 @@ std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vecto
 }
 
 struct Errors {
-    std::vector<double> square;  // mean over the seeds of RMSE², by sample count
+    std::vector<double> square;  // RMSE², mean over the seeds, by sample count
     std::vector<double> flip;
 };
 

@@ -1,12 +1,12 @@
 // Compares the rasteriser's accumulation with the Embree ray tracer at full image size. Held equal: geometry at full
 // detail, baked unlit colours, view, lens, size, samples per pixel; RGBA32F layers. Deliberately different: the code
 // for sampling, projection and visibility. A second comparison uses the plan's lens points for both, so that only
-// geometry and visibility can differ. It gives the PSNR and by how many px the image is shifted or scaled. Prints one
+// geometry and visibility can differ; it gives the PSNR, and by how many px the image is shifted or scaled. Prints one
 // line of JSON per scene. The exit code is 1 if the first PSNR of a scene is below 45 dB.
 //
-// With --shadows ANGLE, matt surfaces are lit by one sun of that angular diameter in degrees, which casts shadows. A
-// second pair of images without shadows shows their cost in each renderer and their part of the error. The error then
-// has no limit, because shadow maps have a finite resolution.
+// With --shadows ANGLE, diffuse surfaces are lit by a sun with this angular diameter in degrees, which casts shadows. A
+// second pair of images without shadows shows the time of the shadows in each renderer and their part of the error. The
+// error has no limit then, because shadow maps have a finite resolution.
 //
 //   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
 //   [--output FOLDER] [SCENE.glb …]
@@ -35,7 +35,7 @@ namespace {
 struct Options {
     std::uint32_t samples = 1024;
     std::string size = "1024x768";
-    Sequence sequence = RenderSettings{}.sequence;                     // lens samples of the rasteriser
+    Sequence sequence = RenderSettings{}.sequence;                     // sequence of the rasteriser's lens samples
     double foregroundLimit = std::numeric_limits<double>::infinity();  // px
     std::optional<double> shadows;                                     // angular diameter of the sun, degrees
     std::string output;
@@ -57,12 +57,12 @@ Rendered rendered(const char* method, const TruthScene& subject, const Options& 
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
-    settings.cocTolerance = 0.05;  // px; fine enough for the kink at the foreground limit
+    settings.cocTolerance = 0.05;  // px; small enough for the discontinuous slope of the blur at the foreground limit
     Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 
-// Makes the scene's painted surfaces matt and lights them only by a sun from the upper right behind the camera.
+// Makes the scene's surfaces diffuse, and lights them only by a sun from the upper right behind the camera.
 void lightByASun(TruthScene& subject, double degrees) {
     for (Material& material : subject.scene.materials) {
         material.unlit = false;
@@ -77,7 +77,7 @@ void lightByASun(TruthScene& subject, double degrees) {
     subject.world.environment.lighting = 0;
 }
 
-// Prints the comparison of one scene's shadows.
+// Compares the rasterized shadows of a scene with ray-traced ones, and prints the differences.
 void compareShadows(const std::string& name, const TruthScene& subject, const Options& options) {
     const Rendered openRaster = rendered("accumulation", subject, options);
     const Rendered openTraced = rendered("embree", subject, options);
@@ -111,7 +111,8 @@ void compareShadows(const std::string& name, const TruthScene& subject, const Op
     writeImage(folder / (name + "-difference.png"), differenceImage(traced.image, raster.image, 16));
 }
 
-// Prints the comparison. Returns whether the PSNR is at least 45 dB.
+// Compares the rasterized image of a scene with the ray-traced one, and prints the differences. Returns whether the
+// PSNR is at least 45 dB; always true with shadows.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
     const std::unique_ptr<TruthScene> subject = truthScene(std::move(scene), options.width, options.height);
     subject->view.lens.foregroundLimit = options.foregroundLimit;

@@ -1,9 +1,9 @@
-// Measures the fixed cost of a lens sample by layer format: clear, compose over a sky, add and resolve, without any
-// object.
+// Measures the fixed time of a lens sample by layer format: clearing, compositing over a sky, adding and resolving,
+// without any object.
 //
-// Held equal: 1024 × 768 px, 64 samples, an empty scene, program and process. Runs are interleaved; the fastest of each
-// counts. Wave sizes K: the default for each format's memory, and 8. Prints a table and checks that every format gives
-// the sky's colour.
+// Held equal: 1024 × 768 px, 64 samples, an empty scene, program and process. Runs alternate; the fastest of each
+// counts. Wave sizes K: the default for the memory of each format, and 8. Prints a table and checks that every format
+// gives the sky's colour.
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ constexpr int runs = 5;
 struct Row {
     std::string format;
     std::uint32_t wave = 0;
-    double milliseconds = std::numeric_limits<double>::infinity();  // per sample
+    double milliseconds = std::numeric_limits<double>::infinity();  // time per sample
     double gigabytes = 0;
 };
 
@@ -51,7 +51,7 @@ int run() {
     world.scene = std::make_shared<const Scene>();
     View view;
     RenderSettings settings;
-    settings.keepAll = true;  // without blurred objects, the plan would omit the lens samples
+    settings.keepAll = true;  // otherwise a plan without blurred objects omits the lens samples
     fmt::print("{}, {}\n1024 x 768, 64 samples, nothing drawn, fastest of {} runs\n\n", context->device(),
                context->driver(), runs);
     fmt::print("{:<10} {:<10} {:>4} {:>14} {:>10}\n", "sky", "format", "K", "ms a sample", "GB");

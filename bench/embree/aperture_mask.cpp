@@ -57,7 +57,7 @@ double ApertureMask::imageAt(const glm::dvec2& point) const {
 
 double ApertureMask::at(const glm::dvec2& point) const {
     if (lens_.apertureImage) return imageAt(point);
-    double edge = 1;  // radius of the blades' edge in this direction
+    double edge = 1;  // aperture's radius in the direction of `point`
     if (lens_.bladeCount > 0) {
         const double half = std::numbers::pi / lens_.bladeCount;
         const double fromCorner = std::fmod(std::atan2(point.y, point.x) + 4 * std::numbers::pi, 2 * half);
@@ -66,7 +66,7 @@ double ApertureMask::at(const glm::dvec2& point) const {
     const double area = glm::dot(point, point) / (edge * edge);
     const double hidden = lens_.obstruction * lens_.obstruction;
     if (area > 1 || area < hidden) return 0;
-    const double nearer = (area - hidden) / (1 - hidden);  // share of the open area that is nearer to the centre
+    const double nearer = (area - hidden) / (1 - hidden);  // fraction of the open area nearer to the centre
     return (1 + lens_.sphericalAberration * (2 * nearer - 1)) / (1 + std::abs(lens_.sphericalAberration));
 }
 

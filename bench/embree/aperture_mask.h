@@ -1,6 +1,6 @@
 #pragma once
-// An aperture as a mask over the unit disk, sampled by rejection: candidates are accepted with the probability that
-// light passes. Slower than the inverse maps of lens/aperture.h, but independent of their code.
+// An aperture as a mask over the unit disk, sampled by rejection: a candidate point is accepted with the probability
+// that light passes there. Slower than the inverse maps of lens/aperture.h, but independent of their code.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -11,18 +11,18 @@ namespace defocus::engine {
 
 class ApertureMask {
 public:
-    // Throws Error if less than 1/500 of the disk's light passes, because too few candidates would be accepted.
+    // Throws Error if less than 1/500 of the disk's light passes, because sampling would reject too many candidates.
     explicit ApertureMask(const Lens& lens);
 
-    // Returns whether the lens needs a mask. Disks and straight blades don't: aperturePoint (lens_rays.h) maps to them
-    // directly.
+    // Returns whether the lens needs a mask. It doesn't for disks and straight blades, which aperturePoint
+    // (lens_rays.h) samples directly.
     [[nodiscard]] static bool isNeeded(const Lens& lens);
 
-    // Returns the light that passes at a point of the unit disk relative to the brightest point, in [0, 1]. The point
-    // is not yet rotated or scaled by the anamorphic ratio.
+    // Returns the light that passes at a point of the unit disk relative to the brightest point, in [0, 1]. `point`:
+    // before the rotation and the anamorphic scaling of the aperture.
     [[nodiscard]] double at(const glm::dvec2& point) const;
 
-    // Returns the lens point `index` of stream `stream` (see scrambledPoint), rotated and scaled like the aperture.
+    // Returns lens point `index` of stream `stream` (see scrambledPoint), after rotation and anamorphic scaling.
     [[nodiscard]] glm::dvec2 lensPoint(std::uint32_t index, std::uint32_t stream, std::uint32_t seed) const;
 
 private:

@@ -23,7 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Samples per advance(). A tile traces them in succession, while its part of the scene is in the CPU cache.
+// Samples per advance(). A thread traces them one after another for a tile, while the tile's part of the scene is in
+// its cache.
 constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;
@@ -34,20 +35,21 @@ double millisecondsSince(Clock::time_point start) {
 
 constexpr float infinitelyFar = std::numeric_limits<float>::infinity();
 
-// Scrambling seeds of a tile's pixels.
+// Scrambling seeds of the pixels of a tile.
 struct TileSeeds {
     std::array<ReversedLanes, packetsPerTile> pixel;
     std::array<ReversedLanes, packetsPerTile> lens;
 };
 
-// Data of a sample that all tiles share.
+// The part of a lens sample's data that is equal for all tiles.
 struct WaveSample {
-    std::uint32_t index = 0;  // index in the sequence
-    // Shared by all pixels: points in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
+    std::uint32_t index = 0;  // index of the sample in the sequence
+    // Points for sampling modes in which all pixels share them: in the pixel ([0, 1)² px, right and down), and on the
+    // lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
-    glm::vec2 light{0.5f};  // point on every light
-    // Unscrambled points, for pixels with points of their own.
+    glm::vec2 light{0.5f};  // point on each light
+    // Unscrambled points for EmbreeSampling::perPixel, which scrambles them differently in each pixel.
     ReversedLanes ownPixel;
     ReversedLanes ownLens;
 };
@@ -79,7 +81,7 @@ PacketPoints samePoints(const glm::dvec2& pixel, const glm::dvec2& lens) {
     return points;
 }
 
-// Throws Error if the lens has artistic blur controls other than the foreground limit, which no traced lens reproduces.
+// Throws Error for artistic blur controls other than the foreground limit: no physical lens reproduces them.
 void checkTraceable(const Lens& lens) {
     Lens plain = lens;
     plain.foregroundLimit = std::numeric_limits<double>::infinity();
@@ -101,7 +103,7 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // A tile's first pixel, and the sum of its first packet.
+    // First pixel of a tile, and the sums of the tile's packets.
     struct Tile {
         int left = 0;
         int top = 0;
@@ -131,14 +133,14 @@ private:
     View view_;
     RenderSettings settings_;
     bool castsShadows_ = false;
-    std::vector<LensSample> planned_;  // EmbreeSampling::planned only
+    std::vector<LensSample> planned_;  // only for EmbreeSampling::planned
     LensCamera camera_;
-    std::optional<ApertureMask> mask_;  // only for apertures that need a mask
-    ApertureMap aperture_{Lens{}};      // for all other apertures
+    std::optional<ApertureMask> mask_;  // none if ApertureMask::isNeeded is false
+    ApertureMap aperture_{Lens{}};      // used if there is no mask_
     std::unique_ptr<TracedScene> scene_;
     std::unique_ptr<PacketShading> shading_;
-    glm::dmat4 tracedFrom_{0.0};   // the camera that scene_ was built for
-    std::vector<PacketSum> sums_;  // tile by tile
+    glm::dmat4 tracedFrom_{0.0};   // worldFromCamera for which scene_ was built
+    std::vector<PacketSum> sums_;  // packets of a tile are consecutive
     std::uint32_t samples_ = 0;
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;
@@ -199,7 +201,8 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the stream of a packet's first pixel; pixels are numbered packet by packet.
+// Returns the stream number of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet in
+// the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;
@@ -237,8 +240,8 @@ PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSe
     return points;
 }
 
-// Returns the pixels' points on the lights: one point for all pixels, or the points shifted by a different offset in
-// each pixel (Cranley and Patterson 1976).
+// Returns the point on the lights for each pixel: the same point, or with EmbreeSampling::perPixel the point shifted by
+// a different offset in each pixel (Cranley and Patterson 1976).
 std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile, int place,
                                                                 const WaveSample& sample) const {
     std::array<glm::vec2, packetSize> points;
@@ -263,8 +266,8 @@ LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     return mask;
 }
 
-// Traces with a foreground limit, which places a lens of its own before each pixel. Rays first go from the eye to that
-// lens; rays without a hit are refracted and traced on.
+// Traces a packet with a foreground limit, which places a separate lens in front of each pixel. Rays first go from the
+// eye to that lens; rays that hit nothing on the way are refracted and traced further.
 void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                                   RTCRayHit16& packet) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

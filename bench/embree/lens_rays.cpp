@@ -11,7 +11,7 @@ namespace {
 
 constexpr double fullTurn = 2 * std::numbers::pi;
 
-// Returns a hash of (value, salt): two rounds of multiply and shift.
+// Returns a 32-bit hash of (value, salt): two rounds of multiply and shift.
 std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
     std::uint64_t x = (static_cast<std::uint64_t>(salt) << 32 | value) + 0x9e3779b97f4a7c15ull;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -19,8 +19,8 @@ std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
     return static_cast<std::uint32_t>((x ^ (x >> 31)) >> 16);
 }
 
-// Returns the second dimension of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002). The first dimension
-// is the bit-reversed index.
+// Returns the second dimension of point `index` of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002). The
+// first dimension is the bit-reversed index.
 std::uint32_t sobolSecond(std::uint32_t index) {
     std::uint32_t result = 0;
     for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
@@ -37,7 +37,7 @@ LensCamera lensCamera(const View& view) {
     LensCamera camera;
     camera.tanHalfHorizontal = lens.horizontalAperture / (2 * lens.focalLength);
     camera.reciprocalFocus = 1 / lens.focusDistance;
-    // With breathing the sensor sits at the thin lens's image distance s·f/(s − f) instead of at f.
+    // With focus breathing, the sensor is at the thin lens's image distance s·f/(s − f) instead of at f.
     if (lens.focusBreathing) camera.tanHalfHorizontal *= 1 - focal * camera.reciprocalFocus;
     camera.tanHalfVertical = camera.tanHalfHorizontal * view.height / view.width;
     if (lens.dofEnabled) camera.lensRadius = 0.5 * lens.blurScale * focal / lens.fStop;
@@ -57,7 +57,7 @@ LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const Le
     const glm::dvec2 axis(image.x * camera.tanHalfHorizontal, image.y * camera.tanHalfVertical);
     const glm::dvec2 slope(eye.direction.x, eye.direction.y);
     const double alpha = camera.lensDepth;
-    const double reciprocalFocal = 1 / (alpha * (1 - alpha * camera.reciprocalFocus));  // s/(α(s − α))
+    const double reciprocalFocal = 1 / (alpha * (1 - alpha * camera.reciprocalFocus));  // 1/f = s/(α(s − α))
     const glm::dvec2 height = alpha * (slope - axis);
     return {glm::vec3(alpha * slope, -alpha), glm::vec3(slope - height * reciprocalFocal, -1)};
 }
@@ -70,8 +70,8 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
 }
 
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed) {
-    // Each pair visits the points in its own order, which decorrelates lens and pixel positions. Scrambling the index
-    // as a fraction permutes each aligned block of 2^n points, so that such blocks remain nets.
+    // Lens and pixel use the points in different orders, so that their positions aren't correlated. Scrambling the
+    // index as a fraction permutes each aligned block of 2^n points, so that each block remains a net.
     const std::uint32_t salt = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
     const std::uint32_t shuffled = owenScrambled(reversedBits(index), mixed(order, salt));
     return {shuffled, reversedBits(sobolSecond(shuffled))};
@@ -94,7 +94,7 @@ glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square) {
     if (lens.bladeCount < 3) {
         point = radius * glm::dvec2(std::cos(fullTurn * square.y), std::sin(fullTurn * square.y));
     } else {
-        // A fan of equal triangles: select one, then a uniform point in it.
+        // The polygon is a fan of equal triangles: select a triangle, then a uniformly distributed point in it.
         const double turn = square.y * lens.bladeCount;
         const double blade = std::floor(turn);
         const double first = lens.bladeRotation + fullTurn * blade / lens.bladeCount;

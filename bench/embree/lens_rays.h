@@ -1,24 +1,24 @@
 #pragma once
-// Rays of a thin lens in camera space, derived from lens geometry instead of the rasteriser's clip-space form.
+// Rays of a thin lens in camera space, derived from lens geometry, not from the rasteriser's clip-space form.
 //
-// Every point of the lens sees the plane of focus (depth s) exactly as the lens centre does: the image point (X, Y) ∈
-// [-1, 1]² (right, up) belongs to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u, v, 0)
-// through P is
+// Every point of the lens sees the plane of focus (depth s) as the lens centre does. The image point (X, Y) ∈ [-1, 1]²
+// (right, up) therefore corresponds to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u,
+// v, 0) through P is
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
 // A limit c₀ (px, in an image W px wide) of the blur in front of the focus replaces the lens of radius A/2 at the eye.
-// Each pixel gets a lens on its own axis, at depth α, that images the eye to the plane of focus. Rays leave the eye as
-// through a pinhole, inside the cone around the axis that covers c₀ px. Objects in front of that lens are therefore
-// blurred by c₀ px at any depth. Behind it, the blur must not change. This determines α: there, the original bundle of
-// rays is as wide as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀. With the object distance α and the image
-// distance s − α, the thin lens has
+// Each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane of focus. Rays leave
+// the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between the eye and this lens
+// are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the original lens. This
+// determines α: the original bundle of rays is as wide there as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀.
+// With object distance α and image distance s − α, the thin lens has
 //   1/f = 1/α + 1/(s − α) = s/(α(s − α))
-// (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray at distance h from the lens's
-// centre is bent by −h/f; see eyeRay and refractedRay.
+// (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray that meets the lens at distance
+// h from its centre is bent by −h/f; see eyeRay and refractedRay.
 //
 // Sampling: Owen-scrambled (0, 2)-sequences (sample_scramble.h), one pair of dimensions for the lens and one for the
-// pixel. packet_samples.h implements the same for packets of rays.
+// pixel. packet_samples.h implements the same sampling for packets of rays.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -31,38 +31,39 @@ namespace defocus::engine {
 struct LensCamera {
     double tanHalfHorizontal = 0;
     double tanHalfVertical = 0;
-    double lensRadius = 0;       // m; 0 is a pinhole
-    double reciprocalFocus = 0;  // 1/m; 0 is infinity
+    double lensRadius = 0;       // m; 0: pinhole
+    double reciprocalFocus = 0;  // 1/m; 0: focus at infinity
 
-    // For a limited foreground.
-    double lensDepth = 0;  // α, m; 0: the lens is at the eye
-    double cone = 0;       // tangent of the cone's half angle
+    // Members that are used only with a foreground limit.
+    double lensDepth = 0;  // α, m; 0: no foreground limit, the lens is at the eye
+    double cone = 0;       // tangent of the half angle of the cone
 };
 
 LensCamera lensCamera(const View& view);
 
 struct LensRay {
-    glm::vec3 origin{0.0f};     // camera space, on the lens (z = 0)
+    glm::vec3 origin{0.0f};     // in camera space, on the lens (z = 0)
     glm::vec3 direction{0.0f};  // z = −1: the ray parameter is the depth in m
 };
 
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// For a limited foreground: return the ray from the eye to the lens at lensDepth, and its refracted continuation.
+// Only with a foreground limit: return the ray from the eye to the lens at lensDepth, and its continuation behind that
+// lens.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
-// Selects one of the padded two-dimensional sequences.
+// Selects the lens's or the pixel's pair of dimensions.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` in [0, 1)² of the scrambled sequence of stream `stream` (a pixel's number, or one number shared
-// by all).
+// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream`: selects the scramble: a pixel's number, or one
+// number for all pixels.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
-// Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon whose first corner lies at
-// bladeRotation. An anamorphic ratio above 1 narrows it horizontally, below 1 vertically. Curved blades, rings,
-// aberration and images need ApertureMask.
+// Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon with its first corner at the
+// angle bladeRotation. An anamorphic ratio > 1 narrows it horizontally, < 1 vertically. Curved blades, rings,
+// aberration and aperture images need ApertureMask instead.
 glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square);
 
 }  // namespace defocus::engine

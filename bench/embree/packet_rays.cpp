@@ -4,11 +4,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Changes of a ray per px in the pixel and per radius on the lens.
+// Change of a ray when the point in the pixel moves by 1 px, or the lens point by the lens radius.
 struct RaySteps {
-    float pixelX, pixelY;  // slopes
-    float radius;          // m
-    float focus;           // slope that aims at the plane of focus
+    float pixelX, pixelY;  // slope per px
+    float radius;          // lens radius, m: change of the origin
+    float focus;           // change of the slope that keeps the ray aimed at its point on the plane of focus
 };
 
 DEFOCUS_VECTOR_CLONES void addSamples(const RaySteps& steps, const PacketPoints& points, RTCRayHit16& packet) {

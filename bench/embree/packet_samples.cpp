@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns sin(2πt) for |t| ≤ 1/4 by a Taylor series; the first omitted term is below 6e-8.
+// Returns sin(2πt) for |t| ≤ 1/4, from a Taylor series; the first omitted term is below 6e-8.
 DEFOCUS_ALWAYS_INLINE float sineOfTurn(float t) {
     const float x = 2 * std::numbers::pi_v<float> * t;
     const float square = x * x;
@@ -23,7 +23,7 @@ DEFOCUS_ALWAYS_INLINE float sineOfTurn(float t) {
 DEFOCUS_VECTOR_CLONES void mapToDisk(const ApertureMap& map, FloatLanes& x, FloatLanes& y) {
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
-        const float turn = y[i] - 0.5f;  // offset by half a turn, so both coordinates change sign
+        const float turn = y[i] - 0.5f;  // half a turn off, so the signs of both coordinates are inverted below
         const float folded = 0.25f - std::abs(turn);
         const float sine = sineOfTurn(std::copysign(0.25f - std::abs(folded), turn));
         const float cosine = sineOfTurn(folded);
@@ -73,7 +73,7 @@ ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint3
 
 DEFOCUS_VECTOR_CLONES void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x,
                                           FloatLanes& y) {
-    for (int i = 0; i < packetSize; ++i)  // a float has 24 bits of precision
+    for (int i = 0; i < packetSize; ++i)  // >> 8, because a float has 24 bits of precision
         x[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.x[i], seeds.x[i]) >> 8));
     for (int i = 0; i < packetSize; ++i)
         y[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.y[i], seeds.y[i]) >> 8));

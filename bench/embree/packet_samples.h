@@ -1,5 +1,5 @@
 #pragma once
-// Scrambled lens points for the pixels of a packet, in single precision: the packet versions of scrambledPoint and
+// Scrambled lens points for the pixels of a packet, in single precision: packet versions of scrambledPoint and
 // aperturePoint (lens_rays.h).
 
 #include <array>
@@ -10,33 +10,33 @@
 
 namespace defocus::engine {
 
-// One ReversedPoint per lane.
+// A ReversedPoint (sample_scramble.h) for each lane.
 struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint in all orders; the result is the same for every packet.
+// Returns unscrambledPoint for each of the 16 orders, one per lane; all packets use this result.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds of 16 streams from firstStream (a multiple of 16); the result is the same for every sample.
+// Returns scrambleSeeds for 16 streams, beginning with firstStream (a multiple of 16); all samples use this result.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
-// Returns the scrambled points in [0, 1)².
+// Returns the scrambled points, in [0, 1)², in `x` and `y`.
 void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
-// Precomputed data of aperturePoint for packets.
+// Aperture data that mapToAperture needs, computed once per lens.
 struct ApertureMap {
     explicit ApertureMap(const Lens& lens);
 
     static constexpr int maxBlades = 64;
-    int bladeCount = 0;  // 0: a disk
-    float scaleX = 1;    // anamorphic
+    int bladeCount = 0;  // 0: round aperture
+    float scaleX = 1;    // anamorphic scaling
     float scaleY = 1;
-    std::array<float, maxBlades + 1> cornerX{};  // polygon corners; the first is repeated at the end
+    std::array<float, maxBlades + 1> cornerX{};  // corners of the polygon; the first is repeated at the end
     std::array<float, maxBlades + 1> cornerY{};
 };
 
-// Maps (r, s) ∈ [0, 1)² to the aperture, in place.
+// Maps points in [0, 1)² to the aperture, in place; see aperturePoint.
 void mapToAperture(const ApertureMap& map, FloatLanes& x, FloatLanes& y);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
 // Shades the rays of a packet. Base colours and sky are computed for all lanes at once. Textures and lights, which few
-// scenes have, are computed ray by ray (traced_shading.h).
+// scenes have, are computed for each ray separately (traced_shading.h).
 
 #include <cstdint>
 #include <vector>
@@ -12,11 +12,11 @@ namespace defocus::engine {
 
 class PacketShading {
 public:
-    // `scene` and `world` must outlive it.
+    // `scene` and `world` must outlive the object.
     PacketShading(const World& world, const TracedScene& scene, const glm::dmat3& worldFromCamera);
 
-    // Returns the radiance of all lanes, including unused ones. Rays without a hit see the environment. `lightPoints`:
-    // ShadowRays::lightPoint of each lane; null: no shadows.
+    // Returns the radiance of all lanes, including unused ones. Rays that hit nothing return the environment's
+    // radiance. `lightPoints`: ShadowRays::lightPoint for each lane; null: no shadows.
     [[nodiscard]] PacketColors radiance(const RTCRayHit16& packet,
                                         const std::array<glm::vec2, packetSize>* lightPoints = nullptr) const;
     [[nodiscard]] std::uint64_t bytes() const;
@@ -27,19 +27,19 @@ private:
     const World& world_;
     const TracedScene& scene_;
 
-    // Arrays indexed by Embree geometry id. One additional geometry stands for a miss: a single black triangle.
+    // Surface data by Embree geometry id. An additional geometry, a single black triangle, represents a miss.
     struct Surfaces {
-        std::uint32_t miss = 0;                       // id of the miss geometry
-        std::vector<std::int32_t> firstColor;         // index into cornerColors
+        std::uint32_t miss = 0;                       // geometry id of a miss
+        std::vector<std::int32_t> firstColor;         // index of a geometry's first colour
         std::vector<std::int32_t> colorsPerTriangle;  // 3; 0: all triangles have the same colours
-        std::vector<float> red, green, blue;          // baseColorFactor
-        std::vector<glm::vec3> cornerColors;          // three per triangle
+        std::vector<float> red, green, blue;          // components of baseColorFactor
+        std::vector<glm::vec3> cornerColors;          // three colours per triangle
     };
-    // Sky radiance for the sine `height` of a ray's elevation: horizon + |height|·(zenith − horizon), with nadir
-    // instead of zenith below the horizon.
+    // Sky radiance for a ray at elevation e: horizon + |sin e|·(zenith − horizon); below the horizon, with nadir
+    // instead of zenith.
     struct Sky {
         glm::vec3 horizon{0.0f}, zenith{0.0f}, nadir{0.0f};
-        glm::vec3 up{0.0f};  // in camera space
+        glm::vec3 up{0.0f};  // world up, in camera space
         float alpha = 0;
     };
     static void baseColors(const Surfaces& surfaces, const RTCRayHit16& packet, PacketColors& colors);
@@ -47,11 +47,11 @@ private:
 
     Surfaces surfaces_;
     Sky sky_;
-    std::vector<bool> rayByRay_;  // by geometry id
+    std::vector<bool> rayByRay_;  // by geometry id: whether each ray is shaded separately
     bool anyRayByRay_ = false;
 };
 
-// Sums over samples, in double.
+// Sums over samples for each pixel of a packet, in double.
 struct alignas(64) PacketSum {
     std::array<Lanes<double>, 4> channels;
 };

@@ -1,14 +1,14 @@
 #pragma once
-// Packets of rays for 16 neighbouring pixels, 4 × 4. Each quantity is an array of 16 lanes, so that compilers vectorise
-// loops over the lanes. Embree accepts packets of 16 on every machine and splits them if its vectors are narrower.
+// Packets of rays for 4 × 4 neighbouring pixels. Each quantity is an array of 16 lanes, so that compilers vectorise
+// loops over the lanes. Embree accepts packets of 16 rays on every machine and splits them if its vectors are narrower.
 
 #include <embree3/rtcore.h>
 
 #include <array>
 #include <cstdint>
 
-// Compiles a function additionally for AVX2 and selects that version at load time if the machine has AVX2. Called
-// functions must be inlined to profit. Disabled with sanitizers, which load after the selection.
+// Also compiles the function for AVX2; that version is selected at load time if the machine has AVX2. Called functions
+// profit only if they are inlined. Disabled with sanitizers, which are loaded only after the selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define DEFOCUS_VECTOR_CLONES __attribute__((target_clones("arch=haswell", "default")))
 #else
@@ -21,7 +21,7 @@ namespace defocus::engine {
 inline constexpr int packetSide = 4;  // px
 inline constexpr int packetSize = packetSide * packetSide;
 
-// Lane i is pixel (i % 4, i / 4) of the packet, right and down.
+// One value per pixel of a packet: lane i is pixel (i % 4, i / 4), right and down.
 template <typename Value>
 struct alignas(64) Lanes {
     std::array<Value, packetSize> values{};
@@ -31,15 +31,15 @@ struct alignas(64) Lanes {
 };
 
 using FloatLanes = Lanes<float>;
-using LaneMask = Lanes<int>;  // −1: in use, 0: not
+using LaneMask = Lanes<int>;  // −1: lane in use, 0: not in use
 
-// Sample points of each lane: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
+// Sample points of all lanes: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
 struct PacketPoints {
     FloatLanes pixelX, pixelY;
     FloatLanes lensX, lensY;
 };
 
-// Linear RGBA, premultiplied.
+// Linear RGBA of all lanes, premultiplied.
 struct PacketColors {
     FloatLanes red, green, blue, alpha;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Integer operations for the scrambled points of lens_rays.h and packet_samples.h. Many streams share a Sobol' point,
-// and each stream has its own Owen scramble of a few 32-bit operations.
+// Integer operations for the scrambled points of lens_rays.h and packet_samples.h. Many streams share a Sobol' point;
+// each stream applies its own Owen scramble to the point, in a few 32-bit operations.
 //
 //   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
 //   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// A two-dimensional point of 32-bit fractions with their bits in reverse order.
+// A two-dimensional point; each coordinate is a 32-bit fraction with its bits in reverse order.
 struct ReversedPoint {
     std::uint32_t x = 0;
     std::uint32_t y = 0;
@@ -26,8 +26,9 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t reversedBits(std::uint32_t x) {
     return (x << 16) | (x >> 16);
 }
 
-// Owen scrambling: flips each bit of a fraction by a hash of the more significant bits (Laine and Karras 2011). Their
-// permutation propagates bits upwards only, so it takes the reversed bits. Returns the fraction.
+// Owen scrambling: flips each bit of a fraction depending on a hash of its more significant bits (Laine and Karras
+// 2011). Multiplication propagates bits upwards only, so `reversed` has the fraction's bits in reverse order. Returns
+// the fraction.
 DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::uint32_t seed) {
     std::uint32_t x = reversed + seed;
     x ^= x * 0x6c50b47cu;
@@ -37,13 +38,12 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::u
     return reversedBits(x);
 }
 
-// Returns point `index` of a pair's sequence before scrambling, in one of 16 orders. Stream s has order s % 16, so the
-// pixels of a packet have different orders, whose errors differ. The points are computed once per sample for all
-// packets.
+// Returns point `index` of a pair's sequence before scrambling, in one of 16 orders. Stream s uses order s % 16, so
+// that the pixels of a packet have different orders and uncorrelated errors. All packets share the points of a sample.
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed);
 inline constexpr std::uint32_t orderCount = packetSize;
 
-// Returns a stream's scrambling seeds for the two dimensions of a pair.
+// Returns the scrambling seeds of a stream for both dimensions of a pair.
 ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 }  // namespace defocus::engine

@@ -1,10 +1,10 @@
 #pragma once
-// A posed scene as one Embree bounding-volume hierarchy in camera space, made from the loaded meshes instead of the
+// A posed scene as an Embree bounding-volume hierarchy in camera space, built from the loaded meshes, not from the
 // pyramids. Transforms are composed in double and passed to Embree relative to the camera.
 //
 // Back faces of single-sided materials are culled; mirroring transforms reverse the winding, as glTF requires. Packets
-// are traced without a filter function; only rays that hit a culled back face are traced again with a filter. All
-// surfaces are opaque: alpha masks and blending are ignored.
+// are traced without a filter function; rays that hit a culled back face are traced again with the filter. All surfaces
+// are opaque: alpha masks and blending are ignored.
 
 #include <embree3/rtcore.h>
 
@@ -20,21 +20,21 @@
 
 namespace defocus::engine {
 
-// A primitive of an object.
+// A primitive of an object, as one Embree geometry.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed ones
+    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
-    glm::mat3 worldNormalFromObject{1.0f};  // not normalised
-    glm::mat3 worldFromCamera{1.0f};        // for directions
-    glm::dvec3 camera{0.0};                 // camera position in the world, m
-    float facing = 1;                       // −1 if the transform mirrors, which makes front faces clockwise
+    glm::mat3 worldNormalFromObject{1.0f};  // transforms normals, without normalising
+    glm::mat3 worldFromCamera{1.0f};        // transforms directions
+    glm::dvec3 camera{0.0};                 // position of the camera in world space, m
+    float facing = 1;                       // −1 if the transform mirrors and thus reverses the winding, else 1
 };
 
 struct TraceOptions {
-    bool watertight = true;  // no ray passes between two triangles; slightly slower
-    bool coherent = true;    // the rays of a packet have similar directions
+    bool watertight = true;  // no ray passes between adjacent triangles; slightly slower
+    bool coherent = true;    // rays of a packet have similar directions
 };
 
 class TracedScene {
@@ -44,10 +44,10 @@ public:
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
 
-    // Finds the nearest hits of camera-space rays between tnear and `farthest`, for the lanes in `mask`; other lanes
-    // are unchanged. Thread-safe.
+    // Finds the nearest hits of camera-space rays with ray parameters from tnear to `farthest`, for the lanes in
+    // `mask`; other lanes are unchanged. Thread-safe.
     void trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const;
-    // Returns whether anything lies on a camera-space ray within `farthest` times its direction. Thread-safe.
+    // Returns whether a camera-space ray hits anything at ray parameters up to `farthest`. Thread-safe.
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float farthest) const;
     [[nodiscard]] const TracedGeometry& geometry(std::uint32_t id) const { return geometries_[id]; }
     [[nodiscard]] std::uint32_t geometryCount() const { return static_cast<std::uint32_t>(geometries_.size()); }
@@ -64,10 +64,10 @@ private:
     RTCScene scene_ = nullptr;
     TraceOptions options_;
     Material defaultMaterial_;
-    std::deque<TracedGeometry> geometries_;  // by Embree geometry id; a deque, because the filter keeps addresses
-    std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array per object; Embree reads them in place
-    std::deque<std::vector<glm::vec3>> normals_;    // world space, one array per deformed object
-    // By Embree geometry id, with one more entry for a miss: `facing` of single-sided surfaces, else 0.
+    std::deque<TracedGeometry> geometries_;         // by Embree geometry id; deque: the filter keeps addresses
+    std::deque<std::vector<glm::vec4>> positions_;  // in camera space, one array per object; Embree doesn't copy them
+    std::deque<std::vector<glm::vec3>> normals_;    // in world space, one array per deformed object
+    // By Embree geometry id, with an additional entry for a miss: `facing` for single-sided surfaces, else 0.
     std::vector<float> culledFacing_;
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;

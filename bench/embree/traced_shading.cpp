@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The vertices of the hit triangle and the hit's barycentric weights.
+// Vertices of the hit triangle, and the barycentric weights of the hit point.
 struct Corners {
     std::array<std::uint32_t, 3> vertices{};
     glm::vec3 weights{0.0f};
@@ -58,14 +58,14 @@ glm::vec3 texel(const TextureImage& image, const Texture& texture, int x, int y)
     return {decoded(rgba[0]), decoded(rgba[1]), decoded(rgba[2])};
 }
 
-// Returns a base colour from texture level 0, filtered after decoding.
+// Returns the base colour from texture level 0; texels are decoded before filtering.
 glm::vec3 textureColor(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
     const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) return glm::vec3(1);
     const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (image.width <= 0 || image.height <= 0) return glm::vec3(1);
     const glm::vec2 place = glm::vec2(use.uvTransform * glm::vec3(uv, 1)) * glm::vec2(image.width, image.height);
-    // Clamp, so that extreme coordinates don't overflow the integer texel.
+    // Clamp, so that extreme texture coordinates don't overflow the integer texel index.
     const glm::vec2 bounded = glm::clamp(place, glm::vec2(-1e6f), glm::vec2(1e6f));
     if (texture.magnification == Filter::nearest) {
         const glm::ivec2 cell(glm::floor(bounded));
@@ -97,7 +97,7 @@ glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Co
     return color;
 }
 
-// Returns the unit normal in world space, on the side of the ray's origin.
+// Returns the unit shading normal in world space, on the side of the surface that the ray comes from.
 glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const SurfaceHit& hit) {
     const float behind = glm::dot(hit.facet, hit.direction) * geometry.facing;
     const glm::vec3 front = geometry.normals->empty() ? geometry.facing * (geometry.worldFromCamera * hit.facet)
@@ -106,14 +106,14 @@ glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, 
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
 }
 
-// Maps the square [0, 1)² to the unit disk; square rings map to circles.
+// Maps the square [0, 1)² to the unit disk; concentric squares map to concentric circles.
 glm::vec2 onDisk(const glm::vec2& place) {
     const float a = 2 * place.x - 1;
     const float b = 2 * place.y - 1;
     const float ring = std::max(std::abs(a), std::abs(b));
     if (!(ring > 0)) return glm::vec2(0);
     constexpr float eighth = std::numbers::pi_v<float> / 4;
-    float angle = 0;  // from the first axis; each side of a ring is a quarter turn
+    float angle = 0;  // from the first axis; each side of a square maps to a quarter turn
     if (std::abs(a) > std::abs(b))
         angle = a > 0 ? eighth * b / a : eighth * (4 + b / a);
     else
@@ -121,11 +121,11 @@ glm::vec2 onDisk(const glm::vec2& place) {
     return {ring * std::cos(angle), ring * std::sin(angle)};
 }
 
-// Unoccluded light at a point: illuminance in lux on a surface perpendicular to the light.
+// Light that arrives at a point if nothing occludes it: illuminance in lux on a surface perpendicular to the light.
 struct Incoming {
     glm::vec3 illuminance{0.0f};
-    glm::vec3 toMiddle{0.0f};  // unit
-    float distance = 0;        // m, to the light's centre; 0: infinitely far
+    glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre
+    float distance = 0;        // to the light's centre, m; 0: infinitely far
 };
 
 Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
@@ -150,10 +150,12 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
     return incoming;
 }
 
-// Returns whether the light's sample point is occluded from the hit. The light is a disk that faces the hit.
+// Returns whether the sample point of the light is occluded from the hit point. The light is a disk that faces the hit
+// point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // Axes of the disk, as for the plan's light points: the second axis is the light's up direction.
+    // Axes of the disk; the same as for the light points of the plan, where the second axis is the light's up
+    // direction.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));
@@ -163,7 +165,7 @@ bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeo
     const glm::vec3 aside = radius * (at.x * right + at.y * glm::cross(front, right));
     const glm::vec3 toPoint = (far ? front : incoming.distance * front) + aside;
 
-    // The shadow ray starts just above the facet, on the visible side. It ends one lamp diameter before the light, so
+    // The shadow ray starts just above the facet, on its visible side. It ends one lamp diameter before the light, so
     // that the lamp's own glass casts no shadow.
     const glm::vec3 place = hit.origin + hit.distance * hit.direction;
     const glm::vec3 facet = glm::normalize(hit.facet);

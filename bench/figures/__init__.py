@@ -1,1 +1,1 @@
-"""Figures of the documents and reports: tables, plots and pictures from results of the benches and from the program."""
+"""Figures of documents and reports: tables, plots and pictures from results of the benches and from the program."""

@@ -1,10 +1,10 @@
-"""The command line of scripts/figures."""
+"""Command line of scripts/figures."""
 
 import argparse
 import importlib
 import sys
 
-COMMANDS = {  # each is a module of this package
+COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "diff": "compare two results of one bench",
     "report": "draw index.html from results of benches, as --report does",
     "tables": "write the tables of README.md and docs/ from bench/results",

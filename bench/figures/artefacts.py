@@ -1,5 +1,5 @@
-"""Renders one scene of meshes/ for each known artefact of image-space methods, beside the reference and the accumulation. The
-report of `defocus bench convergence --report FOLDER` shows these strips.
+"""Renders a scene of meshes/ for each known artefact of image-space methods: with several methods and a reference. The
+report of `defocus bench convergence --report FOLDER` shows these strips of pictures.
 
     scripts/figures artefacts -o FOLDER [--program build/release/defocus]
 
@@ -40,7 +40,7 @@ ARTEFACTS = [
 
 
 def strip(program, folder, name, title, text):
-    """Returns the entry of a strip in strips.json."""
+    """Renders the pictures of one artefact and returns their entry for strips.json."""
     images = []
     for index, (label, options) in enumerate(METHODS):
         base = folder / f"{name}-{index}"

@@ -1,4 +1,4 @@
-"""Tables of levels, correctness and parts of a frame; each function of TABLES returns Markdown."""
+"""Tables of levels, correctness and parts of a frame. Each function in TABLES returns a table as Markdown."""
 
 import json
 import re
@@ -14,7 +14,7 @@ def span(values, digits):
 
 
 def by_size_only(bench_has):
-    """Returns the sentence under a table that the current program can no longer reproduce."""
+    """Returns the sentence under a table that no current program reproduces. bench_has: such as "This bench has"."""
     return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
             "repeats the figures.\n")
 
@@ -35,7 +35,7 @@ def scaling(with_parts=True):
 
 
 def ending_in_numbers(lines, count):
-    """Returns (name, numbers) of the lines that end in `count` numbers; text in brackets is ignored."""
+    """Returns (text before, numbers) of the lines that end with `count` numbers; remarks in brackets are ignored."""
     rows = []
     for line in lines:
         words = line.split("  (")[0].split()
@@ -49,7 +49,7 @@ def gain(gains):
 
 
 def distance(rows):
-    """Returns the text on the distance to the mesh, from the rows of all meshes and their sum."""
+    """Returns a text on the levels' distance to the mesh, from the rows of all meshes and the row "all"."""
     rows = dict(rows)
     every = rows.pop("all")
     worst = max(rows, key=lambda name: rows[name][3])
@@ -62,7 +62,7 @@ def pyramid_sections():
 
 
 def pyramid_memory():
-    """Returns the peak bytes per triangle of building pyramids: for large meshes, and {name: bytes} for all."""
+    """Returns the peak bytes per triangle of building pyramids: the range for large meshes, and {name: bytes}."""
     times = pyramid_sections()[0]
     timed = ending_in_numbers(times, 12)
     bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
@@ -185,13 +185,15 @@ def sequences():
         "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
 
 
-# Groups: method and setting, samples, milliseconds, PSNR, FLIP.
+# Matches a row of `bench convergence`. Groups: method and setting, samples, milliseconds, PSNR, FLIP.
 METHOD_ROW = re.compile(r"[*+f ]{3}(\S.*?)\s+(\d+)\s+([\d.]+)\s+[\d.]+ to [\d.]+\s+\d+\s+\d+\s+([\d.]+)\s+[\d.]+\s+([\d.]+)")
 
 
 def method_rows(name):
-    """Returns {scene: {(method and setting, samples): (milliseconds, PSNR, FLIP)}} of the first table of each scene in a text of
-    `bench convergence`."""
+    """Returns {scene: {(method and setting, samples): (milliseconds, PSNR, FLIP)}} from a text of `bench convergence`.
+
+    Only the first table of each scene is read.
+    """
     scenes = {}
     for line in lines_of(name):
         if scene := re.match(r"(.+), \d+ x \d+ px, \d+ runs", line):
@@ -203,12 +205,12 @@ def method_rows(name):
 
 
 def command_in(name, scene):
-    """Returns the first command in a text of `bench convergence` whose arguments contain a text."""
+    """Returns the first command in a text of `bench convergence` whose line contains `scene`."""
     return next(line[2:] for line in lines_of(name) if line.startswith("$ ") and scene in line)
 
 
 def few_images():
-    """Errors of methods that draw few images: as published, by default and with their best settings."""
+    """Returns the table of errors of methods that draw few images: as published, by default and with best settings."""
     name = "llvmpipe-circular"
     forms = {"published": "published", "best": "best", None: "default"}
     rows = []
@@ -220,7 +222,7 @@ def few_images():
 
 
 def layers():
-    """Times and errors of layers and of the accumulation over the number of lens samples."""
+    """Returns the table of times and errors of `layered` and accumulation for each number of lens samples."""
     methods = ("accumulation, lod=off", "layered, lod=off")
     scene = method_rows("llvmpipe-layered")["fish school"]
     counts = sorted({count for _, count in scene})
@@ -277,7 +279,7 @@ def parts(summary=False):
 
 
 def lens_space_rows():
-    """Returns (model, numbers) of the first table of the lens-space bench."""
+    """Returns (model, numbers) for each row of the first table of the lens-space bench."""
     rows = []
     for line in lines_of("llvmpipe-lens-space"):
         cells = [cell.strip() for cell in line.split("|")[1:-1]]

@@ -1,4 +1,4 @@
-"""Shared parts of the commands: the repository's root, option parsers, runs of the program."""
+"""Shared parts of the commands: repository root, option parsers, running programs."""
 
 import argparse
 import pathlib
@@ -9,13 +9,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def parser_of(name, text):
-    """Returns the parser of `scripts/figures NAME`; `text` is the module's docstring."""
+    """Returns the option parser of `scripts/figures NAME`. text: description, the module's docstring."""
     return argparse.ArgumentParser(prog=f"scripts/figures {name}", description=text,
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def path(text):
-    """Returns an absolute path: programs run in the repository's root."""
+    """Returns the path as an absolute one, because programs run in the repository root."""
     return pathlib.Path(text).resolve()
 
 
@@ -31,7 +31,7 @@ def add_program(parser):
 
 
 def run(*words):
-    """Runs a program in the repository's root and returns its output; exits with its message if it fails."""
+    """Runs a program in the repository root and returns its output. If it fails, exits with its error message."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=ROOT)
     if done.returncode != 0:
         sys.exit(done.stderr.strip())

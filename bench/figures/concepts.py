@@ -2,7 +2,7 @@
 
     scripts/figures concepts [--program build/release/defocus]
 
-The pyramid is exported by `defocus pyramid`. The other figures are computed from the formulas on the page.
+The levels are exported by `defocus pyramid`. The other figures are computed from the formulas on that page.
 """
 
 import json
@@ -15,13 +15,13 @@ from figures.command import ROOT, add_program, parser_of, run
 from figures.files import write_file
 
 FOLDER = ROOT / "docs" / "concepts"
-INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # colours after Okabe and Ito
+INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # after Okabe and Ito
 CELL_COLOURS = ("#0063a8", "#f0a070", "#35b089", "#c070a0")
-FOCUS = 2.0  # m
+FOCUS = 2.0  # focus distance, m
 
 
 class Drawing:
-    """An SVG figure of one width and height in pixels."""
+    """An SVG figure; width and height are in pixels."""
 
     def __init__(self, width, height, title):
         self.head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
@@ -67,7 +67,7 @@ def radical_inverse(base, index):
 
 
 def disk_points(count):
-    """Returns Halton's points from index 1 on, in the unit disk."""
+    """Returns `count` points of the Halton sequence, from index 1 on, mapped to the unit disk."""
     points = []
     for index in range(1, count + 1):
         radius, angle = math.sqrt(radical_inverse(2, index)), 2 * math.pi * radical_inverse(3, index)
@@ -101,7 +101,7 @@ def draw_lens_sample():
 
 
 def draw_circle_of_confusion():
-    """Draws the diameter over depth for a 50 mm lens at f/2, 36 mm sensor, 1024 px; below, the disks at the same scale."""
+    """Draws the blur diameter over depth for a 50 mm f/2 lens, 36 mm sensor, 1024 px; below, the blur disks."""
     drawing = Drawing(720, 330, "Diameter of the circle of confusion over depth")
     left, right, top, bottom, first, last, most = 60, 690, 20, 220, 0.8, 8.0, 30.0
     scale = 0.050 / 2 * 1024 / 0.72  # A · W / (2 tan(θx/2)), with tan(θx/2) = 18/50
@@ -131,7 +131,7 @@ def draw_circle_of_confusion():
 
 
 def triangles_of(data):
-    """Returns the triangles of a GLB with one buffer, each three positions."""
+    """Returns the triangles of a GLB file with a single buffer, each as three positions."""
     length = struct.unpack_from("<I", data, 12)[0]
     document, binary = json.loads(data[20:20 + length]), data[28 + length:]
 
@@ -152,7 +152,7 @@ def triangles_of(data):
 
 
 def draw_pyramid(program):
-    """Draws every second level of a fish, as wireframes seen from the side."""
+    """Draws every second level of a fish's pyramid as a wireframe, seen from the side."""
     with tempfile.TemporaryDirectory() as folder:
         run(program, "pyramid", "--fish", 1, "--fish-triangles", 1600, "--no-measure", "--export", folder)
         files = sorted(pathlib.Path(folder).glob("*-level-*.glb"))
@@ -174,7 +174,7 @@ def draw_pyramid(program):
 
 
 def draw_sample_split():
-    """Draws which of 16 samples have which level, for nine values of λ between two levels."""
+    """Draws which of 16 samples use which level, for nine values of λ between two levels."""
     drawing = Drawing(720, 290, "Levels that 16 samples draw while λ goes from 1 to 2")
     count, side = 16, 22
     drawing.text((60, 22), "lens sample 0 … 15")
@@ -198,7 +198,7 @@ def draw_sample_split():
 
 
 def halved(points, count):
-    """Divides points into `count` groups of equal size by repeated halving across the longer side."""
+    """Divides points into equal groups by repeated halving across the longer side. count: groups, a power of 2."""
     if count == 1:
         return [points]
     spans = [max(point[axis] for point in points) - min(point[axis] for point in points) for axis in (0, 1)]
@@ -208,7 +208,7 @@ def halved(points, count):
 
 
 def draw_lens_cells():
-    """Draws 16 lens points (left), and 16 cells of 32 points each with their means (right)."""
+    """Draws 16 lens points (left), and 16 lens cells of 32 points each with their means (right)."""
     drawing = Drawing(720, 300, "Sixteen lens points, and sixteen lens cells with their means")
     radius = 125
     left, right = (180, 140), (540, 140)

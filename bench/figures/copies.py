@@ -1,10 +1,10 @@
-"""Writes a glTF scene of many copies of another, one behind the other, before a fast lens: a load for the benches.
+"""Writes a glTF scene with many copies of another scene at increasing depths, seen through a fast lens: for benches.
 
     scripts/figures copies SCENE.gltf [-n 20] [-o copies.gltf] [--program build/release/defocus]
 
-The copies share the scene's meshes and files, which are named relative to the new file. Their depths grow from 2 to 12 sizes of the
-scene; sideways they fill the view of the camera (50 mm f/0.95). The focus is on the fourth. Animations and cameras of the scene are
-left out.
+The copies share the scene's meshes and files, whose paths are relative to the new file. Their depths increase from 2 to
+12 times the scene's size; sideways they fill the view of the camera (50 mm f/0.95). The focus is on the fourth copy.
+Animations and cameras of the scene are left out.
 """
 
 import json
@@ -16,11 +16,11 @@ from figures.command import add_program, parser_of, path, run
 from figures.files import read_json, write_file
 
 TANGENT = 18 / 50  # tangent of half the camera's horizontal field of view
-SPREAD = (0.7548776662466927, 0.5698402909980532)  # steps of the R2 sequence
+SPREAD = (0.7548776662466927, 0.5698402909980532)  # increments of the R2 sequence
 
 
 def copied(document, index):
-    """Adds a copy of a node and its children; returns its index."""
+    """Appends a copy of a node and its children to the document; returns the copy's index."""
     node = dict(document["nodes"][index])
     if "children" in node:
         node["children"] = [copied(document, child) for child in node["children"]]
@@ -29,7 +29,7 @@ def copied(document, index):
 
 
 def add_copies(document, count, low, high):
-    """Replaces the scene's roots by copies and a camera; low and high are the corners of the scene's bounding box."""
+    """Replaces the scene's root nodes by copies and a camera. low, high: corners of the scene's bounding box."""
     scene = document["scenes"][document.get("scene", 0)]
     roots, scene["nodes"] = scene["nodes"], []
     size = max(high[axis] - low[axis] for axis in range(3))

@@ -1,4 +1,4 @@
-"""The curves of bench/results/lens: C as a function of depth, for each control of the lens."""
+"""Curves in bench/results/lens: the circle of confusion C over depth, for each control of the lens."""
 
 import json
 
@@ -22,16 +22,16 @@ DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # m
 
 
 def blurs(program, options):
-    """Returns the signed blur (px) at each of DEPTHS, and the image's width."""
+    """Returns the signed blur (px) at each of DEPTHS, and the width of the image (px)."""
     report = json.loads(run(program, "info", "--camera", "meshes/chess.glb", "--json", *LENS, *options, "--depths",
                             ",".join(f"{depth:.2f}" for depth in DEPTHS)))
     return [row["pixels"] for row in report["blur"]], report["width"]
 
 
 def draw_curves(program, file):
-    """Draws two plots. Left: C in clip space, w · c / W for a blur of c px in an image W px wide; right: c.
+    """Plots over depth w. Left: C in clip space, w · c / W for a blur of c px in an image W px wide. Right: c.
 
-    The paper's C has the opposite sign.
+    C has the opposite sign in the paper.
     """
     figure, (clip, image) = plt.subplots(1, 2, figsize=(10, 3.8), dpi=100, layout="constrained")
     for name, color, style, options in CURVES:

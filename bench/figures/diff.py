@@ -1,12 +1,13 @@
-"""Compares two results of one bench row by row.
+"""Compares two results of the same bench row by row.
 
     scripts/figures diff OLD NEW
 
-OLD and NEW are JSON or CSV files of bench convergence, speedup, scaling, popping or stability. Only JSON names scene, size, lens
-and machine. A time has changed if the two spreads (10th to 90th percentile of at least three runs) do not overlap. An error has
-changed if it differs by more than 1 %: on one driver a program renders the same image every time. For SSIM the rule applies to
-1 - SSIM, for PSNR to the RMSE. Results of another scene, camera, size, lens or driver get no verdict. Results of another machine
-get no verdict on times, and results with another reference get none on the errors from it.
+OLD and NEW are JSON or CSV files of bench convergence, speedup, scaling, popping or stability. Only JSON contains
+scene, size, lens and machine. A time has changed if the two spreads (10th to 90th percentile of at least three runs)
+don't overlap. An error has changed if it differs by more than 1 %, because a program renders identical images on the
+same driver. For SSIM, 1 - SSIM is compared; for PSNR, the RMSE. Results with another scene, camera, size, lens or
+driver get no verdict, results of another machine none on times, and results with another reference none on errors
+relative to the reference.
 """
 
 import math
@@ -17,15 +18,15 @@ from collections import Counter, namedtuple
 from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
-MIN_RUNS = 3  # min runs for a verdict on times
+MIN_RUNS = 3  # fewer runs give no verdict on times
 TOLERANCE = 0.01  # relative to the larger error
-SSIM_ROUNDING = 1e-6  # CSV files hold six digits of SSIM
-# Columns that identify a row, and columns of errors.
+SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
+# Columns that identify a row, and columns that are errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
         "focusDistance", "lod", "width", "height", "preset", "frame")
 ERRORS = re.compile(r"(rmse|psnr|ssim|flip)(Full|Reference)?|biasFlip|(change|step)(Rmse|Flip)(Image)?|(diameterE|energyE|e)rror")
 
-Row = namedtuple("Row", "key time runs errors limit reference_samples")  # time: (median, low, high) in ms, or None
+Row = namedtuple("Row", "key time runs errors limit reference_samples")  # time: (median, low, high), ms; or None
 Results = namedtuple("Results", "measured_on subject rows")
 Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 
@@ -34,7 +35,7 @@ Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 
 
 def numeric(value):
-    """Returns a number for a number and its text; None for null, NaN and infinity; other values as they are."""
+    """Returns a number for a number or its text, None for null, NaN and infinity, and other values unchanged."""
     try:
         return float(value) if math.isfinite(float(value)) else None
     except (TypeError, ValueError):
@@ -42,7 +43,7 @@ def numeric(value):
 
 
 def cells_of(row):
-    """Returns a row with the columns of the CSV file, and the errors that follow from them."""
+    """Returns a row as {CSV column: value}, with additional errors that are computed from the row."""
     parts = {"milliseconds": "{}", "fromFullDetail": "{}Full", "fromReference": "{}Reference", "bias": "bias{}"}
     cells = {}
     for name, value in row.items():
@@ -60,7 +61,7 @@ def cells_of(row):
 
 
 def row_of(cells):
-    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # older results of bench speedup name no method
+    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # older results have no method
     key = [f"{cells[name]:.6g}" if isinstance(cells[name], float) else cells[name] for name in KEYS if cells.get(name) not in skipped]
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]
     errors = {name: value for name, value in cells.items() if ERRORS.fullmatch(name) and value is not None}
@@ -71,7 +72,7 @@ def row_of(cells):
 
 
 def subject_of(document):
-    """Returns the properties that comparable results share, by name, without those that the document lacks."""
+    """Returns the document's properties that must be equal in comparable results, by name."""
     subject = {name: document[name] for name in ("scene", "camera", "device", "driver", "frames", "pathFrames") if name in document}
     if "width" in document:
         subject["size"] = f"{document['width']} x {document['height']} px"
@@ -83,7 +84,7 @@ def subject_of(document):
 
 
 def parse(document):
-    """Returns the results of a JSON document, or of the rows of a CSV file."""
+    """Returns the Results of a JSON document or of a list of CSV rows."""
     rows, measured_on, subject = document, "CSV does not name scene, size, lens and machine; they are taken to be equal", {}
     if isinstance(document, dict):
         rows = [{"runs": document.get("runs")} | row for name in ("rows", "cases", "lensHonesty") for row in document.get(name, [])
@@ -97,7 +98,7 @@ def parse(document):
 
 
 def read(file):
-    """Returns the results in a file; exits if it holds none."""
+    """Reads the Results in a file; exits with a message if it contains none."""
     try:
         return parse(read_json(file) if file.read_bytes().lstrip().startswith(b"{") else read_csv(file))
     except (OSError, ValueError, TypeError, AttributeError) as fault:
@@ -108,7 +109,7 @@ def read(file):
 
 
 def unlike_subjects(old, new):
-    """Returns {name: sentence} for each difference between the subjects."""
+    """Returns {property: sentence} for each property that differs between two results."""
     effects = {"machine": "times", "reference": "errors from it"}
     return {name: f"{name} differs (old: {text}, new: {new[name]}): no verdict on {effects.get(name, 'times and errors')}"
             for name, text in old.items() if name in new and new[name] != text}
@@ -128,7 +129,7 @@ def time_change(old, new, unlike):
 
 
 def distance(column, value):
-    """Returns an error that is 0 for equal images."""
+    """Converts an error metric to one that is 0 for equal images."""
     if column.startswith("psnr"):
         return 10 ** (-value / 20)
     return 1 - value if column.startswith("ssim") else value
@@ -150,7 +151,7 @@ def error_change(column, old, new, unlike):
 
 
 def compare(old, new):
-    """Returns the differences between the subjects, and (key, change of time, {column: change of error}) for each row of both."""
+    """Returns the differing properties and, for each common row, (key, change of time, {column: change of error})."""
     unlike = unlike_subjects(old.subject, new.subject)
     pairs = [(row, other) for row in old.rows for other in new.rows if row.key == other.key]
     if not pairs:
@@ -174,7 +175,7 @@ def time_text(time):
 
 
 def errors_text(errors):
-    """Returns the errors that changed or passed their limits."""
+    """Returns a text with the errors that changed or exceeded their limits."""
     texts = [f"{name} {error.old:.4g} to {error.new:.4g} {error.verdict}" + (", BEYOND ITS LIMIT" if error.beyond_limit else "")
              for name, error in errors.items() if error.verdict != "equal" or error.beyond_limit]
     return "  ".join(texts) or ("equal" if errors else "")
@@ -186,7 +187,7 @@ def counts(changes, verdicts):
 
 
 def table(old, new):
-    """Returns the comparison as text."""
+    """Returns the comparison of two results as a text table."""
     unlike, rows = compare(old, new)
     lines = [f"old: {old.measured_on}", f"new: {new.measured_on}", *unlike.values()]
     width = max(len(key) for key, _, _ in rows)

@@ -1,4 +1,4 @@
-"""Reads results of benches, and replaces files atomically."""
+"""Reads results of the benches, and replaces files atomically."""
 
 import csv
 import fcntl
@@ -12,13 +12,13 @@ def read_json(path):
 
 
 def read_csv(path):
-    """Returns a dictionary of texts for each row."""
+    """Returns each row as a dictionary of texts by column."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
 def remove_abandoned(path):
-    """Removes a temporary file unless a process is writing it."""
+    """Removes a temporary file unless another process has locked it for writing."""
     try:
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -28,7 +28,7 @@ def remove_abandoned(path):
 
 
 def write_file(path, content):
-    """Replaces a file by a text or bytes through a temporary file; removes those that killed processes left."""
+    """Replaces a file atomically through a temporary file; first removes temporary files of killed processes."""
     prefix = f".{path.name}."
     for left in path.parent.glob(f"{prefix}*"):
         remove_abandoned(left)
@@ -36,7 +36,7 @@ def write_file(path, content):
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            pass  # a file system without locks
+            pass  # the file system has no locks
         file.write(content if isinstance(content, bytes) else content.encode())
         file.flush()
         os.fsync(file.fileno())

@@ -1,10 +1,10 @@
-"""Draws docs/first-pictures.jpg: eighteen scenes with the settings of a new user.
+"""Draws docs/first-pictures.jpg: eighteen scenes as a new user sees them.
 
     scripts/figures first-pictures MODELS [--program build/release/defocus]
 
-MODELS is a folder with the glTF files of SCENES; the school of fish is built in. Three pictures of each scene: without the guess
-of units, the tone map and the metering; with the defaults; with --ground. Held equal: scene, camera, f-number, image size. Needs
-Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
+MODELS is a folder with the glTF files in SCENES; the school of fish is built in. Each scene has three pictures: without
+guessed units, tone map and metering; with the defaults; with --ground. Held equal: scene, camera, f-number, image size.
+Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
 """
 
 import pathlib
@@ -17,11 +17,11 @@ from figures.command import ROOT, add_program, parser_of, path, run
 SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBottle.glb", "bike.glb",
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
           "AlphaBlendModeTest.glb", "NegativeScaleTest.glb", "InterpolationTest.glb", "skull.glb", "hammer.glb", "mountain.glb",
-          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the school
+          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the built-in school
 FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px on the sheet
-COLUMNS = 2  # columns of scenes
+COLUMNS = 2  # scenes side by side
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
@@ -35,7 +35,7 @@ def render(program, models, scene, options, folder):
 
 
 def sheet(picture_of):
-    """Returns the sheet of all scenes; picture_of(scene, options) renders one picture."""
+    """Returns the contact sheet of all scenes. picture_of(scene, options) returns one picture."""
     rows = -(-len(SCENES) // COLUMNS)
     block = (WIDTH + GAP) * len(FORMS) + 3 * GAP
     image = Image.new("RGB", (COLUMNS * block - 2 * GAP, rows * (HEIGHT + LINE + GAP) + LINE), (250, 250, 250))

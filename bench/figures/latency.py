@@ -1,9 +1,10 @@
-"""Measures how fast `defocus view` answers the mouse: drags the school of fish on an X server of its own (Xvfb, xdotool).
+"""Measures how fast `defocus view` reacts to the mouse: drags the school of fish on its own X server (Xvfb, xdotool).
 
     scripts/figures latency [--program build/release/defocus] [--size 1024x768] [--seconds 15] [-- options of view …]
 
-Prints the milliseconds from an event to the end of the frame that shows its effect, as the window measures them. They are upper
-bounds, because the arrival of an event during a frame is unknown. Held equal: scene, window and path of the mouse (30 steps a second).
+Prints the milliseconds from an event to the end of the frame that shows its effect, as the window measures them. They
+are upper bounds, because the arrival of an event during a frame is unknown. Held equal: scene, window size, mouse path
+(30 steps a second).
 """
 
 import json
@@ -19,7 +20,7 @@ from figures.command import add_program, parser_of
 
 
 def state_of(path):
-    """Returns what the window wrote with --stats; empty before its first frame."""
+    """Returns the state that the window wrote with --stats; empty before its first frame."""
     try:
         return json.loads(path.read_text())
     except (OSError, ValueError):
@@ -27,7 +28,7 @@ def state_of(path):
 
 
 def wait_for_scene(program, path):
-    """Waits until the pyramids are built and the picture has many samples."""
+    """Waits until the pyramids are built and the picture has more than 64 samples."""
     while program.poll() is None:
         state = state_of(path)
         if state.get("samples", 0) > 64 and not state["draft"]:

@@ -1,10 +1,11 @@
-"""Renders the pictures of bench/results/lens by the commands on its page, README.md, and draws its curves.
+"""Renders the pictures in bench/results/lens with the commands on its README.md, and draws the curves of the same page.
 
     scripts/figures lens [--only NAME] [--program build/release/defocus]
 
-A section's pictures and its commands, lines such as "- closed: `--fstop 11`", have the same order. The command is the one at the
-page's head with these options; a sentence "With `…`" names another scene or number of samples. The PSNR under Figure 9 is
-updated. Figure 9 needs the ray tracer's bench (defocus_truth_bench), the curves need matplotlib.
+Each section lists commands such as "- closed: `--fstop 11`", in the order of its pictures. The full command is the one
+at the top of the page with these options added; a sentence "With `…`" replaces the scene or the number of samples.
+Updates the PSNR under Figure 9. Figure 9 needs the bench of the ray tracer (defocus_truth_bench), the curves need
+matplotlib.
 """
 
 import json
@@ -23,11 +24,11 @@ import hairball  # noqa: E402
 import make_meshes  # noqa: E402
 
 FOLDER = ROOT / "bench" / "results" / "lens"
-MADE = {"meshes/hairball.py": hairball.hairball, "on a finer board": lambda: make_meshes.chess(200)}  # scenes too large to keep
+MADE = {"meshes/hairball.py": hairball.hairball, "on a finer board": lambda: make_meshes.chess(200)}  # large scenes
 
 
 def commands_of(page):
-    """Returns {file: (scene, options)} of the pictures that the program renders."""
+    """Returns {picture: (scene, options)} for the pictures on the page that `defocus render` makes."""
     scene, *common, samples = shlex.split(re.search(r"^    defocus render (.*)$", page, re.M)[1])
     commands = {}
     for section in page.split("\n## ")[1:]:
@@ -41,7 +42,7 @@ def commands_of(page):
 
 
 def without_texts(data):
-    """Returns a PNG file without its text chunks, which name the machine and the settings."""
+    """Returns a PNG file without its text chunks, which contain machine and settings."""
     kept, offset = data[:8], 8
     while offset < len(data):
         end = offset + 12 + struct.unpack_from(">I", data, offset)[0]
@@ -65,7 +66,7 @@ def render(program, file, scene, options, scratch):
 
 
 def trace(bench, page, scratch):
-    """Draws Figure 9 and returns the page with its PSNR."""
+    """Renders Figure 9 and returns the page with the new PSNR."""
     words = shlex.split(re.search(r"^    defocus_truth_bench (.*)$", page, re.M)[1])
     measured = json.loads(run(bench, *(scratch if word == "FOLDER" else word for word in words)))
     for image in ("accumulation", "embree", "difference"):
@@ -86,7 +87,7 @@ def main(words):
     if traced and not bench.exists():
         parser.error(f"{bench} does not exist; build it first")
     if "coc-curves".startswith(arguments.only):
-        from figures.curves import draw_curves  # needs matplotlib
+        from figures.curves import draw_curves  # imported here, because it needs matplotlib
         draw_curves(arguments.program, FOLDER / "coc-curves.png")
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)

@@ -1,4 +1,4 @@
-"""Markdown of the documents: tables, and the sentence on the run that a table comes from."""
+"""Markdown for the documents: tables, and the sentence that describes the run behind a table."""
 
 from figures.results import command_of, run_of
 
@@ -8,13 +8,13 @@ def table(header, rows):
 
 
 def source(command, held_equal, file, commit=""):
-    """Returns the sentence under a table: its command, its run and what was equal in all rows."""
+    """Returns the sentence under a table: the command, the file of the run, and what was equal in all rows."""
     run = f"the run, commit {commit}" if commit else "the run"
     return f"\nCommand: `{command}` ([{run}](../bench/results/{file})). Held equal: {held_equal.rstrip('.')}.\n"
 
 
 def run_source(name, held_equal=None):
-    """Returns the sentence under a table of a JSON result."""
+    """Returns the sentence under a table made from a JSON result."""
     results = run_of(name)
     if held_equal is None:
         return source(command_of(name, results), results["heldEqual"], f"{name}.json", results["commit"])

@@ -1,7 +1,8 @@
-"""Draws the plots of bench/results/details.md from the results under bench/results, as SVG files under docs/plots. Needs matplotlib
-(Debian: python3-matplotlib).
+"""Draws the plots of bench/results/details.md, from results in bench/results, as SVG files in docs/plots.
 
     scripts/figures plots
+
+Needs matplotlib (Debian: python3-matplotlib).
 """
 
 import matplotlib
@@ -12,7 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from figures.command import ROOT, parser_of
 from figures.results import error_ratio, lens_levels, rmse, run_of, samples_sweep, seconds
 
-METHODS = {  # (method, setting): label, colour and marker
+METHODS = {  # (method, setting): (label, colour, marker)
     ("accumulation", "lod=fractional metric=size thresholds=1"): ("accumulation, levels", "tab:blue", "o"),
     ("accumulation", "lod=off"): ("accumulation, full detail", "tab:cyan", "s"),
     ("embree", "standard"): ("ray tracer", "tab:orange", "^"),

@@ -1,18 +1,18 @@
-"""Draws the report of `defocus bench` as one index.html without other files.
+"""Draws the report of `defocus bench` as a single, self-contained index.html.
 
     scripts/figures report RESULTS [REPORT]
 
-The folder RESULTS may hold results.json of `bench convergence` and the images that it names. index.html goes to the folder REPORT
-(default: RESULTS). Further sections come from files in REPORT:
+The folder RESULTS may contain results.json of `bench convergence` with its images. index.html is written to the folder
+REPORT (default: RESULTS). Other sections are made from these files in REPORT:
 
     speedup.json                `bench speedup`: speed-up against lens samples (Jeong, Kim and Lee 2011, Figure 2)
     popping.json, popping.csv   `bench popping`: changes from frame to frame
     scaling.json                `bench scaling`: time against triangles, instances, samples, pixels, blur
-    stability.json              `bench stability`: extreme cases, and the blur against the lens
+    stability.json              `bench stability`: numerically difficult cases, and the blur compared with the lens
     strips.json                 `scripts/figures artefacts`: [{"title", "text", "images": [{"label", "file"}]}]
 
-Needs matplotlib and Pillow (Debian: python3-matplotlib). The program contains the modules of the report and runs them for
---report.
+Needs matplotlib and Pillow (Debian: python3-matplotlib). The program `defocus` contains the modules of the report, and
+runs them for --report.
 """
 
 import argparse
@@ -32,7 +32,7 @@ SECTIONS = {"results": convergence_section, "speedup": speedup_section, "popping
 
 
 def contents(html):
-    """Returns a list of links to the headings, and the HTML with an id for each heading."""
+    """Returns a list of links to the headings as HTML, and the HTML with an id for each heading."""
     links = []
 
     def named(match):
@@ -44,7 +44,7 @@ def contents(html):
 
 
 def headline(results):
-    """Returns the main result as a sentence, or an empty text."""
+    """Returns the main result as a sentence; empty if there is none."""
     if "speedup" in results and (text := speedup_headline(results["speedup"])):
         return text
     competitors = results.get("results", {}).get("timesToErrors", [])

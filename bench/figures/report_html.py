@@ -1,4 +1,4 @@
-"""HTML of the report's parts: pictures, tables, facts about a run."""
+"""HTML for parts of the report: pictures, tables, facts about a run."""
 
 import base64
 import io
@@ -22,7 +22,7 @@ def data_uri(image, kind="png", **options):
 
 
 def crop_image(path, crop, alternative):
-    """Returns a part of a picture as an element, or a note that the file is missing."""
+    """Returns a crop of a picture as an HTML element, or a note that the file is missing."""
     try:
         with Image.open(path) as image:
             x, y = crop["x"], crop["y"]
@@ -33,7 +33,7 @@ def crop_image(path, crop, alternative):
 
 
 def crop_strip(results, rows, folder, crop):
-    """Returns one crop of the reference and of each row, with its FLIP map."""
+    """Returns the HTML of one crop: for the reference, and for each row with its FLIP map."""
     reference = results["reference"]
     image = crop_image(folder / reference["image"], crop, f"reference, {crop['title']}")
     cells = [f'<figure class="crop">{image}<figcaption><b>reference</b><br>{reference["samples"]} lens '
@@ -50,7 +50,7 @@ def crop_strip(results, rows, folder, crop):
 
 
 def overview(results, folder):
-    """Returns the reference with a frame around each crop."""
+    """Returns the reference picture as HTML, with a frame around each crop."""
     try:
         with Image.open(folder / results["reference"]["image"]) as image:
             uri = data_uri(image.convert("RGB"), "jpeg", quality=88)
@@ -69,7 +69,7 @@ def overview(results, folder):
 
 
 def artefact_strips(folder):
-    """Returns the strips of strips.json, which `scripts/figures artefacts` writes."""
+    """Returns the HTML of the pictures in strips.json, which `scripts/figures artefacts` writes."""
     if not (folder / "strips.json").exists():
         return ""
     parts = ["<h2>Known artefacts</h2>"]
@@ -93,7 +93,7 @@ def plot_figure(plot, caption):
 
 
 def table(header, rows, left=1):
-    """Returns a sortable table whose first `left` columns hold text; empty columns are left out."""
+    """Returns a sortable HTML table. The first `left` columns are text; empty columns are left out."""
     full = [i for i in range(len(header)) if any(str(row[i]) for row in rows)]
     classes = ["" if i >= left else " class=text" for i in range(len(full))]
     head = "".join(f'<th scope="col"{kind}>{header[i]}</th>' for i, kind in zip(full, classes))
@@ -106,7 +106,7 @@ def table(header, rows, left=1):
 
 
 def facts(results, more=()):
-    """Returns a table of the program, machine and settings of a bench."""
+    """Returns an HTML table with the program, machine and settings of a bench. more: additional [name, text] lines."""
     machine = results["machine"]
     lines = [
         ["scene", f"{results['scene']}, {results['width']} × {results['height']} px" if results.get("scene") else ""],
@@ -124,7 +124,7 @@ def facts(results, more=()):
 
 
 def subject(results):
-    """Returns the facts of a convergence bench."""
+    """Returns the table of facts about a convergence bench."""
     lens, reference = results["lens"], results["reference"]
     remaining = reference["remaining"]
     focus = f"{lens['focusDistance']:g} m" if lens["focusDistance"] else "infinity"

@@ -1,4 +1,4 @@
-"""Plots of the report's sections."""
+"""Plots in the sections of the report."""
 
 from matplotlib.ticker import NullFormatter
 
@@ -13,7 +13,7 @@ BASELINE = ("accumulation", "lod=off")
 
 
 def series_of(rows):
-    """Returns the valid rows by (method, setting); each method has a colour and each series a marker."""
+    """Groups valid rows by (method, setting). Each method gets a colour, each group a marker."""
     series = {}
     for row in rows:
         if not row["fault"]:
@@ -43,7 +43,7 @@ def draw_counts(axes, rows, error_of):
 
 
 def draw_own_error(axes, error):
-    """Marks the errors below that of the reference."""
+    """Marks the range of errors below the reference's own error."""
     axes.axhspan(axes.get_ylim()[0], error, facecolor=GRID, alpha=0.45, zorder=0)
     axes.axhline(error, color=INK, linewidth=1, linestyle=(0, (1, 2)))
     axes.annotate("below this line: the reference's own error", (0.01, error), fontsize=9, color=INK,
@@ -51,13 +51,13 @@ def draw_own_error(axes, error):
 
 
 def bars(values, spreads):
-    """Returns the lengths of error bars from low to high."""
+    """Returns the lengths of error bars below and above each value. spreads: (low, high) of each value."""
     return [[max(0, value - low) for value, (low, _) in zip(values, spreads)],
             [max(0, high - value) for value, (_, high) in zip(values, spreads)]]
 
 
 def draw_series(axes, one, rows, error_of, name):
-    """Draws a line with error bars over runs and seeds; returns its times and errors."""
+    """Draws a line with error bars (times over runs, errors over seeds). Returns the times and errors of its points."""
     times, errors = [median(row) for row in rows], [error_of(row) for row in rows]
     over_runs = [(row["milliseconds"]["low"], row["milliseconds"]["high"]) for row in rows]
     over_seeds = [row.get("errorsOverSeeds", {}).get(name) for row in rows]
@@ -112,7 +112,7 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
 
 
 def samples_plot(name, axis_label, lines, text, scale):
-    """Plots lines of (label, [(samples, value)]); returns an empty text without lines."""
+    """Plots lines of (label, [(samples, value)]) as SVG; returns an empty text if there are no lines."""
     if not lines:
         return ""
     figure, ((axes,),) = new_plots(1, 0.74, 5.6)
@@ -138,7 +138,7 @@ def samples_plot(name, axis_label, lines, text, scale):
 
 
 def speedup_series(rows):
-    """Returns [(label, rows by lens samples)] of each preset, method and level of detail."""
+    """Returns [(label, rows sorted by lens samples)] for each preset, method and level mode."""
     series = {}
     for row in rows:
         if row["sweep"] == "samples":
@@ -154,7 +154,7 @@ def frame_time_plot(rows):
 def speedup_plot(rows):
     lines = []
     for label, line in speedup_series(rows):
-        if all(row["speedUp"] == 1 for row in line):  # full detail
+        if all(row["speedUp"] == 1 for row in line):  # full detail itself
             continue
         lines.append((label, [(row["samples"], row["speedUp"]) for row in line]))
         for part, name in (("sizeOnly", "size only"), ("blurOnly", "blur only")):
@@ -167,7 +167,7 @@ def speedup_plot(rows):
 
 
 def draw_modes(axes, points_of, size):
-    """Draws a line for each level of detail that has points; returns [(mode, points, end for label_beside)]."""
+    """Draws a line for each level mode with points. Returns [(label, points, argument for label_beside)]."""
     drawn = []
     for index, (mode, (label, colour)) in enumerate(MODES.items()):
         if points := points_of(mode):
@@ -179,7 +179,7 @@ def draw_modes(axes, points_of, size):
 
 
 def popping_plot(rows, samples):
-    """Plots pop, change and speed of levels frame by frame, a column for each movement."""
+    """Plots pop, change and speed of levels frame by frame, with one column per movement."""
     kinds = [("stepRmse", "pop, RMSE"), ("changeRmse", "change, RMSE"), ("speed", "levels a frame")]
     movements = list(dict.fromkeys(row["movement"] for row in rows))
     figure, plots = new_plots(len(movements), 0.8, 7.5, len(kinds))

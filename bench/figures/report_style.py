@@ -1,4 +1,4 @@
-"""Style and script of the report's page."""
+"""CSS and JavaScript of the report page."""
 
 from figures.report_html import CROP_WIDTH
 from figures.report_svg import PALETTE
@@ -57,7 +57,7 @@ a { color: var(--c0); }
 }
 pre { margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }
 """
-# Sorts tables by a click on a column's head; shows the value of a point under the pointer or the finger.
+# Sorts tables on a click on a column header, and shows a point's value under the mouse pointer or finger.
 SCRIPT = r"""
 for (const table of document.querySelectorAll('.scroll table')) {
   const heads = table.tHead.rows[0].cells, body = table.tBodies[0];
@@ -95,6 +95,6 @@ for (const plot of document.querySelectorAll('figure.plot'))
 
 
 def style():
-    """Returns the style with the palette's colours as --c0, --c1, …"""
+    """Returns the CSS, with the colours of the palette as variables --c0, --c1, …"""
     light, dark = ("".join(f"--c{i}:{colours[side]};" for i, colours in enumerate(PALETTE)) for side in (0, 1))
     return STYLE.replace("LIGHT", light).replace("DARK", dark).replace("CROP", str(CROP_WIDTH))

@@ -1,4 +1,4 @@
-"""Plots of the report: matplotlib axes in the page's colours, exported as SVG inside the page, with a tooltip for each point."""
+"""Plots of the report: matplotlib axes in the page's colours, as SVG elements with a tooltip for each point."""
 
 import html
 import io
@@ -10,26 +10,26 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
-# Colours after Okabe and Ito, distinguishable with all kinds of colour blindness: (on white, on black). Markers and labels
-# differ, too.
+# Palette of Okabe and Ito, darkened on white and lightened on black: (on white, on black). It is distinguishable with
+# all kinds of colour blindness; markers and labels differ, too.
 PALETTE = [("#0063a8", "#5db1f0"), ("#c24e00", "#ff8a4c"), ("#00805c", "#35cfa1"), ("#a8447f", "#ee9cc8"),
            ("#8a6000", "#f0c040"), ("#007e8a", "#5fd3df"), ("#5a5a5a", "#b8b8b8")]
 MARKERS = "osD^vPX*<>h"
-# Placeholders for CSS colours of the page.
+# Placeholder colours that as_svg replaces with CSS colours of the page.
 INK, GRID = "#010203", "#010204"
 COLOURS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
-LABEL_LETTERS = 42  # fit beside a plot; longer labels are smaller
+LABEL_LETTERS = 42  # letters that fit beside a plot; longer labels are drawn smaller
 
 
 def add_tooltips(line, texts):
-    """Gives each point of a line a text that the page shows under the pointer."""
+    """Adds a text to each point of a line, which the page shows under the mouse pointer."""
     tooltips = line.figure.__dict__.setdefault("tooltips", [])
     line.set_gid(f"told{len(tooltips)}")
     tooltips.append(list(texts))
 
 
 def with_tooltips(svg, tooltips):
-    """Writes the tooltips into the markers, which matplotlib draws in order as <use> elements."""
+    """Inserts the tooltips into the markers of an SVG; matplotlib draws these in order as <use> elements."""
     for index, texts in enumerate(tooltips):
         begin = svg.find(f'<g id="told{index}">')
         end = svg.find('<g id="', begin + 1)
@@ -40,7 +40,7 @@ def with_tooltips(svg, tooltips):
 
 
 def as_svg(figure, name, description):
-    """Returns the figure as an SVG element with unique ids and a description for screen readers."""
+    """Returns the figure as an SVG element with unique ids, and with a description for screen readers."""
     text = io.StringIO()
     figure.savefig(text, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -58,7 +58,7 @@ def as_svg(figure, name, description):
 
 
 def new_plots(count, right, height, rows=1):
-    """Returns a figure and its axes by row and column; a row shares its y axis."""
+    """Returns a figure and its axes by row and column; all axes of a row share the y axis."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "defocus", "font.size": 10})
     figure, plots = plt.subplots(rows, count, figsize=(10, height), sharex="col" if rows > 1 else False, sharey="row",
                                  squeeze=False)
@@ -85,7 +85,7 @@ def logarithmic(axis, text):
 
 
 def spread_apart(heights, step, top):
-    """Returns ascending heights at least a step apart, pushed up and then down from the top."""
+    """Moves ascending heights at least `step` apart and to at most `top`: first upwards, then downwards."""
     spread = []
     for height in heights:
         spread.append(max(height, spread[-1] + step) if spread else height)
@@ -96,7 +96,7 @@ def spread_apart(heights, step, top):
 
 
 def label_beside(axes, ends):
-    """Writes labels in the right margin, each with a marker and a line to its point; ends: (x, y, text, colour, marker)."""
+    """Draws labels in the right margin, each with a line to its point. ends: (x, y, text, colour, marker)."""
     axes.figure.canvas.draw()
     box = axes.get_window_extent()
     beside, text_at = 1 + 15 / box.width, 1 + 24 / box.width

@@ -1,4 +1,4 @@
-"""The results under bench/results, as tables and plots of the documents read them."""
+"""Reads the results in bench/results for tables and plots of the documents."""
 
 import re
 import sys
@@ -7,14 +7,14 @@ from figures.command import ROOT
 from figures.files import read_json
 
 RESULTS = ROOT / "bench" / "results"
-# Options that reproduce older runs with the current program: their default metric was the size.
+# Options that reproduce older runs with the current program. The default metric of these runs was the size.
 BY_SIZE = {"llvmpipe-methods-fish": " --metrics size", "llvmpipe-speedup-fish": " --lod-metric size"}
-# Runs in which the circular filter's defaults were one near component and a near field by coverage.
+# Runs whose defaults of the circular filter were one near component and a near field by coverage.
 CIRCULAR_BY_COVERAGE = ("llvmpipe-methods-fish", "llvmpipe-methods-lens-space")
 
 
 def run_of(name):
-    """Returns a JSON result; exits if it cannot be repeated because the program had uncommitted changes."""
+    """Returns a JSON result; exits if the program had uncommitted changes, because such a run cannot be repeated."""
     results = read_json(RESULTS / f"{name}.json")
     if results["commit"].endswith("-changed"):
         sys.exit(f"{name}.json: measured with uncommitted changes; commit them and measure again")
@@ -30,13 +30,13 @@ def numbers(text):
 
 
 def numbers_after(lines, beginning):
-    """Returns all numbers in the only line that starts with `beginning`, after this text."""
+    """Returns the numbers after `beginning` in the only line that starts with it."""
     (line,) = [line for line in lines if line.startswith(beginning)]
     return numbers(line[len(beginning):])
 
 
 def command_of(name, results):
-    """Returns the command of a run without output options, with the options that reproduce it."""
+    """Returns the command of a run, without output options and with the options that reproduce the run."""
     command = re.sub(r" (-o \S+|--report \S+|--quiet)", "", results["commands"][0]) + BY_SIZE.get(name, "")
     if name not in CIRCULAR_BY_COVERAGE:
         return command
@@ -45,13 +45,13 @@ def command_of(name, results):
 
 
 def accumulation_rows(name, preset=""):
-    """Returns the rows of `bench speedup` for accumulation with a preset."""
+    """Returns the rows of `bench speedup` for accumulation with the preset."""
     return [row for row in run_of(name)["rows"]
             if (row.get("preset", ""), row.get("method", "accumulation")) == (preset, "accumulation")]
 
 
 def samples_sweep(name, preset=""):
-    """Returns [(samples, {level of detail: row})] of the rows with the view's own lens."""
+    """Returns [(samples, {level mode: row})] for the rows with the view's own lens."""
     rows = [row for row in accumulation_rows(name, preset) if row["sweep"] == "samples"]
     counts = sorted({row["samples"] for row in rows})
     return [(count, {row["lod"]: row for row in rows if row["samples"] == count}) for count in counts]
@@ -66,12 +66,12 @@ def rmse(row):
 
 
 def error_ratio(modes, error="rmse"):
-    """Returns the error with levels divided by the error at full detail."""
+    """Returns the error with levels divided by the error at full detail. modes: {level mode: row}."""
     return modes["fractional"]["fromReference"][error] / modes["off"]["fromReference"][error]
 
 
 def lens_levels():
-    """Returns {model: rows} of Figure 7 of the lens-space bench."""
+    """Returns {model: rows of numbers} of Figure 7 from the lens-space bench."""
     models = {}
     for line in lines_of("llvmpipe-lens-space"):
         if ": milliseconds of line samples" in line:

@@ -1,8 +1,8 @@
-"""Rows of results: labels, texts of values, comparisons between rows."""
+"""Rows of results: labels, texts for values, comparisons between rows."""
 
 import math
 
-MODES = {  # levels of detail: label, and number in the palette
+MODES = {  # level mode: (label, index into the palette)
     "off": ("full detail", 6), "nearest": ("nearest level", 0), "fractional": ("fractional levels", 1),
     "continuous": ("continuous levels", 2), "multirate": ("multirate", 3)}
 METRICS = {"error": " by error", "halving": " in steps of half", "score": " by score"}
@@ -12,7 +12,7 @@ METRICS = {"error": " by error", "halving": " in steps of half", "score": " by s
 
 
 def label_of(row):
-    """Returns a label: 'accumulation', 'lod=fractional metric=size thresholds=2' -> 'accumulation, fractional levels ×2'."""
+    """Returns a label such as "accumulation, fractional levels ×2" for the setting "lod=fractional thresholds=2"."""
     method, parts = row["method"], [part.partition("=") for part in row["setting"].split()]
     values = {name: value for name, _, value in parts if value}
     words = [f"{method} ({row['form']})" if row.get("form") in ("published", "best") else method]
@@ -25,7 +25,7 @@ def label_of(row):
 
 
 def drawn_text(row, part=""):
-    """Returns a label for a row of `bench speedup`, or a part of it: 'jeong2011, fractional levels'."""
+    """Returns the label of a `bench speedup` row, or of a part of it, such as "jeong2011, fractional levels"."""
     drawn = part or (MODES[row["lod"]][0] if row["method"] == "accumulation" else row["method"])
     return f"{row['preset']}, {drawn}" if row["preset"] else drawn
 
@@ -43,7 +43,7 @@ def time_text(milliseconds):
 
 
 def time_to_error(time, first, text=time_text):
-    """Returns the time to an error as text, with its ratio to the first method's time."""
+    """Returns the time to reach an error as text, with its ratio to the first method's time."""
     if time["milliseconds"] is None:
         return "not reached"
     cell = ("under " if time["atMost"] else "") + text(time["milliseconds"])
@@ -62,7 +62,7 @@ def seeds_text(row):
 
 
 def below_reference(rmse_below, flip_below):
-    """Returns which errors of a row are smaller than the reference's own."""
+    """Returns a text that names the errors of a row that are smaller than the reference's own error."""
     words = [name for name, below in (("RMSE", rmse_below), ("FLIP", flip_below)) if below]
     return f"{' and '.join(words)} below the reference’s own error" if words else ""
 
@@ -83,7 +83,10 @@ def flip(row):
 
 
 def common_time(series):
-    """Returns a time (ms) near that of a row of each series with several rows: the middle of their common range, else of all times."""
+    """Returns a frame time (ms) that is close to a row of each series: the middle of the time range that they share.
+
+    Series with a single row are ignored. Without a shared range, returns the median of all times.
+    """
     several = [one for one in series if len(one["rows"]) > 1] or series
     times = [[median(row) for row in one["rows"]] for one in several]
     low, high = max(map(min, times)), min(map(max, times))
@@ -94,7 +97,7 @@ def common_time(series):
 
 
 def time_at_error(rows, error):
-    """Returns the time (ms) at which rows of growing samples reach an RMSE, by power laws between rows; None outside their range."""
+    """Returns the time (ms) at which rows reach an RMSE, by power laws between rows; None outside their range."""
     points = sorted((row["fromReference"]["rmse"], median(row)) for row in rows if row["fromReference"])
     for (low, slow), (high, fast) in zip(points, points[1:]):
         if low <= error <= high:
@@ -104,7 +107,7 @@ def time_at_error(rows, error):
 
 
 def equal_error_speedup(row, rows):
-    """Returns the speed-up over full detail with as many samples as full detail needs for the row's RMSE; None if not measured."""
+    """Returns the row's speed-up over full detail with the samples that the row's RMSE needs; None if not measured."""
     if not row["fromReference"]:
         return None
     full = [other for other in rows if other["lod"] == "off" and other["sweep"] == "samples" and
@@ -114,7 +117,7 @@ def equal_error_speedup(row, rows):
 
 
 def speedup_headline(results):
-    """Returns the speed-up of the row whose number of samples is nearest to 64."""
+    """Returns a sentence with the speed-up of the row whose number of samples is nearest to 64; empty without rows."""
     rows = [row for row in results["rows"] if row["sweep"] == "samples" and row["lod"] == "fractional" and not row["preset"]]
     if not rows:
         return ""

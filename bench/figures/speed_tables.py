@@ -1,4 +1,4 @@
-"""Tables of speed, error and popping; each function of TABLES returns Markdown."""
+"""Tables of speed, error and popping. Each function in TABLES returns a table as Markdown."""
 
 import re
 import textwrap
@@ -9,12 +9,12 @@ from figures.results import (accumulation_rows, command_of, error_ratio, lines_o
 
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
-MAX_ERROR_RATIO = 1.2  # error with levels over error at full detail
-MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}  # relative to the nearest level's largest pop
+MAX_ERROR_RATIO = 1.2  # limit of the error with levels, divided by the error at full detail
+MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}  # max pop relative to the nearest level
 
 
 def limited(value, limit):
-    """Returns a number, in bold if it is above its limit."""
+    """Returns a number as text, in bold if it exceeds its limit."""
     return f"**{value:.2f}**" if value > limit else f"{value:.2f}"
 
 
@@ -27,7 +27,7 @@ def times(modes, unit="s"):
 
 
 def speed_ups(levels):
-    """Returns the speed-ups by all criteria, by size only and by blur only."""
+    """Returns the speed-ups of levels chosen by size and blur, by size only, and by blur only."""
     return [f"{part['speedUp']:.1f}" for part in (levels, levels["sizeOnly"], levels["blurOnly"])]
 
 
@@ -43,7 +43,7 @@ def speed_table(name):
 
 
 def measured():
-    """Levels by measured error."""
+    """Returns the table of levels by measured error."""
     rows = []
     for count, modes in samples_sweep(OWN):
         full, levels = modes["off"], modes["fractional"]
@@ -56,7 +56,7 @@ def measured():
 
 
 def levels():
-    """Times and errors of levels by measured error on two machines, without the parts."""
+    """Returns the table of times and errors of levels by measured error on two machines, size and blur combined."""
     def own_times(modes):
         return [*(f"{seconds(modes[mode]):.2f}" for mode in ("off", "fractional")), f"{modes['fractional']['speedUp']:.1f}"]
 
@@ -67,7 +67,7 @@ def levels():
 
 
 def published_ratios():
-    """Speed-up and error of levels as published and by default."""
+    """Returns the table of speed-ups and errors of levels, as published and by default."""
     def ratios(modes):
         return [f"{modes['fractional']['speedUp']:.1f}", error_ratios(modes)[0]]
 
@@ -78,7 +78,7 @@ def published_ratios():
 
 
 def published():
-    """The published algorithm and the defaults: frame times over lens samples, as in Figure 2 of the paper."""
+    """Returns the table of frame times over lens samples, as published and by default, like Figure 2 of the paper."""
     own = dict(samples_sweep(OWN))
     rows = [[count, name, *times(modes), *speed_ups(modes["fractional"]), f"{modes['off']['fromReference']['rmse']:.4f}",
              f"{modes['fractional']['fromReference']['rmse']:.4f}", error_ratios(modes)[0]]
@@ -100,7 +100,7 @@ def lenses():
 
 
 def speed_sentence():
-    """The paragraph of README.md on speed and error."""
+    """Returns the paragraph of README.md on speed and error."""
     by_size, drawn = dict(samples_sweep(FISH))[64], dict(samples_sweep(OWN))[64]
     full, levels = drawn["off"], drawn["fractional"]
     return textwrap.fill(
@@ -126,7 +126,7 @@ def demo():
 
 
 def seeds():
-    """Differences caused by other lens samples, beside those caused by levels."""
+    """Returns the table of differences caused by other lens samples, beside those caused by levels."""
     names = {"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}
     rows = []
     for line in lines_of("llvmpipe-seeds"):
@@ -154,7 +154,7 @@ def popping():
 
 
 def pop_shares():
-    """Largest pop by RMSE: the nearest level's, and the other modes' relative to it."""
+    """Returns the table of the largest pop (RMSE) of the nearest level, and of the other modes relative to it."""
     rows = {(row["movement"], row["lod"]): row["stepRmse"] for row in run_of("llvmpipe-popping")["rows"] if row["samples"] == 32}
     cells = [[movement.replace("-", " "), f"{rows[movement, 'nearest']['worst']:.4f}",
               *(limited(rows[movement, mode]["ofNearest"], limit) for mode, limit in MAX_POP_RATIO.items())]
@@ -184,7 +184,7 @@ def gpu_equal_error():
 
 
 def error_times():
-    """Times to an RMSE of 0.005 on both machines."""
+    """Returns the table of times to an RMSE of 0.005 on both machines."""
     runs = {"llvmpipe-multirate-fish": "school", "llvmpipe-multirate-helmets": "helmets", "h200-school": "school, H200",
             "h200-helmets": "helmets, H200"}
     by_method = {}

@@ -1,11 +1,11 @@
-"""Writes the tables of README.md, docs/results.md and bench/results from the results under bench/results.
+"""Writes the tables of README.md, docs/results.md and bench/results from the results in bench/results.
 
     scripts/figures tables            write them
     scripts/figures tables --check    exit code 1 if a page differs
 
-A table stands between `<!-- NAME -->` and `<!-- end -->`. `<!-- methods: FILE -->` begins a table of methods, and
-`<!-- equal error: FILE FILE … -->` a table of times to equal errors; FILE is a results.json of `defocus bench convergence` below the
-repository's root.
+A table replaces the text between `<!-- NAME -->` and `<!-- end -->`. `<!-- methods: FILE -->` begins a table of
+methods, and `<!-- equal error: FILE FILE … -->` a table of times to equal errors. FILE: a results.json of `defocus
+bench convergence`, relative to the repository root.
 """
 
 import pathlib
@@ -89,8 +89,10 @@ def block_text(kind, paths, everything):
 
 
 def fitted_to(page, text):
-    """Returns the text with links that resolve from a page in docs/ or in bench/results/. docs/results.md says at its top what the
-    rows of a table hold equal."""
+    """Returns a table's text with links that resolve from a page in docs/ or in bench/results/.
+
+    The sentence "Held equal" is removed on docs/results.md, which contains it at the top.
+    """
     if page == "docs/results.md":
         return re.sub(r" Held equal: .*\n", "\n", text)
     return text.replace("](../bench/results/", "](") if page.startswith("bench/results/") else text

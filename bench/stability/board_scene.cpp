@@ -71,7 +71,7 @@ Image rendered(const BoardScene& boards, const std::string& method, const Render
 }
 
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance, const glm::dvec2& offset) {
-    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * depth / view.width;  // m
+    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * depth / view.width;  // m/px
     return {depth, pixel * offset, glm::dvec2(0.5 * pixels * pixel), radiance};
 }
 

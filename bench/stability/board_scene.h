@@ -1,5 +1,5 @@
 #pragma once
-// Makes scenes whose images have a closed form: upright unlit boards before a uniform background.
+// Builds scenes whose images have a closed form: upright unlit boards in front of a uniform background.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -13,59 +13,60 @@ namespace defocus::engine {
 
 struct Board {
     double depth = 2;        // m
-    glm::dvec2 centre{0};    // m, at that depth
+    glm::dvec2 centre{0};    // m, in the plane at `depth`
     glm::dvec2 halfSize{1};  // m
-    glm::vec3 radiance{1};   // linear
+    glm::vec3 radiance{1};   // linear RGB
 };
 
-// Returns a camera at the origin with a 50 mm lens on a sensor of 36 mm, f/1, focused at 2 m.
+// Returns the view of a camera at the origin with a 50 mm f/1 lens and a 36 mm sensor, focused at 2 m.
 View boardView(int width = 96, int height = 64);
 
 struct BoardScene {
     BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
 
-    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the scene that `world` points to
+    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // scene of `world`
     World world;
     View view;
-    RenderSettings settings;  // full detail, everything kept
+    RenderSettings settings;  // full detail, no culling
 };
 
-// Renders the scene with `method`, written as for parseMethodUse.
+// Renders the scene. `method`: in the format of parseMethodUse.
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 
-// Returns a square board that is `pixels` wide and centred in the image, moved by `offset` px (right, up).
+// Returns a square board that is `pixels` px wide. `offset`: of its centre from the image's centre, px (right, up).
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
-// Returns three boards: in front of the focus at depth `nearest`, in focus at 2 m, and behind it at depth `farthest`.
+// Returns three boards: in front of the focus at depth `nearest`, in focus at 2 m, and behind the focus at depth
+// `farthest`.
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
-// Returns the largest linear difference over all pixels and channels. The images must have the same size. The result is
-// infinite if a value of either image isn't finite.
+// Returns the max difference of linear values over all pixels and channels; infinity if a value of either image isn't
+// finite. The images must have the same size.
 double largestError(const Image& a, const Image& b);
 
-// Returns the blur diameter in px, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), computed in double from the lens alone.
+// Returns the blur diameter (px) c = A·|1/s − 1/z|·W / (2 tan(θx/2)), computed in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 
-// The errors of a light made by squareAt against the closed form. The diameter of its disk comes from the second
+// Errors of a blurred light from squareAt relative to the closed form. The measured diameter is derived from the second
 // moment.
 struct BlurredLight {
     double diameterError = 0;  // px
-    double placeError = 0;     // px, distance of the disk's centre from the exact one
+    double placeError = 0;     // px, distance of the disk's centre from its exact position
 };
 
-// The light's arguments of squareAt, and the image channel to measure. Near the disk, the channel must show only this
-// light.
+// The light's arguments of squareAt, and the image channel to measure. Near the light's disk, this channel must contain
+// no other light.
 struct LightPlace {
     double depth = 6;      // m
-    double pixels = 3;     // width, px
-    glm::dvec2 offset{0};  // px from the image's centre (right, up)
+    double pixels = 3;     // width of the light, px
+    glm::dvec2 offset{0};  // from the image's centre, px (right, up)
     int channel = 0;
 };
 BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light);
 
-// Sets blurScale so that the blur at `depth` (m) is `pixels` wide.
+// Sets blurScale so that the blur at `depth` (m) has a diameter of `pixels` px.
 void setBlur(View& view, double depth, double pixels);
 
 }  // namespace defocus::engine

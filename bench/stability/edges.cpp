@@ -1,4 +1,4 @@
-// Straight edges under extreme blur. The closed form of their profile is the area of the blur disk on one side of the
+// Straight edges under extreme blur. In closed form, their profile is the area of the blur disk on one side of the
 // edge.
 
 #include <algorithm>
@@ -14,40 +14,40 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double edgeTurn = 0.5;   // radians, rotation about the image's centre; aligned with neither rows nor columns
-constexpr double edgeOffset = 10;  // px, distance from the image's centre
+constexpr double edgeTurn = 0.5;   // rotation, radians; aligned with neither rows nor columns
+constexpr double edgeOffset = 10;  // distance from the image's centre, px
 constexpr std::uint32_t edgeSamples = 4096;
 
-// A half plane whose edge crosses the image, before a wall. Each has a uniform colour.
+// A half plane whose edge crosses the image, in front of a wall. Both have a uniform colour.
 struct Edge {
     View view;
-    double depth = 3;   // m
-    double wall = 1e7;  // m
+    double depth = 3;   // m, of the half plane
+    double wall = 1e7;  // m, depth of the wall
 };
 
-// Returns the share of a disk of diameter `diameter` that lies on one side of a line. `distance` is the centre's signed
-// distance from the line, positive on that side.
+// Returns the fraction of a disk's area on one side of a line. `distance`: signed distance of the disk's centre from
+// the line, positive on that side.
 double diskShare(double distance, double diameter) {
     const double x = std::clamp(2 * distance / diameter, -1.0, 1.0);
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// Returns the largest error of a pixel. Rays to the wall cross the half plane's depth within the same disk, so the
-// visible shares of wall and half plane add up to 1.
+// Returns the max error of a pixel relative to the closed form. The pixel's rays cross the depth of the half plane
+// within one disk; the rays that pass the edge see the wall, so both fractions add up to 1.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
     const glm::dvec3 near(0.9, 0.5, 0.1);
     const glm::dvec3 far(0.1, 0.3, 0.8);
     BoardScene boards(view, {squareAt(view, edge.depth, 2, near), squareAt(view, edge.wall, 1e6, far)});
     boards.settings.sampleCount = edgeSamples;
-    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * edge.depth / view.width;  // m
+    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * edge.depth / view.width;  // m/px
     const double half = 1e5 * pixel;
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), edgeTurn, glm::dvec3(0, 0, 1));
     boards.world.pose.objects[0].worldFromObject = glm::scale(
         glm::translate(turned, glm::dvec3(edgeOffset * pixel - half, 0, -edge.depth)), glm::dvec3(half, half, 1));
 
     const Image image = rendered(boards);
-    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // points out of the half plane; y is up
+    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // out of the half plane; y is up
     const double diameter = blurDiameter(view, edge.depth);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -67,7 +67,7 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// Returns an edge at 0.02 m before a wall at 2,000 km, with a focus that blurs both.
+// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus that blurs both.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

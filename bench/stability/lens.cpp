@@ -1,5 +1,5 @@
-// Lenses at their limits: blur diameter and position for extreme apertures, focus distances, fields of view and image
-// sizes.
+// Lenses at their limits: diameter and position of the blur for extreme apertures, focus distances, fields of view and
+// image sizes.
 
 #include <fmt/format.h>
 
@@ -17,18 +17,18 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double pixelLimit = 0.5;  // max error of a diameter, px
-constexpr double placeLimit = 0.1;  // px
+constexpr double pixelLimit = 0.5;  // max error of a blur diameter, px
+constexpr double placeLimit = 0.1;  // max error of a position, px
 constexpr std::uint32_t manySamples = 1024;
 struct LensSetting {
     double fStop = 1;
     double focusDistance = 2;  // m
     double depth = 6;          // m
     double nearPlane = 0.01;   // m
-    int width = 96;            // px; 64 high
+    int width = 96;            // px; the height is 64 px
 };
 
-// Returns the error, in px, of a point's blur diameter from its second moment, against the formula.
+// Returns the error (px) of a point's blur diameter, measured by the second moment, relative to the formula.
 double diameterError(const LensSetting& setting) {
     View view = boardView(setting.width, 64);
     view.lens.fStop = setting.fStop;
@@ -40,8 +40,8 @@ double diameterError(const LensSetting& setting) {
     return std::abs(measured - blurDiameter(view, setting.depth));
 }
 
-// Returns the largest difference between a lens of zero aperture, by f-number or blur scale, and disabled depth of
-// field.
+// Returns the max difference between an image with a vanishing aperture (by f-number or blur scale) and one without
+// depth of field.
 double pinholeError(double fStop, double blurScale) {
     View view = boardView();
     view.lens.fStop = fStop;
@@ -61,7 +61,7 @@ double farFocusError() {
     return largestError(image, rendered(boards));
 }
 
-// Returns the errors of a blurred light near the image's corner. `fieldOfView` is in degrees.
+// Returns the errors of a blurred light near the corner of the image. `fieldOfView`: degrees.
 BlurredLight lightInField(double fieldOfView) {
     View view = boardView(192, 128);
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(fieldOfView * std::acos(-1.0) / 360));
@@ -72,11 +72,11 @@ BlurredLight lightInField(double fieldOfView) {
     return blurredLight(rendered(boards), view, {.depth = 5, .offset = place});
 }
 
-// Returns the largest errors of lights in the image's corners, along its edges and at its centre.
+// Returns the max errors of blurred lights in the image's corners, at the middles of its edges and at its centre.
 BlurredLight lightsInLargeImage(int width, int height) {
     View view = boardView(width, height);
     setBlur(view, 6, 10);
-    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px; the disks just fit into the image
+    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px from the centre; the disks just fit
     std::vector<Board> lights;
     std::vector<glm::dvec2> places;
     for (const double up : {-1.0, 0.0, 1.0})
@@ -96,7 +96,8 @@ BlurredLight lightsInLargeImage(int width, int height) {
     return largest;
 }
 
-// Returns a function that measures the light on the first call and caches the result, so that two rows can share it.
+// Returns a function that measures the light on its first call and then returns the same result, so that two rows can
+// share it.
 std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
     return [light, known = std::make_shared<std::optional<BlurredLight>>()] {
         if (!*known) *known = light();

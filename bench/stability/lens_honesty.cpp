@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double square = 3;  // px
+constexpr double square = 3;  // width of the light, px
 
 struct Case {
     std::string varied;
@@ -22,7 +22,7 @@ struct Case {
     double depth = 6;                // m
     double horizontalAperture = 36;  // mm
     std::uint32_t samples = 256;
-    int width = 192;  // px
+    int width = 192;  // width of the image, px
     bool aboutSamples = false;
 };
 

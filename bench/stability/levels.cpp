@@ -1,4 +1,4 @@
-// Meshes that are hard to simplify: flat, huge, tiny, sliver and degenerate grids.
+// Meshes that are difficult to simplify: flat, huge, tiny, sliver and degenerate grids.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns a flat grid of `cells` × `cells` quads over [0, width] × [0, height].
+// Returns a flat grid of `cells` × `cells` quads that covers [0, width] × [0, height].
 Mesh gridMesh(int cells, float width, float height) {
     Mesh mesh;
     for (int y = 0; y <= cells; ++y)
@@ -32,8 +32,8 @@ Mesh gridMesh(int cells, float width, float height) {
     return mesh;
 }
 
-// Returns the max over all levels of the relative area error and of the vertices' distance from the plane in units of
-// `side`.
+// Returns the max error over all levels of a flat mesh: the relative error of its area, or the distance of a vertex
+// from the plane divided by `side`.
 double flatError(const Mesh& mesh, double area, double side) {
     const Pyramid pyramid = buildPyramid(mesh);
     double largest = 0;
@@ -56,12 +56,12 @@ double flatError(const Mesh& mesh, double area, double side) {
     return largest;
 }
 
-// Returns a grid with additional degenerate triangles: repeated indices and collinear corners.
+// Returns a grid with additional degenerate triangles: with repeated indices, or with collinear corners.
 Mesh besetGrid() {
     Mesh mesh = gridMesh(24, 1, 1);
     auto& indices = mesh.primitives[0].indices;
     for (std::uint32_t i = 0; i < 100; ++i) indices.insert(indices.end(), {i, i, i + 1});     // repeated index
-    for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear
+    for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear corners
     return mesh;
 }
 
@@ -78,7 +78,7 @@ void addLevelCases(std::vector<StabilityCase>& cases) {
         [] { return flatError(gridMesh(64, 1e6f, 1e6f), 1e12, 1e6); });
     add("flat grid of 1e-6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e-6f, 1e-6f), 1e-12, 1e-6); });
-    for (const float side : {0.1f, 0.7f})  // coordinates that a float rounds
+    for (const float side : {0.1f, 0.7f})  // side lengths that floats cannot represent exactly
         add(fmt::format("flat grid of {:g} m", side), "area or height, relative", "the plane", 1e-5, [side] {
             const double exact = static_cast<double>(side);
             return flatError(gridMesh(64, side, side), exact * exact, exact);

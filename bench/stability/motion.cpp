@@ -1,4 +1,4 @@
-// Motion that a single straight segment between the shutter's opening and closing cannot follow.
+// Motion that a single straight segment between shutter opening and closing cannot represent.
 
 #include <cmath>
 #include <functional>
@@ -14,14 +14,14 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t movingSamples = 1024;
-constexpr double halfSide = 8;  // px, of a white square on black
-constexpr double way = 40;      // px, length of the path
+constexpr double halfSide = 8;  // px; the square is white on black
+constexpr double way = 40;      // length of the square's path, px
 constexpr double squareDepth = 4;
 
-// Returns the square's matrix at `time` ∈ [0, 1] of the exposure, given its matrix `middle` at the image's centre.
+// Returns the square's matrix at a time in [0, 1] of the exposure. `middle`: its matrix at the image's centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
-Image movedSquare(const Path& path, int segments) {  // 0: one pose per sample
+Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose per sample
     View view = boardView(128, 64);
     view.lens.dofEnabled = false;
     BoardScene square(view, {squareAt(view, squareDepth, 2 * halfSide, glm::vec3(1))});
@@ -39,19 +39,19 @@ Image movedSquare(const Path& path, int segments) {  // 0: one pose per sample
     return rendered(square);
 }
 
-// Returns a path that goes to and fro `turns` times at constant speed.
+// Returns a path along which the square moves to and fro `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);
         const View view = boardView(128, 64);
-        const double pixel = view.lens.horizontalAperture / view.lens.focalLength * squareDepth / view.width;  // m
+        const double pixel = view.lens.horizontalAperture / view.lens.focalLength * squareDepth / view.width;  // m/px
         const double place = way * (0.5 - std::abs(2 * phase - 1));
         return glm::translate(glm::dmat4(1), glm::dvec3(pixel * place, 0, 0)) * middle;
     };
 }
 
-// Returns the largest error of the middle row against a trapezoid. The square covers a column while |x − position| <
-// halfSide, and its position is uniformly distributed over the path.
+// Returns the max error of the image's middle row relative to a trapezoid: the square covers a column while |x −
+// position| < halfSide, and its position is uniformly distributed over the path.
 double trapezoidError(const Image& image) {
     double largest = 0;
     for (int x = 0; x < image.width; ++x) {
@@ -64,8 +64,8 @@ double trapezoidError(const Image& image) {
     return largest;
 }
 
-// Returns the RMSE of a square that spins 20 turns about its centre. A point at radius r is outside each side for an
-// angle of 2·acos(halfSide/r) of a turn.
+// Returns the RMSE of a square that spins 20 turns about its centre. In each turn, a point at radius r is outside each
+// side of the square over an angle of 2·acos(halfSide/r).
 double spinError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {
@@ -84,7 +84,7 @@ double spinError() {
     return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
 }
 
-// Returns the number of values outside [0, 1] for a square that moves through the camera and back.
+// Returns the number of values outside [0, 1] in the image of a square that moves through the camera and back.
 double throughCameraError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {

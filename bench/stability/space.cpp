@@ -1,4 +1,4 @@
-// Scenes at the limits of space: scales, distances, depth ratios and the camera plane.
+// Scenes with extreme dimensions: scales, distances, depth ratios and surfaces that cross the camera plane.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the RMSE between a scene and the same scene scaled by `scale`, aperture included.
+// Returns the RMSE between a scene and the same scene scaled by `scale`, including the aperture.
 double scaleError(double scale) {
     const View view = boardView();
     BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));
@@ -27,7 +27,8 @@ double scaleError(double scale) {
     return compareImages(image, rendered(boards)).rmse;
 }
 
-// Returns by how many px a board's centre moves if scene and camera are `distance` m from the origin.
+// Returns the shift (px) of a board's centre in the image when scene and camera move together `distance` m from the
+// origin.
 double distanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene boards(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
@@ -40,14 +41,14 @@ double distanceError(double distance) {
     return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
 }
 
-// Returns the max error, in px, of the centre of a board whose vertices lie `distance` m from its node's origin. The
-// camera moves in steps of 0.5 mm.
+// Returns the max error (px) of the centre of a board whose vertices are `distance` m from its node's origin, for
+// camera positions in steps of 0.5 mm.
 double ownDistanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene near(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     BoardScene far(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     glm::dmat4& worldFromObject = far.world.pose.objects[0].worldFromObject;
-    // In mesh units; integer offsets up to 2²³ keep the corners exact in floats.
+    // In mesh units; integer offsets up to 2²³ are exact in floats.
     const glm::vec3 offset(
         glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
     for (glm::vec3& position : far.scene->meshes[0].vertices.positions) position += offset;
@@ -66,7 +67,7 @@ double ownDistanceError(double distance) {
     return largest;
 }
 
-// Returns the largest difference between a floor from behind the camera to 40 m and the same floor cut at the near
+// Returns the max difference between the image of a floor that begins behind the camera and one that begins at the near
 // plane.
 double cameraPlaneError() {
     const View view = boardView();
@@ -81,7 +82,7 @@ double cameraPlaneError() {
     return largestError(floorFrom(-25), floorFrom(view.nearPlane));
 }
 
-// Returns the largest error of sharp boards at 0.02 m, 1,990 km and 2,000 km, each of which must hide the boards behind
+// Returns the max error of three sharp boards at 0.02 m, 1,990 km and 2,000 km, each of which must hide those behind
 // it.
 double depthRatioError() {
     View view = boardView();
@@ -102,7 +103,8 @@ double depthRatioError() {
     return largest;
 }
 
-// Returns the errors of the light at `depth`, for a red light at 0.02 m and a blue one at 2,000 km, both blurred.
+// Returns the errors of the light at `depth`. The scene has a red light at 0.02 m and a blue light at 2,000 km, both
+// blurred.
 BlurredLight lightAt(double depth) {
     View view = boardView(192, 128);
     view.lens.focusDistance = 0.035;

@@ -1,5 +1,5 @@
-// λ near integers and near sample boundaries: a tiny change of λ moves at most one sample, in the split and in the
-// image.
+// Levels of detail λ near integers and near sample boundaries: a tiny change of λ changes the level of at most one
+// sample, in the split of the samples and in the image.
 
 #include <fmt/format.h>
 
@@ -15,11 +15,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double nudge = 1e-6;                 // small change of λ
-constexpr double oneSample = 1 + 1e-4;         // limit for an image of 32-bit floats
+constexpr double nudge = 1e-6;                 // tiny change of λ
+constexpr double oneSample = 1 + 1e-4;         // one sample, plus rounding of 32-bit layers
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the wave size
 
-// Returns the number of samples that change their level when λ passes the integer `level`.
+// Returns the number of samples whose level changes when λ passes the integer `level`.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {
         const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
@@ -36,7 +36,7 @@ double splitError(double level, std::uint32_t samples) {
 
 // ---- a ball ---------------------------------------------------------------------------------------------------------
 
-// Returns a unit sphere of rings of quads, whose levels differ in their silhouettes.
+// Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
 Mesh ballMesh() {
     constexpr std::uint32_t rings = 20;
     constexpr std::uint32_t sides = 40;
@@ -60,7 +60,7 @@ Mesh ballMesh() {
     return mesh;
 }
 
-// A white ball on black, so that a pixel of one sample is 0 or 1.
+// A white ball on black: without antialiasing over samples, each sample of a pixel is 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
         scene->meshes[0] = ballMesh();
@@ -71,7 +71,7 @@ struct Ball : BoardScene {
     }
 };
 
-// Renders the ball with the size threshold that yields `lambda`. Returns an empty image if the plan has another λ.
+// Renders the ball with the size threshold that gives `lambda`. Returns an empty image if the plan has another λ.
 Image imageAt(Ball& ball, double lambda, LodMode mode) {
     const std::vector<PyramidLevel>& levels = ball.world.pyramids[0].levels;
     const auto level = static_cast<std::size_t>(lambda);
@@ -85,7 +85,7 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the largest change of a pixel between two values of λ, in samples; one sample changes a pixel by up to 1/N.
+// Returns the max change of a pixel between two values of λ, in units of 1/N: one sample changes a pixel by at most 1.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);
@@ -108,7 +108,7 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const char* name = lodModeName(mode);
-        // λ at which sample 21 becomes coarse (fractional) or starts to (continuous).
+        // λ at which the 21st sample changes to the coarser level (fractional) or begins to change (continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
             add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,

@@ -1,6 +1,6 @@
 #pragma once
-// Measures numerically stiff and extreme cases. Each case names the measured error, the reference and the max error,
-// which is fixed in advance. The benchmark prints the cases, and a test checks their limits.
+// Measures numerically difficult and extreme cases. Each case states the measured error, the reference and the max
+// error, which is fixed in advance. The benchmark prints the cases; a test checks the limits.
 
 #include <functional>
 #include <limits>
@@ -15,27 +15,27 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
     std::string area;       // "sums", "lens", "motion", "space", "values", "levels", "traced"
-    std::string name;       // what makes it stiff or extreme
-    std::string measured;   // what the error measures, with its unit
-    std::string reference;  // "closed form", "double sum", …
-    double limit = 0;       // the largest error that passes; infinity if the case is for comparison only
+    std::string name;       // what makes the case difficult
+    std::string measured;   // quantity of the error, with its unit
+    std::string reference;  // such as "closed form" or "double sum"
+    double limit = 0;       // max error that passes; infinity: for comparison only
     std::function<double()> error;
-    std::string method = {};  // method that renders the reference; empty if none does
+    std::string method = {};  // method that renders the reference; empty: none
 };
 
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // true if this program lacks the reference's method
-    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN fails
+    bool leftOut = false;  // this program lacks the method of the reference
+    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
 };
 
-// Returns all cases. Calling their `error` needs a current GL context.
+// Returns all cases. StabilityCase::error needs a current GL context.
 std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});
 
-// The parts of stabilityCases, one for each file.
+// Each adds the cases of one file to stabilityCases().
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
 void addEdgeCases(std::vector<StabilityCase>& cases);

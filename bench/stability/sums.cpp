@@ -13,14 +13,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double sumLimit = 1e-6;              // relative to a double sum of the same layers
-constexpr double halfLimit = 0x1p-11 * 1.001;  // rounding error of a half float
+constexpr double sumLimit = 1e-6;              // relative to a sum of the same layers in double
+constexpr double halfLimit = 0x1p-11 * 1.001;  // max relative rounding error of a half float
 constexpr double comparison = std::numeric_limits<double>::infinity();
 
 const RendererOptions exactLayers = {
     .layerFormat = LayerFormat::rgba32f, .wave = 0, .shaderFolder = {}, .settings = {}};
 
-// Returns an image of 12 × 8 px of a wall with uniform radiance, which blur doesn't change.
+// Renders a wall of uniform radiance as an image of 12 × 8 px; blur doesn't change this image.
 Image wall(const glm::vec3& radiance, std::uint32_t samples, const RendererOptions& options) {
     BoardScene boards(boardView(12, 8), {{4, {0, 0}, {40, 40}, radiance}});
     boards.settings.sampleCount = samples;
@@ -38,12 +38,13 @@ double largestRelativeError(const Image& image, const glm::dvec3& reference) {
     return largest;
 }
 
-// Returns the error of the renderer's sum. 32-bit layers hold the radiance exactly, so only the summation errs.
+// Returns the relative error of the renderer's sum. 32-bit layers store the radiance exactly, so the error is from
+// summation only.
 double constantError(float value, std::uint32_t samples) {
     return largestRelativeError(wall(glm::vec3(value), samples, exactLayers), glm::dvec3(value));
 }
 
-// Returns the error of the same sum in floats without compensation, by waves of `wave` samples.
+// Returns the relative error of the same sum in floats without compensation. Waves of `wave` samples are summed first.
 double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     float sum = 0;
     for (std::uint32_t i = 0; i < samples; i += wave) {
@@ -54,8 +55,8 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     return std::abs(static_cast<double>(sum / static_cast<float>(samples)) / value - 1);
 }
 
-// Returns the largest relative error for a light of 10,000 blurred over a background of 0.0001. The reference is the
-// double sum of the samples drawn one by one.
+// Returns the max relative error for a light of 10,000 that is blurred over a background of 0.0001. The reference is
+// the sum in double of the samples, each drawn alone.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the rows of the stability benchmark and of lens honesty as text tables and JSON.
+// Writes the rows of the stability benchmark and of the lens-honesty test as text tables and JSON.
 
 #include <span>
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace defocus::engine {
 
-// Returns one line. A heading precedes it if area, error or reference differ from those of `before`, or if `before` is
-// null (first row).
+// Returns the line of a row. A heading precedes it if area, error or reference differ from those of `before`, the
+// previous row; null: first row.
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);
-// Returns a line for each method with its settings: its largest error and the number of rows that follow the lens.
+// Returns a line for each method and its settings: the largest error, and the number of rows that follow the lens.
 std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);

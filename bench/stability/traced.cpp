@@ -1,5 +1,5 @@
-// Extreme scenes against the ray tracer, with the same sample points on the lens and in the pixel. Only geometry and
-// visibility can differ.
+// Compares extreme scenes with the ray tracer, with the same points on the lens and in the pixel for both, so that only
+// geometry and visibility can differ.
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,12 +20,12 @@ struct TracedCase {
     double fStop = 1;
     double focusDistance = 2;  // m
     double fieldOfView = 40;   // degrees
-    double nearest = 1.2;      // m
-    double farthest = 7;       // m
-    double fromOrigin = 0;     // m
+    double nearest = 1.2;      // depth of the nearest board, m
+    double farthest = 7;       // depth of the farthest board, m
+    double fromOrigin = 0;     // distance of scene and camera from the origin, m
 };
 
-// Returns the RMSE for three boards in front of, in and behind the focus, which partly hide each other.
+// Returns the RMSE for three boards in front of, in and behind the focus that partly hide each other.
 double tracedError(const TracedCase& subject) {
     View view = boardView();
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(glm::radians(0.5 * subject.fieldOfView)));

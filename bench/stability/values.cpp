@@ -1,4 +1,4 @@
-// NaN in materials and environment maps, which must not affect pixels beyond its own bokeh.
+// NaN in materials and environment maps, which must not affect pixels outside the NaN's own blur.
 
 #include <fmt/format.h>
 
@@ -16,12 +16,12 @@ namespace {
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the number of wrong pixels around a small board with a NaN material. Pixels must be finite and, beyond the
-// board's blur, equal to the scene without the board.
+// Returns the number of wrong pixels around a small board whose material is NaN. All pixels must be finite; pixels
+// outside the board's blur must equal those of the scene without the board.
 double materialError() {
     View view = boardView();
     setBlur(view, 5, 12);
-    const double reach = 6 + 4 + 1;  // px: the disk, half the board, the pixel filter
+    const double reach = 6 + 4 + 1;  // px: blur radius, half the board, pixel filter
     const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(notANumber)),
                                      squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
     BoardScene spoiled(view, list);
@@ -42,7 +42,7 @@ double materialError() {
 
 constexpr int mapWidth = 256;  // texels
 
-// Returns a map of uniform 0.5, with a NaN texel in column `x` at the horizon if x ≥ 0.
+// Returns a uniform map of 0.5. If x ≥ 0, the texel in column `x` at the horizon is NaN.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
@@ -50,14 +50,15 @@ Environment surroundings(int x) {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Returns the number of pixels of the blurred sky outside [0, 0.5] or changed beyond the texel's blur.
+// Returns the number of wrong pixels of a blurred sky with a NaN texel: outside [0, 0.5], or changed outside the
+// texel's blur.
 double skyTexelError(LayerFormat format) {
-    constexpr double blur = 12;  // px
+    constexpr double blur = 12;  // diameter, px
     View view = boardView();
     setBlur(view, infinite, blur);
     const double texel =
         2 * std::acos(-1.0) / mapWidth * view.width * view.lens.focalLength / view.lens.horizontalAperture;
-    // The texel lies right of and below the image's centre. Filtering spreads it over its neighbours.
+    // The texel is to the right of and below the image's centre; filtering spreads it over its neighbours.
     const double reach = 0.5 * blur + texel + 1;
     const auto picture = [&](int x) {
         BoardScene sky(view, {});
@@ -76,7 +77,8 @@ double skyTexelError(LayerFormat format) {
     return wrong;
 }
 
-// Returns the largest relative pixel error of a rough surface lit by the map's spherical harmonics and mip levels.
+// Returns the max relative error of a rough surface that is lit by a map with a NaN texel (spherical harmonics and mip
+// levels).
 double lightTexelError(float metallic) {
     View view = boardView();
     BoardScene wall(view, {{3, {0, 0}, {10, 10}, glm::vec3(0.8f)}});
@@ -86,7 +88,7 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // texel behind the camera, which the wall faces
+    const Image image = picture(0);  // the texel is behind the camera, where the wall faces
     const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -112,7 +114,7 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // The texel's cosine-weighted share of all directions is 2e-4; its share of the smallest mip level is 3e-5.
+    // The texel's cosine-weighted fraction of all directions is 2e-4, its fraction of the smallest mip level 3e-5.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,

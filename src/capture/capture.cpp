@@ -23,9 +23,9 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // frames in the writer's queue; a longer queue only takes memory
+constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; a longer queue would only take memory
 
-// Returns the name of a part: frames/0012.exr → frames/0012.part00064-00128.exr.
+// Returns the file for a range of a frame's samples: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
     fs::path path = frame;
     path.replace_extension(fmt::format("part{:05}-{:05}.exr", range.first, range.end));
@@ -52,7 +52,7 @@ FrameState partState(const fs::path& path, const std::string& settings) {
 struct FrameTimes {
     double planMilliseconds = 0;
     double renderMilliseconds = 0;
-    double writeMilliseconds = 0;  // includes encoding
+    double writeMilliseconds = 0;  // time of encoding and writing
 };
 
 void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const FilmFrame& film, const FrameMoment& frame,
@@ -77,26 +77,26 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
 
 // ---- one frame ------------------------------------------------------------------------------------------------------
 
-// Output of a drawn frame, for the writer; the driver draws the next frame meanwhile.
+// Result of drawing a frame, passed to the writer while the driver draws the next frame.
 struct DrawnFrame {
     FrameMoment moment;
-    Image image;     // image of a frame that is drawn in one piece
-    FramePart part;  // sums, if only some samples are drawn
+    Image image;     // image of an untiled frame
+    FramePart part;  // partial sums, if only some of the samples are drawn
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // true for a frame in tiles, which is written while it is drawn
+    bool written = false;  // whether the files are complete already, as for frames in tiles
 };
 
-// Returns the request's stop conditions without the time limit, which ends the run instead of a frame. A frame gets the
-// same samples in each run.
+// Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that
+// a frame has the same samples in every run.
 StopSettings stopOf(const FilmOptions& options) {
     StopSettings stop = stopSettings(options.settings.request);
     stop.timeLimit.reset();
     return stop;
 }
 
-// Returns the frame's metadata with the settings hash of one of its files.
+// Returns a frame's metadata with the settings hash of its file number `file`.
 Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
     Metadata metadata = ofFrame;
     metadata[settingsAttribute] = film.settings[file];
@@ -121,7 +121,7 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
     appendTimes(options, memoryLimit, film, drawn.moment, drawn.stats, drawn.times);
 }
 
-// Writes a frame in tiles to its files, row by row.
+// Writes a frame that is drawn in tiles to its files, row by row.
 class RowsToFiles {
 public:
     RowsToFiles(const FilmFrame& film, std::function<Metadata()> metadata)
@@ -138,7 +138,7 @@ public:
         for (ImageRowWriter& writer : writers_) writer.write(rows);
         milliseconds_ += millisecondsSince(start);
     }
-    // Returns the time that writing took, ms.
+    // Completes the files. Returns the total writing time, ms.
     double finish() {
         const Clock::time_point start = Clock::now();
         for (ImageRowWriter& writer : writers_) writer.finish();
@@ -152,7 +152,7 @@ private:
     double milliseconds_ = 0;
 };
 
-// Draws a frame, or some of its samples.
+// Draws a frame, or a range of its samples.
 DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, FrameDriver& driver,
                      const FilmOptions& options, const FilmMetadata& metadata,
                      const std::function<void(double)>& step) {
@@ -253,7 +253,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
         const std::lock_guard lock(reporting);
         report(progress, "frames checked", ++done, frames.size());
     });
-    // Report the first faulty frame in the shot's order.
+    // Throw the exception of the first faulty frame in the shot's order.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     return film;
@@ -262,7 +262,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
 FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
-    // Remove incomplete files of an earlier run. Its times are kept only if its frames are kept.
+    // Remove incomplete files of an earlier run. If its finished frames aren't kept, remove its timings too.
     std::vector<fs::path> files;
     int wanted = 0;
     for (const FilmFrame& film : frames) {
@@ -273,7 +273,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     std::error_code ignored;
     if (!options.resume) fs::remove(options.timings, ignored);
 
-    // Draw frame after frame while the writer thread works on the previous ones.
+    // Draw one frame after another while the writer thread encodes and writes the previous ones.
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);

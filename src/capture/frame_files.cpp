@@ -41,7 +41,7 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
         Metadata metadata;
         const Image image = readImage(path, metadata);
         if (image.width != width || image.height != height) return FrameState::other;
-        // JPEG files hold the settings in their only comment.
+        // JPEG files hold the settings hash in their only comment.
         for (const char* name : {settingsAttribute, "comments"})
             if (const std::string* text = textAttribute(metadata, name); text != nullptr && *text == settings)
                 return FrameState::finished;
@@ -52,7 +52,7 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
 }
 
 void removeUnfinished(const std::vector<fs::path>& paths) {
-    // Names of temporary files are ".STEM.PROCESS-COUNT.EXTENSION" (core/file.h).
+    // Temporary files are named ".STEM.PROCESS-COUNT.EXTENSION" (core/file.h).
     std::map<fs::path, std::set<std::string>> stems;
     for (const fs::path& path : paths) stems[path.parent_path()].insert(path.stem().string());
     for (const auto& [folder, names] : stems) {

@@ -35,20 +35,21 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
     return points;
 }
 
-// Returns the finished fraction of a movement at `frame`: 0 at its first frame, 1 at its last.
+// Returns the finished fraction of a camera movement at `frame`: 0 at its first frame, 1 at its last. `own`: the
+// movement's range; none: the shot's.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
-// Returns the file's camera, moved by its node's animation; none for a camera that frames the scene.
+// Returns the file's camera, as its node's animation places it; none for the default camera, which frames the scene.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
     if (base.scene->cameras.empty() || std::holds_alternative<FramingCamera>(base.camera)) return {};
     return chooseCamera(*base.scene, pose, base.camera, static_cast<double>(base.view.width) / base.view.height);
 }
 
-// Returns the view at frame number `frame`, which may be fractional.
+// Returns the view at frame number `frame`, which may be fractional, with the camera's movement applied.
 View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, double frame) {
     View view = base.view;
     const Scene& scene = *base.scene;
@@ -74,7 +75,8 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
 
 // ---- lens -----------------------------------------------------------------------------------------------------------
 
-// `view` must have the frame's lens; its focus distance is not used.
+// Returns the distance (m) to the focus target. `view` must have the lens of the frame; the focus distance of that lens
+// is ignored.
 double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose& pose, const View& view) {
     constexpr const char* who = "focus";
     if (const auto* node = std::get_if<FocusNode>(&target)) return depthOfNode(scene, pose, view, node->name, who);
@@ -87,7 +89,7 @@ double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose
 double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {
     View view = frame.view;
     view.lens = lens;
-    // Evaluate only the keys that affect this frame: the nodes of other keys may be behind the camera.
+    // Skip keys that don't affect this frame: their nodes may be behind the camera.
     std::vector<Key<double>> dioptres;
     for (std::size_t i = 0; i < focus.keys.size(); ++i) {
         const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;
@@ -101,7 +103,8 @@ double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& f
 
 enum class Scale { plain, logarithmic, reciprocal, stepped };
 
-// Returns the scale on which a lens value is interpolated: f-stop and zoom by ratios, focus by dioptres.
+// Returns the scale on which keys of a lens value are interpolated: f-stop and focal length by ratio, focus distance by
+// dioptres.
 Scale scaleOf(const LensField& field) {
     if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
     const std::string_view name = field.name;
@@ -129,12 +132,12 @@ double lensValueAt(const LensTrack& track, const LensField& field, double frame)
     return next == keys.begin() ? next->value : std::prev(next)->value;
 }
 
-// Sets the lens to the camera's own values, which may be animated.
+// Sets the lens fields that the shot doesn't fix to the camera's values, which may be animated.
 void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
     std::map<std::string, double, std::less<>> own;
     for (const auto& [name, value] : camera.lens)
         if (!base.fixedLens.contains(name)) own.emplace(name, value);
-    setLensFields(lens, own);  // warnings have already named impossible values
+    setLensFields(lens, own);  // warnings about invalid values have already been printed
     fitToCamera(lens, camera, static_cast<double>(base.view.width) / base.view.height,
                 [&](std::string_view name) { return base.fixedLens.contains(name) || camera.lens.contains(name); });
 }
@@ -165,7 +168,7 @@ double timeAt(const Shot& shot, const Scene& scene, int clip, double seconds) {
     return shot.request.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
-// Returns a well mixed seed that differs for each frame.
+// Returns a seed for the frame, well mixed and different for each frame.
 std::uint32_t frameSeed(std::uint32_t seed, int frame) {
     return fmix32(seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1));
 }
@@ -188,7 +191,7 @@ FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
 
-    // Motion while the shutter is open.
+    // Motion blur: the pose and camera at times while the shutter is open.
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;

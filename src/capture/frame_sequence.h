@@ -1,5 +1,5 @@
 #pragma once
-// Computes the scene, camera and lens of each frame of a shot. The result depends only on the shot and the frame's
+// Computes the scene, camera and lens of each frame of a shot. The result depends only on the shot and the frame
 // number, so that frames can be rendered in any order and on any machine.
 
 #include <set>
@@ -12,26 +12,26 @@
 
 namespace defocus::engine {
 
-// Initial state of a shot: the scene with the camera and the settings of the shot's fixed values.
+// Initial state of a shot: the scene, with the camera and the settings that the shot fixes.
 struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight> lights;  // sizes of the scene's lights; default lights if it has none
+    std::vector<PlacedLight> lights;  // lights in their final sizes; default lights if the scene has none
     CameraChoice camera;
-    bool cameraStands = false;                     // the camera stays at its place in `view`; else it follows its node
-    std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's own values
-    glm::dvec3 centre{0.0};                        // centre of the scene at its start; turntables turn around it
+    bool cameraStands = false;                     // camera stays where `view` has it; false: it follows its node
+    std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values
+    glm::dvec3 centre{0.0};                        // scene's centre at the start; default centre of turntables
     std::vector<std::string> hidden;               // nodes that aren't drawn
-    ShutterSettings shutter;                       // exposure of each frame; the camera may move during it
+    ShutterSettings shutter;                       // exposure of each frame; the camera may move meanwhile
 };
 
-// Returns a frame's state. Throws Error for nodes and clips that don't exist, for a focus behind the camera or on
-// nothing, and for an impossible lens. The message names the shot's file and the frame.
+// Returns the state of a frame. Throws Error for nodes and clips that don't exist, for a focus that is behind the
+// camera or hits no surface, and for an invalid lens. The message contains the shot's file and the frame number.
 FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame);
 
-// Returns the frames of `range` that shard `shard` of `shards` renders: every shards-th frame, so that slow passages
-// are shared evenly.
+// Returns the frames of `range` that shard `shard` of `shards` renders: every `shards`-th frame, so that slow sequences
+// are spread evenly over the shards.
 std::vector<int> shardFrames(const FrameRange& range, int shard, int shards);
 
 }  // namespace defocus::engine

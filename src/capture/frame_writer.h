@@ -1,6 +1,6 @@
 #pragma once
 // Encodes and writes frames on a separate thread, so that the renderer doesn't wait for EXR compression. Frames wait in
-// a bounded queue. A file gets its name only when it is complete.
+// a bounded queue. A file gets its final name only when it is complete.
 
 #include <condition_variable>
 #include <cstddef>
@@ -14,17 +14,17 @@ namespace defocus::engine {
 
 class FrameWriter {
 public:
-    // `waiting`: maximum number of jobs in the queue, ≥ 1.
+    // `waiting`: max number of jobs in the queue, ≥ 1.
     explicit FrameWriter(std::size_t waiting);
-    // Waits for the queued jobs, unless a job has failed.
+    // Blocks until all queued jobs are done, unless a job has failed.
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    // Queues a job that writes a frame, and waits while the queue is full. Rethrows the exception of a failed job; no
-    // further job runs after a failure.
+    // Queues a job that writes a frame; blocks while the queue is full. Rethrows the exception of a failed job. After a
+    // failure, no further job runs.
     void add(std::function<void()> job);
-    // Waits until all jobs are done. Rethrows the exception of a failed job.
+    // Blocks until all jobs are done. Rethrows the exception of a failed job.
     void finish();
 
 private:

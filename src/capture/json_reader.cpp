@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Returns a value for a message: short, and in valid UTF-8.
+// Returns the value as text for an error message: short, and in valid UTF-8.
 std::string shown(const json& value) {
     constexpr std::size_t longest = 40;
     if (value.is_object()) return "an object";
@@ -21,7 +21,7 @@ std::string shown(const json& value) {
     return text;
 }
 
-// Escapes ~ and / in a key (RFC 6901).
+// Escapes ~ and / in a key of a JSON pointer (RFC 6901).
 std::string escaped(std::string_view key) {
     std::string result;
     for (const char letter : key) {

@@ -1,6 +1,6 @@
 #pragma once
-// A value of a JSON document together with its location, so that error messages can name the place and the expected
-// value.
+// Reads values of a JSON document. A reader knows the location of its value in the document, so that error messages can
+// contain the location and the expected value.
 
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -24,25 +24,25 @@ public:
     // Throws Error with the message "FILE: /pointer: expected WHAT, not VALUE".
     [[noreturn]] void failExpecting(const std::string& what) const;
 
-    // Throws Error unless the value is an object with keys from `known` only. For an unknown key, the message suggests
-    // the nearest.
+    // Throws Error unless the value is an object whose keys all occur in `known`. The message suggests the known key
+    // nearest to an unknown one.
     void requireObject(const std::vector<std::string>& known) const;
     [[nodiscard]] bool has(const char* key) const { return value_->contains(key); }
-    // Returns the member. Throws Error if it is missing.
+    // Returns the object's member `key`. Throws Error if it is missing.
     [[nodiscard]] JsonReader at(const char* key) const;
     [[nodiscard]] std::optional<JsonReader> find(const char* key) const;
-    // Returns the members of an object by name, or of an array in order.
+    // Returns an object's members with their names, or an array's elements with their indices, in order.
     [[nodiscard]] std::vector<std::pair<std::string, JsonReader>> members() const;
-    // Returns the elements of an array. Throws Error unless the value is an array of at least `min` elements.
+    // Returns the elements of an array. Throws Error unless the value is an array with at least `min` elements.
     [[nodiscard]] std::vector<JsonReader> elements(std::size_t min, const std::string& what) const;
 
     [[nodiscard]] double number(double min, double max) const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] bool boolean() const;
-    [[nodiscard]] std::string text() const;  // a text that isn't empty
-    // Returns the index of the text in `choices`.
+    [[nodiscard]] std::string text() const;  // throws Error unless it is a non-empty string
+    // Returns the index of the value in `choices`. Throws Error if `choices` doesn't contain the value.
     [[nodiscard]] std::size_t choice(const std::vector<std::string>& choices) const;
-    // Returns three finite numbers; none for any other value.
+    // Returns the value if it is an array of three finite numbers, else none.
     [[nodiscard]] std::optional<std::vector<double>> threeNumbers() const;
 
 private:

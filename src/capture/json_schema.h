@@ -1,5 +1,5 @@
 #pragma once
-// The subset of JSON Schema that settings need: anyOf, enum, and type with limits of numbers, strings and arrays.
+// The subset of JSON Schema that settings need: anyOf, enum, and type with limits for numbers, strings and arrays.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,7 +8,8 @@ namespace defocus::engine {
 
 bool accepts(const nlohmann::ordered_json& schema, const nlohmann::json& value);
 
-// Describes what the schema accepts, such as "an integer from 1 to 64" or "\"auto\" or a number from 0 to 1".
+// Describes the values that the schema accepts, such as "an integer from 1 to 64" or "\"auto\" or a number from 0 to
+// 1".
 std::string schemaInWords(const nlohmann::ordered_json& schema);
 
 }  // namespace defocus::engine

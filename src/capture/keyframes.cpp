@@ -1,4 +1,4 @@
-// Steffen 1990, A Simple Method for Monotonic Interpolation in One Dimension.
+// Monotonic interpolation of Steffen 1990, A Simple Method for Monotonic Interpolation in One Dimension.
 
 #include "capture/keyframes.h"
 
@@ -13,7 +13,7 @@ double secant(const std::vector<Key<double>>& keys, std::size_t i) {
     return (keys[i + 1].value - keys[i].value) / (keys[i + 1].frame - keys[i].frame);
 }
 
-// Steffen 1990, equation 11; the slope at both ends is 0.
+// Returns the slope at key i: Steffen 1990, equation 11; 0 at the first and the last key.
 double slopeAt(const std::vector<Key<double>>& keys, std::size_t i) {
     if (i == 0 || i + 1 == keys.size()) return 0;
     const double before = secant(keys, i - 1);
@@ -38,7 +38,7 @@ double valueAt(const std::vector<Key<double>>& keys, Easing easing, double frame
     const double from = keys[i].value;
     const double to = keys[i + 1].value;
     if (easing == Easing::linear) return (1 - t) * from + t * to;
-    // Hermite cubic, in a form that gives equal keys exactly their value.
+    // Hermite cubic, written so that neighbouring keys of equal value give exactly that value.
     const double blend = t * t * (3 - 2 * t);
     const double ends = from + blend * (to - from);
     return ends + width * t * (1 - t) * ((1 - t) * slopeAt(keys, i) - t * slopeAt(keys, i + 1));

@@ -1,9 +1,9 @@
 #pragma once
-// Numbers and points at key frames of a shot, and their interpolation.
+// Interpolates numbers and points between the key frames of a shot.
 //
-// linear: straight from key to key. smooth: a cubic through the keys that starts and ends at rest (Steffen 1990). It
-// never exceeds the neighbouring keys, so that a focus pull doesn't overshoot; with two keys it is 3t² − 2t³. Before
-// the first key and after the last one, the nearest key's value holds.
+// linear: straight lines between keys. smooth: a cubic through the keys with zero slope at the first and last key
+// (Steffen 1990). It stays within the values of the neighbouring keys, so that a focus pull doesn't overshoot; between
+// two keys it is 3t² − 2t³. Before the first key and after the last key, the value is constant.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -14,11 +14,11 @@ enum class Easing { linear, smooth };
 
 template <typename Value>
 struct Key {
-    double frame = 0;  // may be fractional
+    double frame = 0;  // frame number, may be fractional
     Value value{};
 };
 
-// Returns the interpolated value. `keys`: at least one, sorted by frame, with different frames.
+// Returns the interpolated value at `frame`. `keys`: at least one, sorted by strictly increasing frame.
 double valueAt(const std::vector<Key<double>>& keys, Easing easing, double frame);
 glm::dvec3 valueAt(const std::vector<Key<glm::dvec3>>& keys, Easing easing, double frame);
 

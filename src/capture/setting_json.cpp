@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns a JSON integer for an integer value, else a JSON number.
+// Returns a JSON integer for an integral value, else a JSON number.
 Json numberJson(double value) {
     if (value == static_cast<double>(static_cast<std::int64_t>(value))) return static_cast<std::int64_t>(value);
     return value;
@@ -40,7 +40,7 @@ std::string textOf(const nlohmann::json& value, char arraySeparator) {
     return text;
 }
 
-// Returns the text as a JSON number; as a JSON string if it isn't a number.
+// Returns a JSON number if the text is a number, else a JSON string.
 Json numberOr(const std::string& text) {
     const Json number = Json::parse(text, nullptr, false);
     return number.is_number() ? numberJson(number.get<double>()) : Json(text);

@@ -1,5 +1,5 @@
 #pragma once
-// Converts settings to and from JSON values in shots, by the columns of the settings table.
+// Converts the values of settings to and from JSON values in shots, using the settings table.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace defocus::engine {
 
-// Returns the JSON schema of the setting's value.
+// Returns the JSON schema for the values of a setting.
 nlohmann::ordered_json valueSchema(const Setting& setting);
 
-// Returns the value as text for Setting::set. Throws Error with the value's place if the setting doesn't accept it.
-// Paths are not resolved.
+// Returns the value in the text format of Setting::set. Throws Error, with the value's location in its message, if the
+// setting doesn't accept the value. Paths are not resolved.
 std::string settingText(const Setting& setting, const JsonReader& reader);
 
-// Returns the JSON value of a setting's text. Inverse of settingText.
+// Converts a setting's text to a JSON value. Inverse of settingText.
 nlohmann::ordered_json settingJson(const Setting& setting, const std::string& text);
 
 }  // namespace defocus::engine

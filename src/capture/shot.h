@@ -1,7 +1,6 @@
 #pragma once
-// A shot: scene, camera and lens of a film, frame by frame, as in a shot file (docs/shot.schema.json). Plain data.
-// Values missing in the file fall back to the scene's camera or to the program's defaults. Frames are counted from 0 at
-// time 0.
+// A shot: scene, camera and lens of a film, as in a shot file (docs/shot.schema.json). Plain data. Values missing in
+// the file are taken from the scene's camera or the program's defaults. Frame 0 is at time 0.
 
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -19,55 +18,56 @@ namespace defocus::engine {
 
 struct FrameRange {
     int first = 0;
-    int last = 0;  // inclusive
+    int last = 0;  // last frame, inclusive
 };
 
 inline constexpr int maxFrame = 9'999'999;
 
-// A point in the world, or the name of a node whose centre is used; the node may move.
+// A point in world space, or the name of a node, whose centre is used and may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
-// Values of a lens field, in the unit of lens/lens_fields.h. A single key is a constant value.
+// Keys of a lens value, in the unit of lens/lens_fields.h. A single key is a constant value.
 struct LensTrack {
     std::vector<Key<double>> keys;
     Easing easing = Easing::smooth;
 };
 
-// Evaluated for each frame, so that the focus follows moving objects. A pixel refers to an image of the shot's size.
+// What a shot focuses on. Evaluated for each frame, so that the focus follows moving objects. A pixel refers to an
+// image of the shot's size.
 using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;
-    Easing easing = Easing::smooth;  // interpolates 1/distance, like turning a focus ring
+    Easing easing = Easing::smooth;  // of 1/distance, like turning a focus ring
 };
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
-    std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
-    std::vector<Key<double>> rolls;   // degrees about the view axis, counter-clockwise from behind; same frames
+    std::vector<Key<Place>> targets;  // points that the camera looks at; frames as in `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise from behind; frames as in `positions`
     Easing easing = Easing::smooth;
 };
 
-// Turns the camera around a centre, about the vertical, at constant speed. At the movement's first frame the camera is
-// at its own position.
+// Rotates the camera around a centre, about the vertical axis, at constant speed. At the first frame of the movement,
+// the camera is at its original position.
 struct Turntable {
-    double turns = 1;                  // > 0: counter-clockwise from above
-    std::optional<Place> centre;       // none: the scene's centre
-    std::optional<FrameRange> frames;  // duration of the turns; none: the shot's range
+    double turns = 1;                  // number of rotations; > 0: counter-clockwise from above
+    std::optional<Place> centre;       // none: the centre of the scene
+    std::optional<FrameRange> frames;  // duration of all turns; none: the shot's range
 };
 
-// Moves the camera forward along its own view axis. At the movement's first frame the camera is at its own position.
+// Moves the camera along its view axis. At the first frame of the movement, the camera is at its original position.
 struct Dolly {
-    double distance = 0;  // m; < 0: backward
+    double distance = 0;  // m; > 0: forward
     Easing easing = Easing::smooth;
-    std::optional<FrameRange> frames;  // none: the shot's range
+    std::optional<FrameRange> frames;  // duration of the movement; none: the shot's range
 };
 
-// Movement of the camera; Shot::request selects the camera.
+// Movement of the camera during the shot; std::monostate: none. Shot::request selects the camera.
 using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
-// Returns the request for values that neither the shot nor an option sets: the default request, with a fixed number of
-// lens samples. A number that changes between frames would be visible as changing noise.
+// Returns the request for values that neither the shot nor an option sets. The number of lens samples is fixed, because
+// noise that changes with the number of samples would be visible.
 inline Request shotDefaults() {
     Request request;
     request.samples = RenderSettings{}.sampleCount;
@@ -75,23 +75,23 @@ inline Request shotDefaults() {
 }
 
 struct Shot {
-    std::filesystem::path file;  // for messages; paths in a shot start at its folder, outputs at the current one
-    // Fixed values of the shot. Its time is the time of frame 0.
+    std::filesystem::path file;  // for messages; paths in the shot are relative to its folder
+    // Values that are constant during the shot. The time is that of frame 0.
     Request request;
-    // Names of the settings (frame/settings/settings.h) that the shot gives.
+    // Names of the settings (frame/settings/settings.h) that the shot file contains.
     std::set<std::string, std::less<>> given;
-    // JSON pointers to the places in the shot that name nodes, cameras and clips, by name.
+    // JSON pointer to the first occurrence of each name of a node, camera or clip in the shot file, by that name.
     std::map<std::string, std::string, std::less<>> placesOfNames;
 
-    double frameRate = 24;  // 1/s
+    double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
-    double animationSpeed = 1;           // speed of the animation; 0: it stands still
-    std::optional<double> shutterAngle;  // degrees, instead of the shutter's seconds; 360: open from frame to frame
+    double animationSpeed = 1;           // speed factor of the animation; 0: no motion
+    std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
-    std::map<std::string, LensTrack, std::less<>> lens;        // fixed or keyed values, by lens field
-    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by method setting (MethodSetting::keyed)
-    bool animateSeed = false;                                  // other sample positions in each frame: moving noise
+    std::map<std::string, LensTrack, std::less<>> lens;        // by lens field: constant or keyed values
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // by method setting (MethodSetting::keyed): keyed values
+    bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};
     std::filesystem::path video;  // empty: no video

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr double farthest = 1e12;  // m
+constexpr double farthest = 1e12;  // largest distance or coordinate, m
 
 const std::vector<std::string> easings = {"linear", "smooth"};
 
@@ -58,7 +58,7 @@ FrameRange rangeOf(const JsonReader& reader) {
     return range;
 }
 
-// Returns the movement's own range, of at least two frames; none if it isn't given.
+// Returns the frame range of a camera movement, at least two frames; none if the shot doesn't give it.
 std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     const auto given = reader.find("frames");
     if (!given) return {};
@@ -67,7 +67,7 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     return range;
 }
 
-// Returns the keys of a track with their frames. Throws Error unless the frames increase.
+// Returns the keys of a track with their frame numbers. Throws Error unless these are strictly increasing.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
@@ -204,7 +204,7 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 
 // ---- the method
 
-// Returns the keyed settings of all methods, by name.
+// Returns the settings of all methods that may have keys, by name.
 std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     std::map<std::string, const MethodSetting*, std::less<>> keyed;
     for (const Method& method : methods())
@@ -213,7 +213,8 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     return keyed;
 }
 
-// Values below 1e-6 are refused: 0 switches the setting off and cannot be interpolated.
+// Reads the keys of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
+// interpolated.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;
     LensTrack track;
@@ -236,7 +237,7 @@ std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& rea
 
 // ---- settings, output, document
 
-// Returns the member at a JSON pointer; none if it is missing.
+// Returns the member of the document at a JSON pointer; none if it is missing.
 std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view place) {
     std::optional<JsonReader> found = reader;
     while (found && !place.empty()) {
@@ -247,7 +248,8 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
     return found;
 }
 
-// Returns the keys that an object of the shot at `place` ("" for the document) may have: those of settings, and `own`.
+// Returns the allowed keys of the shot's object at `place` (a JSON pointer; "" for the document): the keys of settings
+// there, and `own`.
 std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
     for (const Setting& setting : settings()) {
         const std::string_view path = setting.shotPlace;
@@ -259,13 +261,13 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
     return own;
 }
 
-// Resolves a path relative to the shot's folder. Other texts stay unchanged.
+// Resolves the text of a path setting relative to the shot's folder. Returns other texts unchanged.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-// Reads the values that correspond to single settings.
+// Reads the values that correspond one-to-one to settings.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene")) fish->failWith("is for the built-in school of fish; this shot names a scene");
@@ -306,7 +308,7 @@ void readOutput(const JsonReader& reader, Shot& shot) {
     if (const auto video = reader.find("video")) shot.video = video->text();
 }
 
-// Collects the names of nodes, cameras and clips, each with its first place.
+// Collects the names of nodes, cameras and clips in the shot, each with the location of its first occurrence.
 void collectNames(const JsonReader& reader, Shot& shot) {
     if (!reader.value().is_structured()) return;
     for (const auto& [key, member] : reader.members()) {
@@ -344,7 +346,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     return shot;
 }
 
-// Throws Error with the message "FILE: line 3, column 7: MESSAGE" for a place in the text.
+// Throws Error with the message "FILE: line 3, column 7: MESSAGE". `place`: byte offset in `text`.
 [[noreturn]] void failAt(std::string_view text, std::size_t place, const fs::path& file, std::string_view message) {
     const std::string_view before = text.substr(0, place);
     const auto line = 1 + std::ranges::count(before, '\n');
@@ -353,7 +355,7 @@ Shot shotOf(const json& document, const fs::path& file) {
          lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak, message);
 }
 
-// Finds the first number that is infinite as a double; json::parse refuses it without a place.
+// Returns the offset of the first number that overflows a double, because json::parse doesn't report it.
 std::size_t placeOfOverflow(std::string_view text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// Reads shot files: JSON after docs/shot.schema.json. Error messages name the file, the place in it and the expected
-// value:
+// Reads shot files: JSON that follows docs/shot.schema.json. Error messages contain the file, the location in the file
+// and the expected value:
 //   shots/x.json: /camera/keys/2/position: expected three numbers or the name of a node, not "a"
 
 #include <filesystem>
@@ -13,27 +13,27 @@
 
 namespace defocus::engine {
 
-// Replaces a value of the shot file: "/lens/fStop=1.4", "/focus={\"node\": \"Fish 3\"}". The place is a JSON pointer
-// (RFC 6901). The value is JSON; any other text is taken as a string.
+// Replaces a value of the shot file, as in "/lens/fStop=1.4" or "/focus={\"node\": \"Fish 3\"}". The location is a JSON
+// pointer (RFC 6901). A value that isn't JSON becomes a string.
 struct ShotOverride {
     std::string pointer;
     std::string value;
 };
 
-// Parses an override. Throws Error unless `text` is /PLACE=VALUE.
+// Parses an override. Throws Error unless `text` has the form /PLACE=VALUE.
 ShotOverride parseShotOverride(std::string_view text);
 
 Shot loadShot(const std::filesystem::path& path, const std::vector<ShotOverride>& overrides = {});
 
-// Parses a shot from text. `file` is used for messages and as the base of relative paths.
+// Parses the text of a shot file. `file`: for messages and as the base of relative paths.
 Shot parseShot(std::string_view text, const std::filesystem::path& file,
                const std::vector<ShotOverride>& overrides = {});
 
-// Parses "0:240", or "12" for one frame. Throws Error that names the allowed values.
+// Parses "0:240", or "12" for a single frame. Throws Error, with the allowed format in its message, for any other text.
 FrameRange parseFrameRange(std::string_view text);
 
-// Throws Error for a name that the scene doesn't have. A name from the shot is reported with its place: "shot.json:
-// /focus/node: there is no node …". A name from an option is reported without a place.
+// Throws Error for a name that the scene doesn't have. If the name is from the shot, the message contains its location:
+// "shot.json: /focus/node: there is no node …". If it is from an option, the message doesn't.
 [[noreturn]] void failForName(const Shot& shot, const MissingName& missing);
 
 }  // namespace defocus::engine

@@ -17,8 +17,8 @@ bool cameraPlaced(const Request& request) {
     return request.cameraPosition || request.cameraTarget || request.cameraUp;
 }
 
-// Moves a focus that depends on the frame from the request to the shot, because a later frame may show what the first
-// doesn't.
+// Removes a focus on a node, a pixel or the image's centre from the request and returns it, because a shot evaluates
+// such a focus in each frame; none for any other focus.
 std::optional<FocusTarget> takeFocusTarget(Request& request) {
     const Focus focus = request.focus;
     std::optional<FocusTarget> target;
@@ -29,7 +29,7 @@ std::optional<FocusTarget> takeFocusTarget(Request& request) {
     return target;
 }
 
-// Returns the lens fields that focus points set.
+// Returns the lens fields that the request's focus points determine.
 std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
     const auto* const points = std::get_if<FocusPoints>(&request.focus);
     if (points == nullptr) return {};
@@ -38,7 +38,7 @@ std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
     return fields;
 }
 
-// Scales the shot's focus pixels from the shot's image size to the request's.
+// Scales the shot's focus pixels from the image size in the shot to the size in the request.
 void scaleFocusPixels(Shot& shot, const Request& request) {
     if (!shot.focus || !shot.given.contains("size")) return;
     for (auto& key : shot.focus->keys)
@@ -49,7 +49,7 @@ void scaleFocusPixels(Shot& shot, const Request& request) {
         }
 }
 
-// Returns whether the shot gives lengths in metres. Its author then knows that the scene's unit is the metre.
+// Returns whether the shot contains lengths in metres, which implies that the unit of its scene is the metre.
 bool saysLength(const Shot& shot) {
     if (std::holds_alternative<CameraKeys>(shot.movement) || std::holds_alternative<Dolly>(shot.movement)) return true;
     return shot.focus && std::ranges::any_of(shot.focus->keys, [](const auto& key) {
@@ -57,7 +57,7 @@ bool saysLength(const Shot& shot) {
            });
 }
 
-// Throws Error for keys of a setting that the method doesn't have.
+// Throws Error if the shot has keys for a setting that the method doesn't have.
 void checkMethodKeys(const Shot& shot) {
     const Method& method = *chosenMethod(shot.request).method;
     for (const auto& [name, track] : shot.methodKeys)

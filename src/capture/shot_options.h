@@ -1,5 +1,5 @@
 #pragma once
-// Combines a shot with the command line. Options override the shot's values.
+// Combines a shot with the options of the command line, which override the shot's values.
 
 #include <string>
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace defocus::engine {
 
-// Sets the shot's fixed values in the request as if they were given as options. Lens values are left out, because they
-// may have keys.
+// Sets the shot's constant values in the request as if they were given as options. Lens values are left out, because
+// these may have keys.
 void applyShot(const Shot& shot, Request& request);
 
-// Options that were given but leave no trace in Request.
+// Options that are given on the command line but cannot be seen in Request.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
 };
 
-// Settles shot and request after parsing the command line. Removes from the shot what `request` overrides: lens fields
-// and focus with a value, and the movement if a camera or its position is given. Puts the first values of the shot's
-// lens into `request`, so that the scene can be placed.
+// Merges shot and request after the command line is parsed. Removes from the shot what options override: lens fields
+// and focus with a value in `request`, and the movement if a camera or its position is given. Sets the lens values of
+// `request` to those of the shot's first keys, so that the scene can be placed.
 void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);

@@ -15,14 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns an example value; none if the setting has neither an example nor choices.
+// Returns an example value of a setting; none if the setting has neither an example nor choices.
 std::optional<Json> exampleOf(const Setting& setting) {
     if (!setting.example.empty()) return settingJson(setting, setting.example);
     if (!setting.choices.empty()) return Json(setting.choices.front());
     return {};
 }
 
-// Returns the schema of a setting that may have keys.
+// Returns the schema of a setting that may be animated: a value, or keys.
 Json trackSchema(const Setting& setting) {
     Json value = {{"description", "The value at that frame"}};
     value.update(valueSchema(setting));
@@ -58,7 +58,8 @@ Json schemaOf(const Setting& setting) {
     return schema;
 }
 
-// Returns the place in the schema: "/animation/clip" → "/properties/animation/properties/clip".
+// Converts a location in a shot to the location in the schema: "/animation/clip" →
+// "/properties/animation/properties/clip".
 Json::json_pointer schemaPlace(std::string_view place) {
     Json::json_pointer pointer;
     while (!place.empty()) {

@@ -1,12 +1,13 @@
 #pragma once
-// Fills the JSON schema of shots (docs/shot.schema.json) with the types, ranges, defaults and descriptions of the
-// settings table.
+// Fills the JSON schema of shot files (docs/shot.schema.json) with the types, ranges, defaults and descriptions from
+// the settings table.
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace defocus::engine {
 
-// Returns `schema` with all entries of settings replaced. Other entries (cameras, focus, frames, outputs) stay.
+// Returns `schema` with all entries for settings replaced. Other entries (cameras, focus, frames, outputs) stay
+// unchanged.
 nlohmann::ordered_json withSettings(nlohmann::ordered_json schema);
 
 }  // namespace defocus::engine

@@ -31,9 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Encoder options by the ending of the film's file.
+// ffmpeg's encoder options by file extension.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() {
-    // H.264 with 4:2:0 colour plays everywhere, but needs an even width and height. CRF 18 is visually lossless.
+    // H.264 with 4:2:0 chroma plays everywhere, but needs an even width and height. CRF 18 is visually lossless.
     static const std::string evenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
     static const std::vector<std::string> h264 = {"-vf", evenSides,  "-c:v",    "libx264",   "-crf",
                                                   "18",  "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
@@ -42,7 +42,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
         {".mov", h264},
         {".mkv", {"-vf", evenSides, "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p"}},
         {".webm", {"-vf", evenSides, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p"}},
-        // One palette for the whole film, and dithering that doesn't flicker.
+        // One palette for the complete video, and ordered dithering, which doesn't flicker.
         {".gif", {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"}},
     };
     return table;
@@ -69,12 +69,12 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
-// Marks a name as a file for ffmpeg, which would read "12:30.mp4" as a protocol.
+// Adds ffmpeg's prefix for files: it would read "12:30.mp4" as a protocol.
 std::string fileName(const fs::path& path) {
     return "file:" + path.string();
 }
 
-// Runs ffmpeg with a pipe to its input. Its output and its messages go to files.
+// Runs ffmpeg with a pipe to its standard input. Its output and messages go to files.
 class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
@@ -106,7 +106,7 @@ public:
     Ffmpeg(const Ffmpeg&) = delete;
     Ffmpeg& operator=(const Ffmpeg&) = delete;
 
-    // Returns false once ffmpeg reads no more input.
+    // Writes to ffmpeg's input. Returns false if ffmpeg has closed its end of the pipe.
     bool write(const std::vector<std::uint8_t>& bytes) const {
         for (std::size_t done = 0; done < bytes.size();) {
             const ssize_t count = ::write(input_, bytes.data() + done, bytes.size() - done);
@@ -117,7 +117,7 @@ public:
         return true;
     }
 
-    // Waits for the end of ffmpeg. Returns whether it succeeded.
+    // Closes the pipe and waits until ffmpeg ends. Returns whether ffmpeg succeeded.
     bool close() {
         ::close(input_);
         while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
@@ -125,7 +125,7 @@ public:
         process_ = -1;
         return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
     }
-    // Returns which signal ended ffmpeg; empty if none did. Valid after close().
+    // Returns the signal that ended ffmpeg as text; empty if none did. Valid after close().
     [[nodiscard]] std::string signalText() const {
         if (!WIFSIGNALED(status_)) return "";
         const int signal = WTERMSIG(status_);
@@ -144,7 +144,7 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     if (image.width != first.width || image.height != first.height)
         fail("{}: is {}x{} and not {}x{} as the film's first frame", path.string(), image.width, image.height,
              first.width, first.height);
-    // PNG and JPEG files are already tone-mapped; reading them undoes only the encoding.
+    // Images read from PNG and JPEG are already tone-mapped, so only the display encoding is applied.
     const bool linear = path.extension() == ".exr";
     image = linear ? displayEncoded(image, frame.image.toneMap, frame.image.exposure) : displayEncoded(image);
     std::vector<std::uint8_t> bytes;
@@ -166,17 +166,17 @@ std::string lastLine(std::string text) {
     return text.substr(text.find_last_of("\r\n") + 1);
 }
 
-// Returns why ffmpeg failed: its last message, or a message of this program if it left none.
+// Returns why ffmpeg failed: its last message, or this program's own text if there is no message.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(textOf(messages));
     return said.empty() ? "ffmpeg failed and doesn't say why" : "ffmpeg says: " + said;
 }
 
-// Throws Error unless the film is readable and has all its frames. On a full disk, ffmpeg reports success but leaves an
-// incomplete film.
+// Throws Error unless the video is readable and has all its frames. On a full disk, ffmpeg reports success but leaves
+// an incomplete video.
 void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
-    PendingFile messages(name.string() + ".log");  // both files are temporary
+    PendingFile messages(name.string() + ".log");  // the log and the video are temporary files
     PendingFile counted(name.string() + ".count");
     Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", fileName(film), "-map", "0:v:0", "-c", "copy", "-f",
                    "null", "-progress", "pipe:1", "-"},
@@ -212,7 +212,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     const fs::path log = path.string() + ".log";
     removeUnfinished({path, log, path.string() + ".count"});
     PendingFile film(path);
-    PendingFile messages(log);  // temporary
+    PendingFile messages(log);  // a temporary file
 
     std::vector<std::string> arguments = {"ffmpeg",      "-y",
                                           "-v",          "error",
@@ -225,8 +225,8 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
     arguments.push_back(fileName(film.temporaryPath()));
 
-    // Write frame by frame. A failed ffmpeg closes the pipe; ignoring SIGPIPE lets this program report ffmpeg's
-    // message.
+    // Write the frames in order. When ffmpeg fails, it closes the pipe; SIGPIPE is ignored so that this program can
+    // report ffmpeg's message.
     const auto previous = std::signal(SIGPIPE, SIG_IGN);
     Ffmpeg ffmpeg(arguments, "/dev/null", messages.temporaryPath());
     bool listening = true;

@@ -1,5 +1,5 @@
 #pragma once
-// Makes a film from written frames with the ffmpeg program. The file's ending selects the format.
+// Encodes image files of frames as a video with the ffmpeg program. The file extension selects the format.
 
 #include <filesystem>
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace defocus::engine {
 
-// Throws Error unless `path` is an .mp4, .mov, .mkv, .webm or .gif that can be written and ffmpeg is installed.
+// Throws Error unless ffmpeg is installed and `path` is a writable .mp4, .mov, .mkv, .webm or .gif file.
 void checkVideo(const std::filesystem::path& path);
 
 struct VideoFrame {
     std::filesystem::path file;
-    WriteOptions image;  // how a linear frame is converted to display values
+    WriteOptions image;  // conversion of a linear frame to display values
 };
 
-// Reads the frames in order and pipes them to ffmpeg, with `frameRate` frames per second. The film's file appears only
-// when it is complete. Throws Error that names the unreadable frame, or the film with ffmpeg's message.
+// Reads the frames in order and pipes them to ffmpeg. `frameRate`: frames per second. The video file appears only when
+// it is complete. Throws Error with the path of an unreadable frame, or with the video's path and ffmpeg's message.
 void writeVideo(const std::filesystem::path& path, const std::vector<VideoFrame>& frames, double frameRate,
                 const Progress& progress = {});
 

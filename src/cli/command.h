@@ -1,7 +1,7 @@
 #pragma once
-// Sub-commands of the program. Each command has a file of its own, which fills a struct from options and calls the
-// library. A command registers itself on the CLI11 program; its callback runs after parsing and throws Error on
-// failure. runProgram prints the error as one line and exits with 1, or 2 for a wrong command line.
+// Sub-commands of the program. The file of a command registers it on the CLI11 program and fills a struct from its
+// options. Its callback runs after parsing, calls the library and throws Error on failure. runProgram prints the error
+// as one line and exits with 1, or with 2 for a wrong command line.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -15,26 +15,26 @@
 namespace defocus::engine {
 
 struct GlobalOptions {
-    bool quiet = false;               // neither progress nor summary
-    bool verbose = false;             // print the choices of the program: device, caches, …
-    std::filesystem::path shaderDir;  // folder that replaces the embedded shaders, for live editing
-    std::vector<std::string> words;   // command line, beginning with the program
+    bool quiet = false;               // print neither progress nor summary
+    bool verbose = false;             // print what the program chose: device, caches, …
+    std::filesystem::path shaderDir;  // folder whose shaders replace the embedded ones, for live editing
+    std::vector<std::string> words;   // command line, beginning with the program's name
 };
 
 // Adds all commands with their options. `global` must outlive the program.
 void addCommands(CLI::App& program, GlobalOptions& global);
 
-// Returns a command, followed by all commands below it.
+// Returns a command followed by all its direct and indirect sub-commands.
 std::vector<const CLI::App*> allCommands(const CLI::App& command);
 
-// Returns the names of a command, each after a space, such as " bench speedup"; empty for the program.
+// Returns the command's names below the program, each after a space, such as " bench speedup"; empty for the program.
 std::string pathOf(const CLI::App& command);
 
 // Returns a progress display on stderr: a bar on a terminal, plain lines in a file or pipe, nothing with --quiet. Work
-// that ends within a second shows nothing.
+// that takes less than a second shows nothing.
 Progress terminalProgress(const GlobalOptions& global);
 
-// Prints warnings on stderr, each different line once. Prints nothing with --quiet.
+// Prints warnings on stderr, each distinct line once; prints nothing with --quiet.
 class WarningPrinter {
 public:
     explicit WarningPrinter(const GlobalOptions& global) : quiet_(global.quiet) {}
@@ -45,7 +45,7 @@ private:
     std::set<std::string> printed_;
 };
 
-// Prints how many pyramids came from the cache, with --verbose only.
+// Prints how many pyramids were read from the cache, but only with --verbose.
 void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);

@@ -1,4 +1,4 @@
-// The program defocus: renders the depth of field of a real lens.
+// The program `defocus`: renders images with the depth of field of a real lens.
 
 #include "cli/run_program.h"
 #include "core/memory.h"

@@ -62,13 +62,13 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
     return names;
 }
 
-// Returns the innermost command that was given ("speedup" for "bench speedup"), or the program itself.
+// Returns the innermost command that was given, such as "speedup" for "bench speedup"; without a command, the program.
 const CLI::App& chosenCommand(const CLI::App& program) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     return chosen.empty() ? program : chosenCommand(*chosen.front());
 }
 
-// Throws UsageError for --shader-dir with a command that reads no shaders from a folder.
+// Throws UsageError for --shader-dir with a command that doesn't use it.
 void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
     constexpr std::array drawing = {"render",  "capture", "view",        "pyramid",
                                     "speedup", "popping", "convergence", "scaling"};
@@ -85,7 +85,7 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// Returns a message about unexpected words: an unknown option or command, or one word too many.
+// Returns an error message for unexpected words: an unknown option, an unknown command, or an extra argument.
 std::string unexpected(const CLI::App& program, const std::vector<std::string>& words) {
     const CLI::App& command = chosenCommand(program);
     const auto option = std::ranges::find_if(words, isOption);
@@ -119,7 +119,7 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a sub-command is missing
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    // Report an unknown option first: its value may cause the other error.
+    // Report an unknown option first, because its value may be the cause of the other error.
     if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
@@ -192,12 +192,13 @@ std::string pathOf(const CLI::App& command) {
 }
 
 int runProgram(int argc, char** argv) {
-    // Turn a file beyond the size limit into a failed write, which the writer reports and cleans up.
+    // If a file reaches the size limit, let the write fail instead of ending the process: the writer reports the error
+    // and cleans up.
     std::signal(SIGXFSZ, SIG_IGN);
     claimClosedOutputs();
     try {
         const int code = run(argc, argv);
-        std::cout.flush();  // text of --help and --version
+        std::cout.flush();  // flush the text of --help or --version
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
         if (lost && code == 0) return printFault(failed, "the output cannot be written to stdout");
         return code;

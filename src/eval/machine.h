@@ -1,5 +1,5 @@
 #pragma once
-// Describes the computer that a bench runs on, in the words of its operating system.
+// Describes the computer that a bench runs on, as its operating system reports it.
 
 #include <cstdint>
 #include <string>
@@ -7,10 +7,10 @@
 namespace defocus::engine {
 
 struct Machine {
-    std::string processor;  // "AMD EPYC …"; empty if unknown
+    std::string processor;  // such as "AMD EPYC …"; empty if unknown
     unsigned threads = 0;   // hardware threads
     std::uint64_t memoryBytes = 0;
-    std::string system;  // "Linux 6.1.0 x86_64"
+    std::string system;  // such as "Linux 6.1.0 x86_64"
 };
 
 Machine thisMachine();

@@ -1,5 +1,5 @@
 #pragma once
-// Summarises repeated measurements by their median and their scatter.
+// Summarises repeated measurements by their median and percentiles.
 
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -12,11 +12,11 @@ struct Spread {
     double high = 0;  // 90th percentile
 };
 
-// Returns the value below which `share` ∈ [0, 1] of the values lie, interpolated linearly between two values (Hyndman
-// and Fan 1996, type 7). Needs at least one value.
+// Returns the value below which a fraction `share` ∈ [0, 1] of the values lies, with linear interpolation between two
+// values (Hyndman and Fan 1996, type 7). Needs at least one value.
 double percentile(std::vector<double> values, double share);
 
-// Returns the spread of the values; zeros without values.
+// Returns the spread of the values; all zeros if there are none.
 Spread spreadOf(const std::vector<double>& values);
 
 nlohmann::ordered_json spreadJson(const Spread& spread);

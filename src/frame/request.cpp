@@ -66,7 +66,7 @@ void checkStop(const Request& request) {
 namespace {
 
 void checkValue(const Setting& setting, const Request& request, Request& scratch) {
-    if (setting.lensField && setting.name != "focusDistance") {  // infinity has no text form
+    if (setting.lensField && setting.name != "focusDistance") {  // infinity cannot be written as text
         const LensField& field = *lensFieldNamed(setting.name);
         giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
     } else if (setting.repeated) {

@@ -1,5 +1,5 @@
 #pragma once
-// The public Request, and functions that convert it to the settings of the folders lens, plan and render.
+// Converts the public Request to the settings that the folders lens, plan and render use.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -26,24 +26,25 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // Returns the request's method with its settings. Throws UsageError for a setting that the method doesn't have.
 MethodUse chosenMethod(const Request& request);
 
-// Returns the settings for planning the frame. An automatic number of samples becomes 64.
+// Returns the settings for planning the frame. An automatic number of samples is replaced by 64.
 RenderSettings renderSettings(const Request& request);
 GivenThresholds givenThresholds(const Request& request);
 ShutterSettings shutterSettings(const Request& request);
 
-// Returns the conditions that end a frame. The number of samples is automatic if the request gives neither a number, a
-// target error nor a time limit. Methods that don't add blocks of samples, and exact motion, take 64 samples instead.
+// Returns the conditions that end a frame. The number of samples is automatic if the request gives neither a number,
+// nor a target error, nor a time limit. Exact motion and methods that cannot add blocks of samples take 64 samples
+// instead.
 StopSettings stopSettings(const Request& request);
 
-// Returns the lens values that the request gives, including its focus distance, in the units of the lens fields.
+// Returns the lens values that the request sets, including its focus distance, in the units of the lens fields.
 LensValues givenLensValues(const Request& request);
-// Sets a lens value of the request, in the field's unit. Throws Error as setLensField does.
+// Sets a lens value of the request. `value`: in the unit of `field`. Throws Error in the same cases as setLensField.
 void giveLensValue(Request& request, const LensField& field, double value);
 
-// Calls checkStop (render/frame_run.h) for the request's method and shutter.
+// Calls checkStop (render/frame_run.h) with the request's method and shutter.
 void checkStop(const Request& request);
 
-// Throws UsageError for a value outside its setting's range. The message names the setting.
+// Throws UsageError, with the setting's name in its message, if a value is outside the range of its setting.
 void checkRequest(const Request& request);
 
 }  // namespace defocus::engine

@@ -27,10 +27,10 @@ namespace {
 
 struct SpeedupArguments {
     Request request = measuredRequest();
-    std::string preset;  // preset that was given; empty: none
+    std::string preset;  // name of the given preset; empty: none
     SpeedupOptions speedup;
-    std::filesystem::path folder;  // empty: print the table only
-    std::filesystem::path report;  // empty: no report
+    std::filesystem::path folder;  // folder of the results; empty: print the table only
+    std::filesystem::path report;  // folder of the report; empty: no report
     bool allowChanged = false;
 };
 
@@ -44,12 +44,12 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     Request scene = arguments.request;
-    scene.noCache = true;  // the result includes the build time of the pyramids
+    scene.noCache = true;  // the results include the build time of the pyramids
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
     std::vector<SpeedupForm> forms = {formOf(frame, arguments.preset)};
-    PreparedFrame plain;  // frame without the preset, for comparison
+    PreparedFrame plain;  // same frame without the preset, for comparison
     if (!arguments.preset.empty()) {
         clearPreset(presetNamed(arguments.preset), scene);
         plain = placeFrame(frame.scene, scene, &frame.world.environment);
@@ -114,8 +114,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    // Leave out settings that the bench varies itself. The cache is left out because the result includes the build time
-    // of the pyramids. Exposure is left out because images are compared at EV 0.
+    // Leave out settings that the bench varies itself, the cache (the results include the build time of the pyramids)
+    // and exposure (images are compared at EV 0).
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
                                          "noCache", "exposureTime", "iso"}));

@@ -1,5 +1,5 @@
 #pragma once
-// Sub-commands of `defocus bench` in files of their own.
+// Sub-commands of `defocus bench` that have files of their own.
 
 #include <filesystem>
 #include <initializer_list>
@@ -13,23 +13,23 @@
 
 namespace defocus::engine {
 
-// Creates `folder` and checks that these files can be written there, before the long work. Does nothing for an empty
-// path. Throws Error.
+// Creates `folder` and checks that `files` can be written there, before any long work. Does nothing for an empty path.
+// Throws Error if the folder or a file cannot be written.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
-// Adds the option --allow-changed, which sets `allowed`.
+// Adds the option --allow-changed, which sets `allowed` to true.
 void addAllowChanged(CLI::App& command, bool& allowed);
 
-// Throws Error if results would be written to `output` by a program built from changed sources (see programCommit),
-// because nobody could repeat such results. Does nothing if `output` is empty or `allowed` is set.
+// Throws Error if a program built from changed sources (see programCommit) would write results to `output`: such
+// results could not be reproduced. Does nothing if `output` is empty or `allowed` is true.
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
-// Returns the default request of a bench. Its unit is the metre, so that no result depends on a guessed unit.
+// Returns the default request of a bench. Its unit is set to the metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
-// Describes the subject of a bench: program, command, machine and the device of `context`; with `frame`, also its
-// scene, camera and lens.
+// Describes what a bench measures: program, command, machine and the device of `context`; with `frame`, also its scene,
+// camera and lens. `runs`: runs of each frame.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

@@ -1,4 +1,4 @@
-// defocus bench convergence: measures error against run time.
+// defocus bench convergence: measures image error against render time.
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program has ray tracers. They shade differently, so the scene's light is then baked into unlit
-// colours.
+// Returns whether the program includes ray tracers. Their shading differs, so the scene's light is then baked into
+// unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -48,8 +48,8 @@ struct ConvergenceArguments {
     bool unlit = hasRayTracers();
     ConvergenceOptions options;
     std::uint32_t referenceSamples = 4096;
-    fs::path output;  // empty: `report`; if that is empty too, "convergence"
-    fs::path report;  // empty: no report
+    fs::path output;  // folder of the results; empty: `report`, or "convergence" if `report` is empty
+    fs::path report;  // folder of the report; empty: no report
     bool resume = false;
     bool overwrite = false;
     bool allowChanged = false;
@@ -73,7 +73,8 @@ std::string textIn(const fs::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the hash that all frames in a journal share. It changes with scene, reference, device and program.
+// Returns the hash that all frames of a journal share: of the reference, the program, the device and the settings that
+// affect the plan.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -84,8 +85,8 @@ std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, co
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
-// Returns the frames of an earlier run to continue from. Throws Error before any change if this run would destroy
-// frames or a reference in the folder.
+// Returns the frames of an earlier run that this run continues. Throws Error if this run would destroy frames or a
+// reference in the folder; nothing is changed then.
 std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
                                         std::uint64_t subject) {
     if (arguments.overwrite) return {};
@@ -104,14 +105,14 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
     return runs;
 }
 
-// The folder with the results. All files are rewritten after each frame, so that a killed run loses no frame.
+// The folder of the results. All result files are rewritten after each frame, so that a killed run loses no frame.
 class ResultsFolder {
 public:
     ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash,
                   int seeds)
         : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash), seeds_(seeds) {}
 
-    // Takes over the frames and the commands of an earlier run in this folder.
+    // Continues an earlier run in this folder: keeps its frames and the commands listed in its results.
     void resume(std::vector<ConvergenceRun> runs) {
         runs_ = std::move(runs);
         const fs::path results = folder_ / "results.json";
@@ -160,7 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether a preset is the published form of a method that the bench measures with default settings.
+// Returns whether the options request `published`, the published form of a method: published forms are requested, and
+// the method is measured with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
@@ -168,8 +170,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// Returns the published forms of the methods, from the presets. Forms that draw levels get their own pyramids, kept in
-// `frames`. `frame` needs no pyramids yet.
+// Returns the requested published forms of the methods, built from the presets. Forms that draw levels get pyramids of
+// their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {
@@ -196,7 +198,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
     Request scene = arguments.request;
-    scene.noCache = true;  // the result includes the build time of the pyramids
+    scene.noCache = true;  // the results include the build time of the pyramids
     const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
     if (!usesLevels) scene.lod = LodMode::off;
     PreparedFrame frame = placeFrame(scene, progress);
@@ -212,7 +214,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer, frame.settings.shadows};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    // Runs with different numbers of seeds must not be mixed.
+    // Runs with different numbers of seeds must not share a journal, so the hash includes that number.
     const std::array<std::uint64_t, 2> subjectAndSeeds = {
         subjectHash(referenced, benchSubject(*context, global), arguments.request),
         static_cast<std::uint64_t>(options.seeds)};
@@ -224,7 +226,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.published = publishedForms(scene, frame, options, publishedFrames, progress);
     addPyramids(frame, progress);
 
-    // Render the reference and choose the crops to show.
+    // Render the reference and choose the crops to show in the report.
     const ReferenceImage reference = referenceImage(frame.world, frame.view, referenceOptions, folder, progress);
     writeImage(folder / "images" / "reference.png", reference.image);
     ConvergenceSubject subject;
@@ -247,7 +249,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     measureConvergence(frame.world, frame.view, reference, options, frame.pyramidMilliseconds, done, visitor, progress);
     progress = {};
 
-    // Write and print the results.
+    // Write the results and print the summary.
     results.writeResults(folder);
     const std::vector<ConvergenceRow> rows = results.rows();
     fmt::print("{}", convergenceHeader());

@@ -1,4 +1,4 @@
-// defocus bench popping: measures the change from frame to frame that levels of detail add.
+// defocus bench popping: measures the frame-to-frame change that levels of detail add.
 
 #include <fmt/format.h>
 
@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 struct PoppingArguments {
     Request request = measuredRequest();
     PoppingOptions options;
-    fs::path folder;  // empty: print the table only
-    fs::path report;  // empty: no report
+    fs::path folder;  // folder of the results; empty: print the table only
+    fs::path report;  // folder of the report; empty: no report
     bool allowChanged = false;
 };
 
@@ -59,7 +59,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
                subject.height, options.frames, options.pathFrames, subject.device);
 
-    // Write the results after each measurement, so that an interrupted run loses little.
+    // Write all results after each measurement, so that an interrupted run loses at most one measurement.
     std::vector<PoppingFrame> frames;
     std::vector<SampleStep> steps;
     const auto write = [&] {

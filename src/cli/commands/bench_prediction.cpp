@@ -1,4 +1,4 @@
-// defocus bench prediction: compares the error that a pyramid predicts for its levels with the rendered error.
+// defocus bench prediction: compares the errors that a pyramid predicts for its levels with rendered errors.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 struct PredictionArguments {
     Request request = measuredRequest();
     PredictionOptions options;
-    std::filesystem::path folder;  // empty: print the table only
+    std::filesystem::path folder;  // folder of the results; empty: print the table only
     bool allowChanged = false;
 };
 

@@ -15,14 +15,14 @@ namespace defocus::engine {
 
 namespace {
 
-// The python3 that comes first on the path may lack Debian's packages.
+// Python interpreters to try. The first python3 on the path may lack Debian's packages.
 constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 
-// Exit codes of a missing interpreter and of an interpreter without matplotlib (report_script.cpp.in).
+// Exit codes of report_script.cpp.in for a missing interpreter and for an interpreter without matplotlib.
 constexpr int notInstalled = 127;
 constexpr int withoutMatplotlib = 3;
 
-// Runs a program from the path and returns its exit code; −1 if it was killed. Its output goes to stderr.
+// Runs a program from the path, with its output on stderr. Returns its exit code; −1 if a signal killed it.
 int exitCodeOf(std::vector<std::string> words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -40,7 +40,8 @@ int exitCodeOf(std::vector<std::string> words) {
     return WEXITSTATUS(status);
 }
 
-// Returns whether a Python with matplotlib is installed. Throws Error if it fails to draw the report.
+// Draws the report with the first interpreter that has matplotlib. Returns false if there is none. Throws Error if the
+// script fails.
 bool runScript(const std::filesystem::path& results, const std::filesystem::path& report) {
     for (const char* python : interpreters) {
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});

@@ -1,4 +1,4 @@
-// defocus bench scaling: measures how time and memory of a frame grow with its parameters.
+// defocus bench scaling: measures how a frame's time and memory grow with its parameters.
 
 #include <fmt/format.h>
 
@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 struct ScalingArguments {
     ScalingOptions options;
     Request request;      // only its cache folder is used
-    fs::path folder;      // empty: print the table only
-    fs::path report;      // empty: no report
-    bool scenes = false;  // measure the two large scenes too
+    fs::path folder;      // folder of the results; empty: print the table only
+    fs::path report;      // folder of the report; empty: no report
+    bool scenes = false;  // also measure the two large scenes
     bool allowChanged = false;
 };
 

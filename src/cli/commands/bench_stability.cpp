@@ -1,4 +1,5 @@
-// defocus bench stability: compares stiff and extreme cases with their true results, and the blur with the lens.
+// defocus bench stability: compares numerically difficult cases with exact results, and each method's blur with the
+// lens.
 
 #include <fmt/format.h>
 
@@ -19,8 +20,8 @@ namespace defocus::engine {
 namespace {
 
 struct StabilityArguments {
-    std::filesystem::path output;  // JSON file; empty: print the table only
-    std::filesystem::path report;  // folder; empty: no report
+    std::filesystem::path output;  // JSON file of the results; empty: print the table only
+    std::filesystem::path report;  // folder of the report; empty: no report
     bool allowChanged = false;
 };
 
@@ -38,7 +39,7 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
     return rows;
 }
 
-// Prints a row for each method with default settings, and a summary of all methods.
+// Measures each method with default settings against the lens; prints a row per method and a summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\nThe disk of a point of light against the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm,\n"

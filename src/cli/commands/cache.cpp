@@ -34,14 +34,14 @@ std::string megabytes(std::uint64_t bytes) {
     return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
-// Returns local time, to the minute.
+// Returns the local time, to the minute.
 std::string dateText(std::filesystem::file_time_type time) {
     const auto system = std::chrono::file_clock::to_sys(time);
     const auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(system);
     return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(seconds)));
 }
 
-// Returns a text such as "3 files, 12.5 MB".
+// Returns the number and total size of the files, such as "3 files, 12.5 MB".
 std::string totalOf(const std::vector<CacheFile>& files) {
     std::uint64_t bytes = 0;
     for (const CacheFile& file : files) bytes += file.bytes;

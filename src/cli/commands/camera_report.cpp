@@ -23,20 +23,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Blur {
     double depth = 0;      // m
-    double pixels = 0;     // signed; > 0 behind the focus
-    double onSensor = 0;   // mm, ≥ 0
-    bool inFocus = false;  // blur no larger than the acceptable circle
+    double pixels = 0;     // signed diameter; > 0 behind the focus
+    double onSensor = 0;   // diameter, mm, ≥ 0
+    bool inFocus = false;  // blur diameter is at most CameraFacts::acceptable
 };
 
-// Results for the report.
+// All values that the report prints.
 struct CameraFacts {
     Lens lens;
     glm::dvec2 sensor{0};       // mm
     glm::dvec2 fieldOfView{0};  // degrees
-    double acceptable = 0;      // mm
-    bool customary = false;     // acceptable circle is the sensor's diagonal over 1500
+    double acceptable = 0;      // acceptable circle of confusion, mm
+    bool customary = false;     // `acceptable` is the sensor's diagonal divided by 1500
     DepthOfField depth;
-    bool plain = true;  // plain thin lens, without artistic controls: the limits of focus are exact
+    bool plain = true;  // thin lens without artistic controls, so that the limits of focus are exact
     std::vector<Blur> blurs;
 };
 
@@ -77,7 +77,7 @@ Json orNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-// Returns the depth of field behind the focus distance, m.
+// Returns the depth of field behind the focus distance, m; 0 for focus at infinity.
 double behindFocus(const CameraFacts& facts) {
     return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
 }

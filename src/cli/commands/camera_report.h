@@ -1,6 +1,6 @@
 #pragma once
-// Reports camera data for photographers, as printed by `defocus info --camera`: field of view, depth of field,
-// exposure, and the blur at chosen depths.
+// Camera data for photographers, as printed by `defocus info --camera`: field of view, depth of field, exposure, and
+// the blur at chosen depths.
 
 #include <optional>
 #include <string>
@@ -11,16 +11,16 @@
 namespace defocus::engine {
 
 struct CameraQuestion {
-    std::optional<double> acceptableCoc;  // mm on the sensor; none: the customary value
-    std::vector<double> depths;           // m, > 0, may be infinite; empty: depths around the focus
+    std::optional<double> acceptableCoc;  // diameter on the sensor, mm; none: the customary value
+    std::vector<double> depths;           // m, > 0, may be infinite; empty: depths around the focus distance
 };
 
-// Parses depths separated by commas; "inf" is infinity. Throws Error for any other text.
+// Parses depths (m) separated by commas; "inf" is infinity. Throws Error for any other text.
 std::vector<double> parseDepths(const std::string& text);
 
 std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& question);
 
-// Returns a JSON object. Infinite distances are null.
+// Returns the camera data as a JSON object. Infinite distances are null.
 std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& question);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// defocus capture: renders a shot to frames and a film.
+// defocus capture: renders a shot to image files and a video.
 
 #include "capture/capture.h"
 
@@ -52,7 +52,7 @@ struct CaptureArguments {
     std::optional<FrameRange> range;
     Shard shard;
     std::optional<SampleRange> sampleRange;
-    std::vector<std::string> outputs;  // empty: the shot's outputs
+    std::vector<std::string> outputs;  // patterns from the command line; empty: the shot's outputs
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
@@ -60,7 +60,7 @@ struct CaptureArguments {
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
-// Checks the outputs and the combination of options, before the long work. Throws Error.
+// Checks the outputs and the combination of options before any long work. Throws Error for invalid ones.
 void checkArguments(const CaptureArguments& arguments) {
     for (const std::string& pattern : arguments.shot.outputs) {
         checkFramePattern(pattern);
@@ -121,8 +121,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     }
 }
 
-// Returns the metadata of `render`, without values that differ from run to run. `exposure`: EV of all frames; none:
-// from each frame's lens.
+// Returns a function for the metadata of a frame: that of `render`, without values that differ from run to run.
+// `exposure`: EV of all frames; none: from each frame's lens.
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
                         std::optional<double> exposure) {
     return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
@@ -133,14 +133,14 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         options.seed = frame.settings.seed;
         Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
         metadata.erase("defocus:seconds");
-        metadata["capDate"] = std::string();  // otherwise the library inserts the time of writing
+        metadata["capDate"] = std::string();  // empty, because the image library would insert the current time
         metadata["defocus:frame"] = frame.frame;
         metadata["defocus:frameRate"] = arguments.shot.frameRate;
         return metadata;
     };
 }
 
-// Plans the first frame and prints the warnings of its plan.
+// Plans the first frame of `film` and prints the warnings about its plan.
 void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                        const std::vector<FilmFrame>& film, const MethodUse& use, WarningPrinter& warnings) {
     const FrameMoment frame = frameAt(arguments.shot, base, film.front().frame);
@@ -148,7 +148,7 @@ void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepare
     warnings.print(planWarnings(planFrame(prepared.world, frame.view, frame.settings), use));
 }
 
-// Meters the shot's first frame, even if this run doesn't render it, and sets the exposure of all frames.
+// Meters the shot's first frame, even if this run doesn't render that frame, and sets the exposure of all frames.
 void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                std::vector<FilmFrame>& film, const GlobalOptions& global) {
     const FrameMoment frame = frameAt(arguments.shot, base, arguments.shot.range.first);
@@ -182,7 +182,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     const std::optional<double> exposure =
         options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
     stopWhenAsked();
-    // With a time limit, render at least one frame, so that repeated runs finish at some time.
+    // With a time limit, render at least one frame, so that repeated runs eventually finish.
     const Clock::time_point start = Clock::now();
     bool first = true;
     const auto stop = [&] {
@@ -196,7 +196,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
 
-// Refuses to replace frames made with other settings, which may have taken hours.
+// Throws Error if frames made with other settings, which may have taken hours, would be replaced.
 void refuseToReplace(const std::vector<FilmFrame>& film) {
     const auto replaced = [](const FilmFrame& frame) { return !frame.other.empty(); };
     const auto first = std::ranges::find_if(film, replaced);
@@ -213,7 +213,7 @@ PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& pro
 }
 
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
-    // Check options, outputs, scene, device and the camera and lens of every frame before the long work.
+    // Check options, outputs, scene, device, and each frame's camera and lens before any long work.
     Shot& shot = arguments.shot;
     settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
@@ -261,7 +261,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         fail("stopped before frame {}: {} of {} frames are finished; the same command with --resume goes on",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
 
-    // Make the film.
+    // Encode the video.
     std::vector<VideoFrame> pictures;
     for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
     if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
@@ -285,8 +285,8 @@ void parseShard(const std::string& text, Shard& shard) {
              shard.count - 1);
 }
 
-// Adds the shot and the options that replace its parts. CLI11 handles options in the order in which they were added.
-// The shot is added after --set, which it uses, and before the other options, which override it.
+// Adds the shot and the options that replace parts of the shot. CLI11 applies options in the order in which they were
+// added: --set, which the shot reads, must precede the shot, and the overriding options must follow it.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
     advanced(command
@@ -297,7 +297,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
                              for (const std::string& text : texts)
                                  arguments.overrides.push_back(parseShotOverride(text));
                          } catch (const Error& error) {
-                             throw CLI::ValidationError(error.what());  // reported as an error of the command line
+                             throw CLI::ValidationError(error.what());  // reported as a command-line error
                          }
                      },
                      "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")

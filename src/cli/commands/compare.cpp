@@ -30,7 +30,7 @@ struct CompareArguments {
     bool json = false;
     bool hdr = false;
     HdrFlipOptions hdrFlip;
-    std::vector<std::string> failAbove;  // METRIC=VALUE, valid after parsing
+    std::vector<std::string> failAbove;  // METRIC=VALUE; validated while parsing
 };
 
 struct Metric {
@@ -53,7 +53,7 @@ struct Limit {
     double value = 0;
 };
 
-// Parses METRIC=VALUE. In the result for any other text, metric is null.
+// Parses METRIC=VALUE. For any other text, the result's metric is null.
 Limit limitOf(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return {};
@@ -97,7 +97,7 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
     row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
 }
 
-// Writes an error map: plain values to EXR files, colours to other formats.
+// Writes an error map: raw values to an EXR file, false colours to other formats.
 void writeErrorMap(const std::filesystem::path& path, const Image& flip) {
     writeImage(path, path.extension() == ".exr" ? flip : colourMapped(flip));
 }
@@ -116,13 +116,13 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
 }
 
 void runCompare(const CompareArguments& arguments) {
-    // Check the output before the work.
+    // Check the output file before the long work.
     if (!arguments.errorMap.empty()) {
         checkImageExtension(arguments.errorMap);
         checkWritable(arguments.errorMap);
     }
 
-    // Compare.
+    // Read and compare the images.
     const Image reference = readImage(arguments.reference);
     const Image test = readImage(arguments.test);
     if (reference.width != test.width || reference.height != test.height)
@@ -134,7 +134,7 @@ void runCompare(const CompareArguments& arguments) {
     options.flipMap = &flip;
     const Difference difference = compareImages(reference, test, options);
 
-    // Report.
+    // Write the error map and print the result.
     if (!arguments.errorMap.empty()) writeErrorMap(arguments.errorMap, flip);
     if (arguments.json)
         printJson(difference);

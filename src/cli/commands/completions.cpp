@@ -1,7 +1,7 @@
-// defocus completions: prints a script with which a shell completes command lines.
+// defocus completions: prints a script that lets a shell complete command lines.
 //
-// The scripts of all shells contain the same table of candidates and the same awk program, which reads the table. They
-// do not run defocus, because it needs 0.2 s to load its shared libraries. A completion takes 10 ms.
+// The scripts of all shells contain the same table of candidates and the same awk program that reads the table. The
+// scripts don't run defocus, which takes 0.2 s to load its shared libraries; a completion takes 10 ms.
 
 #include <fmt/format.h>
 
@@ -23,13 +23,13 @@ namespace defocus::engine {
 
 namespace {
 
-// Placeholders in the table that a shell replaces by names of files or folders. The letters are options of bash's
+// Placeholders in the table that the shell replaces by names of files or folders. The letters are options of bash's
 // compgen.
 constexpr std::string_view anyFile = ":f";
 constexpr std::string_view anyFolder = ":d";
 
-// Returns the first sentence, up to a colon or semicolon, cut to fit on one line. Apostrophes become typographic ones,
-// because the scripts contain the table in single quotes.
+// Returns the description up to its first full stop, colon or semicolon, cut to fit on one line. Apostrophes become
+// typographic ones, because the scripts contain the table in single quotes.
 std::string brief(const std::string& description) {
     constexpr std::size_t maxBytes = 72;
     std::string text = description.substr(0, description.find_first_of(";:\\"));
@@ -43,14 +43,14 @@ std::string brief(const std::string& description) {
     return text;
 }
 
-// Returns whether the text is a literal word such as "half". "FILE" and "WxH" are placeholders.
+// Returns whether a value in --help is a literal word such as "half", not a placeholder such as "FILE" or "WxH".
 bool isLiteral(const std::string& text) {
     return std::ranges::none_of(text, [](unsigned char letter) { return std::isupper(letter) != 0; }) &&
            std::ranges::any_of(text, [](unsigned char letter) { return std::isalpha(letter) != 0; });
 }
 
-// Returns the candidates for an option's value, read from the form of the value in --help: "off" and "half" for
-// "off|half|N". Words of a list such as "depth,coc" get a comma in front, because the value may join several of them.
+// Returns the candidates for an option's value, read from the placeholder in --help: "off" and "half" for "off|half|N".
+// The words of a list such as "depth,coc" begin with a comma, because the value may join several of them.
 std::vector<std::string> candidatesOf(const CLI::Option& option) {
     const std::string form = option.get_type_name();
     const bool list = form.find('|') == std::string::npos && form.find(',') != std::string::npos;
@@ -66,11 +66,11 @@ std::vector<std::string> candidatesOf(const CLI::Option& option) {
     return candidates;
 }
 
-// Returns lines "CONTEXT <tab> CANDIDATE <tab> DESCRIPTION". The context is a command (" bench speedup") or an option
-// that takes a value (" render --lod"). An option without candidates has one empty candidate.
+// Returns lines of "CONTEXT <tab> CANDIDATE <tab> DESCRIPTION". The context is a command (" bench speedup") or an
+// option that takes a value (" render --lod"). An option without candidates has one line with an empty candidate.
 std::string completionTable(const CLI::App& program) {
     std::string table;
-    std::set<std::string> rows;  // a command and the program may share an option
+    std::set<std::string> rows;  // omits duplicates: a command and the program may share an option
     const auto add = [&](const std::string& context, const std::string& candidate, const std::string& description) {
         const std::string row = fmt::format("{}\t{}\t{}\n", context, candidate, brief(description));
         if (rows.insert(row).second) table += row;
@@ -87,7 +87,7 @@ std::string completionTable(const CLI::App& program) {
                 else
                     for (const std::string& name : namesOf(*option)) {
                         add(path, name, option->get_description());
-                        if (option->get_type_name().empty()) continue;  // a flag
+                        if (option->get_type_name().empty()) continue;  // a flag takes no value
                         if (candidates.empty()) add(path + ' ' + name, "", "");
                         for (const std::string& candidate : candidates) add(path + ' ' + name, candidate, "");
                     }
@@ -96,9 +96,9 @@ std::string completionTable(const CLI::App& program) {
     return table;
 }
 
-// Reads the table from standard input and prints the candidates for the last argument, each with a tab and its
-// description. The arguments are the words of the command line after the program. The scripts contain this text in
-// single quotes, so it must contain neither a single quote nor a double backslash.
+// Awk program that reads the table from standard input and prints the candidates for the last argument, each with a tab
+// and its description. Its arguments are the words of the command line after the program's name. The scripts contain
+// this text in single quotes, so it must contain neither a single quote nor a double backslash.
 constexpr std::string_view awkProgram = R"(
     BEGIN { FS = "\t"; words = ARGC - 1; ARGC = 1 }
     { rows[$1] = rows[$1] "\n" $2 "\t" $3 }

@@ -30,15 +30,15 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     bool json = false;
     std::string camera;  // empty: print the file's contents; else print camera data ("true" or a camera's name)
-    Request seen;        // scene; the other values are for --camera
+    Request seen;        // the scene; all other values apply to --camera only
     CameraQuestion question;
 };
 
-constexpr std::size_t meshesListed = 12;  // in text output; --json lists all
+constexpr std::size_t meshesListed = 12;  // maximum in text output; --json lists all
 const std::string flagOnly = "true";      // CLI11's value for --camera without a name
 constexpr double degrees = 57.295779513082321;
 
-// Returns the name, or a text such as "(mesh 3)" for an empty name.
+// Returns the name; for an empty name, a text such as "(mesh 3)".
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("({} {})", kind, index) : name;
 }
@@ -71,8 +71,8 @@ const char* alphaName(AlphaMode mode) {
 }
 
 struct Totals {
-    std::uint64_t triangles = 0;         // each mesh counted once
-    std::uint64_t trianglesInScene = 0;  // each mesh counted as often as it is drawn
+    std::uint64_t triangles = 0;         // sum over all meshes
+    std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
     std::uint64_t vertices = 0;
 };
 
@@ -86,7 +86,7 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
     return totals;
 }
 
-// Returns the repairs of each mesh.
+// Returns the repairs of each mesh, by mesh index.
 std::vector<Repairs> allRepairs(const Scene& scene) {
     std::vector<Repairs> repairs(scene.meshes.size());
     parallelFor(repairs.size(), [&](std::size_t m) { repairs[m] = repairsOf(scene.meshes[m]); });
@@ -172,7 +172,7 @@ void line(const char* label, const std::string& text) {
     fmt::print("{:<12}{}\n", label, text);
 }
 
-// Prints one line per entry, with the label on the first line only; prints `none` for no entries.
+// Prints one line per entry, with the label in front of the first line; prints `none` if there are no entries.
 void lines(const char* label, const std::vector<std::string>& entries, const char* none) {
     if (entries.empty()) line(label, none);
     for (std::size_t i = 0; i < entries.size(); ++i) line(i == 0 ? label : "", entries[i]);
@@ -341,7 +341,7 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
               "sensor of 36 x 27 mm)")
         ->group(group);
-    // Leave out the shape and the aberrations of the aperture: the report depends on its diameter only.
+    // Leave out the aperture's shape and the aberrations: the report depends only on the aperture's diameter.
     std::vector<std::string> unused = {"camera", "nodeBlur", "apertureImage"};
     for (const LensField& field : lensFields())
         if (field.section == LensSection::aperture) unused.emplace_back(field.name);

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longestStem = 80;  // bytes; file systems allow 255
+constexpr std::size_t longestStem = 80;  // bytes; file systems allow 255 for a file name
 
-// Returns a file name of ASCII letters, digits and "-_.", without a leading dot.
+// Returns `name` as a file name: only ASCII letters, digits and "-_.", without a leading dot.
 std::string safeStem(const std::string& name) {
     std::string stem;
     for (const char c : name) {

@@ -21,7 +21,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Escapes the ASCII characters that groff would replace by typographic ones.
+// Escapes the ASCII characters that groff would replace with typographic ones.
 std::string plain(const std::string& text) {
     static const std::map<char, std::string> escapes = {{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                         {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
@@ -43,7 +43,7 @@ std::string subsection(const std::string& title) {
     return fmt::format(".SS \"{}\"\n", plain(title));
 }
 
-// Returns whether an option sets a setting. A setting is explained once for all commands that take it.
+// Returns whether an option sets a setting. Settings are documented once for all commands.
 bool isSetting(const CLI::Option* option) {
     return settingOf(*option) != nullptr || methodSettingOf(*option) != nullptr;
 }
@@ -54,7 +54,7 @@ std::string optionText(const CLI::Option& option) {
                        plain(help.make_option_opts(&option)), line(help.make_option_desc(&option) + "."));
 }
 
-// Returns a command's footer in man macros. Indented lines are code, other lines are sentences.
+// Converts a command's footer to man macros. Indented lines become code, other lines become sentences.
 std::string footerText(const std::string& footer) {
     std::string text;
     std::istringstream lines(footer);
@@ -84,7 +84,7 @@ std::string commandText(const CLI::App& command) {
            fmt::format(".PP\n.B {}\n[\\fIoptions\\fR]{}\n", name, usage) + options + footerText(command.get_footer());
 }
 
-// Returns each setting once, by group, with the description of the first command that takes it.
+// Returns the settings by group, each once, with the description of the first command that has it.
 std::string settingsText(const CLI::App& program) {
     std::vector<std::string> groups;
     std::map<std::string, std::string> texts;
@@ -102,7 +102,7 @@ std::string settingsText(const CLI::App& program) {
 }
 
 std::string manPage(const CLI::App& program) {
-    // The first line tells groff and man the encoding.
+    // The comment in the first line sets the encoding for groff and man.
     std::string text = fmt::format(".\\\" -*- coding: utf-8 -*-\n.TH DEFOCUS 1 \"\" \"defocus {}\" \"User Commands\"\n",
                                    programVersion());
     text += section("NAME") + "defocus \\- render glTF scenes with the depth of field of a real lens\n";

@@ -1,4 +1,4 @@
-// defocus merge: joins parts of a frame, made of some samples or some rows, to the frame.
+// defocus merge: merges parts of a frame (subsets of its samples or of its rows) into the complete frame.
 
 #include <fmt/format.h>
 
@@ -26,10 +26,10 @@ struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     ToneMap toneMap = Request{}.toneMap;
-    std::optional<double> exposure;  // EV; none: from the parts
+    std::optional<double> exposure;  // EV; none: the exposure in the metadata of the parts
 };
 
-// Returns the exposure (EV) in the metadata; 0 if there is none.
+// Returns the exposure (EV) in the metadata of a part; 0 if there is none.
 double ownExposure(const Metadata& metadata) {
     const auto found = metadata.find("defocus:exposure");
     const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
@@ -46,7 +46,7 @@ std::string shownOutputs(const MergeArguments& arguments) {
 void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
     const std::vector<RowFile> tiles = completeRows(arguments.parts);
     Metadata metadata = tiles.front().header.metadata;
-    metadata.try_emplace("capDate", std::string());  // omits the time of writing, as frames of a film do
+    metadata.try_emplace("capDate", std::string());  // empty, so that the image library doesn't insert the current time
     std::vector<JoinedOutput> outputs;
     for (const std::filesystem::path& path : arguments.outputs) {
         if (isStandardOutput(path)) throw UsageError("tiles are joined to files alone");

@@ -1,4 +1,4 @@
-// defocus new-shot: writes a first shot file for a scene.
+// defocus new-shot: writes an initial shot file for a scene.
 
 #include <fmt/format.h>
 
@@ -26,12 +26,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int frameRate = 24;
-constexpr int stillSeconds = 5;  // length of the film for a scene without animation
+constexpr int stillSeconds = 5;  // duration of the film of a scene without animation, s
 constexpr const char* schemaName = "shot.schema.json";
 
 struct NewShotArguments {
     Request request;
-    fs::path output;  // empty: named after the scene
+    fs::path output;  // empty: derived from the scene's name
     bool overwrite = false;
 };
 
@@ -41,8 +41,8 @@ double rounded(double value) {
     return std::isfinite(step) && step > 0 ? std::stod(fmt::format("{:.3g}", value)) : value;
 }
 
-// Returns a shot with visible settings that are worth changing: the f-stop, an automatic focus, and a turntable if the
-// scene has no animation.
+// Returns a shot that shows the settings users are likely to change: the f-stop, an automatic focus, and a turntable if
+// the scene has no animation.
 Json shotOf(const PreparedFrame& frame, const fs::path& scene, const std::string& stem) {
     const Scene& file = *frame.scene;
     Json shot = {{"$schema", schemaName}};
@@ -76,11 +76,11 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
     const PreparedFrame frame = placeFrame(arguments.request, terminalProgress(global));
     const fs::path folder = output.parent_path();
     const fs::path fromShot = scene.empty() ? scene : fs::proximate(scene, folder.empty() ? "." : folder);
-    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // puts pairs of numbers on one line
+    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // to put pairs of numbers on one line
     const std::string text = shotOf(frame, fromShot, stem.string()).dump(2);
     writeFile(output, std::regex_replace(text, pair, "[$1, $2]") + "\n");
 
-    // Write the schema that the shot's first line names beside the shot.
+    // Write the schema, which the shot's first line refers to, to the same folder.
     if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText());
     if (!global.quiet) printMessage("{0}: defocus capture {0} renders it\n", output.string());
 }

@@ -1,4 +1,4 @@
-// defocus view in a build without the window.
+// defocus view, for a build without the window: reports that the window is missing.
 
 #include "cli/command.h"
 #include "core/error.h"

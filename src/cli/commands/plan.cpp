@@ -1,4 +1,4 @@
-// defocus plan: prints what a render would draw, without drawing it.
+// defocus plan: prints what a render would draw, without drawing anything.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (stopSettings(arguments.request).automatic) {  // a render begins with this number of samples and may add more
+    if (stopSettings(arguments.request).automatic) {  // a render starts with this number of samples and may add more
         RenderSettings settings = frame.settings;
         settings.sampleCount = samplesForBlur(plan);
         plan = planFrame(frame.world, frame.view, settings);

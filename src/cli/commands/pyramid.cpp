@@ -1,4 +1,4 @@
-// defocus pyramid: prints and exports the levels of each mesh, and measures their distance from the mesh.
+// defocus pyramid: prints and exports the levels of each mesh, and measures their distance from the original mesh.
 
 #include "lod/pyramid/pyramid.h"
 
@@ -45,8 +45,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct PyramidArguments {
-    Request request;        // only its scene and levelVertices are used
-    std::string mesh;       // empty: all meshes
+    Request request;        // only the scene and levelVertices are used
+    std::string mesh;       // name of the mesh; empty: all meshes
     fs::path exportFolder;  // empty: no export
     fs::path turntable;     // empty: no turntable
     fs::path cacheFolder;   // empty: no cache
@@ -56,16 +56,16 @@ struct PyramidArguments {
 };
 
 struct LevelReport {
-    std::optional<SurfaceDistance> measured;  // distance to level 0, both ways; none for level 0 itself
-    fs::path file;                            // empty: not exported
+    std::optional<SurfaceDistance> measured;  // two-sided distance to level 0; none for level 0 itself
+    fs::path file;                            // exported file; empty: not exported
 };
 
 struct MeshReport {
     std::size_t mesh = 0;  // index into Scene::meshes
     Pyramid pyramid;
-    std::optional<double> seconds;  // build time; none if the pyramid came from the cache
+    std::optional<double> seconds;  // build time, s; none if read from the cache
     std::vector<LevelReport> levels;
-    fs::path turntable;  // empty: not drawn
+    fs::path turntable;  // file of the turntable; empty: not drawn
 };
 
 // Returns the mesh's name as `defocus info` prints it.
@@ -97,8 +97,8 @@ void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Loads a mesh's pyramid from the cache, or builds and stores it. Returns why it couldn't be stored; empty if nothing
-// failed.
+// Loads a mesh's pyramid from the cache, or builds it and stores it there. Returns why it couldn't be stored; empty if
+// it was stored.
 std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
                         MeshReport& report) {
     if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
@@ -118,7 +118,7 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
     return {};
 }
 
-// Builds or loads all pyramids. Returns why one couldn't be stored; empty if nothing failed.
+// Builds or loads the pyramids of all meshes. Returns why one couldn't be stored; empty if all were stored.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
     std::uint64_t all = 0;
@@ -172,7 +172,7 @@ void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Prog
 
 // ---- files --------------------------------------------------------------------------------------
 
-// Writes all levels to files and returns the number of files. Levels without triangles get no file.
+// Writes all levels to files and returns the number of files. Levels without triangles are skipped.
 std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
                       const std::vector<std::string>& stems) {
     std::size_t files = 0;
@@ -188,14 +188,14 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
 
 // ---- turntables ---------------------------------------------------------------------------------
 
-// Returns the name of a sheet: sheet.png, or sheet-STEM.png if there are several meshes.
+// Returns the file of a mesh's turntable: sheet.png, or sheet-STEM.png if there are several meshes.
 fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
     if (!several) return file;
     fs::path named = file;
     return named.replace_filename(fmt::format("{}-{}{}", file.stem().string(), stem, file.extension().string()));
 }
 
-// Returns the first object of the scene that shows the mesh; an object without transform if none does.
+// Returns the first object that draws the mesh; if there is none, an object without transform.
 Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     for (const Object& object : pose.objects)
         if (object.mesh == static_cast<int>(mesh)) return object;
@@ -206,7 +206,7 @@ Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     return object;
 }
 
-// Draws a sheet for each mesh that has triangles.
+// Draws a turntable sheet for each mesh that has triangles.
 void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
                     const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
     const Scene& scene = *drawn;
@@ -233,7 +233,7 @@ Json distancesJson(const Distances& distances) {
     return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};
 }
 
-// Adds the measured distances and the file of a level to its JSON.
+// Adds a level's measured distances and its exported file to the level's JSON.
 void addReport(Json& json, const LevelReport& report) {
     if (report.measured) {
         json["measured"] = distancesJson(report.measured->both);

@@ -79,7 +79,7 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->group(group));
 }
 
-// Replaces the extension: out.exr and "depth.exr" → out.depth.exr.
+// Inserts `ending` before the extension: out.exr and "depth.exr" give out.depth.exr.
 std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
     std::filesystem::path path = output;
     path.replace_extension(ending);
@@ -165,7 +165,7 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Draws the frame. Finished parts that go to files are written meanwhile.
+// Draws the frame. Parts that go to files are written as soon as they are finished.
 void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress) {
     const FrameDriver& frame = driver.driver();
     const auto step = [&] {
@@ -206,7 +206,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     FrameOutput output(driver, filesOf(arguments));
     output.start(progress);
 
-    // Print all warnings that are already known before the work.
+    // Print all warnings that are known before the frame is drawn.
     progress = {};  // ends the progress line
     WarningPrinter warnings(global);
     printCacheUse(driver.frame(), global);

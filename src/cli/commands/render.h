@@ -25,12 +25,12 @@ struct RenderArguments {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`
-    std::optional<TileShare> tile;           // draw only these rows, for `merge`
-    bool resume = false;                     // keep the finished parts of an interrupted run
+    std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; none: all
+    std::optional<TileShare> tile;           // draw only these rows, for `merge`; none: all
+    bool resume = false;                     // keep finished parts of an interrupted run
 };
 
-// Adds all options of the command. `arguments` must outlive the parse.
+// Adds all options of the command. `arguments` must outlive the parsing.
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
 }  // namespace defocus::engine

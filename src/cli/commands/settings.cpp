@@ -1,4 +1,4 @@
-// defocus settings: prints the table of all settings, and the pages that are made from the table.
+// defocus settings: prints the table of all settings, and the documents generated from the table.
 
 #include "frame/settings/settings.h"
 
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct SettingsArguments {
     bool json = false;
     bool markdown = false;
-    std::filesystem::path schema;  // empty: no schema
+    std::filesystem::path schema;  // schema to complete; empty: none
 };
 
 std::string rangeText(const Setting& setting) {
@@ -74,7 +74,7 @@ void printTable() {
 
 // ---- docs/settings.md -----------------------------------------------------------------------------------------------
 
-// Escapes bars, which separate the cells of a table.
+// Escapes vertical bars, which separate the cells of a Markdown table.
 std::string cell(const std::string& text) {
     std::string escaped;
     for (const char letter : text) {

@@ -22,25 +22,25 @@ namespace defocus::engine {
 
 namespace {
 
-// View of a cell.
+// Camera of a cell.
 constexpr double viewElevation = glm::radians(14.0);
-constexpr double viewTangent = 18.0 / 85;  // tan of half the field of view: an 85 mm lens with a 36 mm sensor
+constexpr double viewTangent = 18.0 / 85;  // tan of half the horizontal field of view: an 85 mm lens on a 36 mm sensor
 constexpr double viewFill = 0.9;           // fraction of the cell that the object may fill
 constexpr double minAspect = 0.75;
 constexpr double maxAspect = 1.6;
-constexpr int cellArea = 320 * 240;  // width times height of a cell, px²
+constexpr int cellArea = 320 * 240;  // width · height of a cell, px²
 
 // Layout of the sheet, px.
 constexpr int sheetMargin = 16;
 constexpr int cellGap = 4;
 constexpr int labelColumn = 210;
-constexpr int titleSize = 22;        // font size
-constexpr int textSize = 14;         // font size
-constexpr float paperGrey = 0.018f;  // linear grey
+constexpr int titleSize = 22;        // font size, px
+constexpr int textSize = 14;         // font size, px
+constexpr float paperGrey = 0.018f;  // linear grey values
 constexpr float inkGrey = 0.83f;
 constexpr float quietGrey = 0.42f;
 
-// Returns the axes of the camera, which looks at the object from slightly above.
+// Returns the axes of the camera, which looks slightly down at the object.
 glm::dmat3 cameraAxes() {
     const glm::dvec3 z(0, std::sin(viewElevation), std::cos(viewElevation));
     const glm::dvec3 x(1, 0, 0);
@@ -54,7 +54,7 @@ Object turnedObject(const Object& object, const glm::dmat4& turn) {
     return result;
 }
 
-// Calls `visit` with the offset of each vertex from `centre`, in the camera's axes, for each view.
+// For each view and vertex, calls `visit` with the vertex's offset from `centre` in camera axes.
 template <typename Visit>
 void forEachTurnedPoint(const Mesh& mesh, const std::vector<glm::dvec3>& points, const glm::dvec3& centre,
                         const Visit& visit) {
@@ -136,7 +136,7 @@ TurntableView turntableView(const Mesh& mesh, const Object& object) {
         front = std::max(front, offset.z);
     });
 
-    // Choose a cell with the object's proportions, and a camera distance at which the whole object is in the cell.
+    // Choose a cell aspect that fits the object, and a camera distance at which the complete object is visible.
     const double aspect = std::clamp(aside / up, minAspect, maxAspect);
     TurntableView result;
     View& view = result.view;
@@ -186,7 +186,7 @@ TurntableSheet turntableSheet(World& world, const Object& object, const std::str
     const Pyramid& pyramid = world.pyramids[mesh];
     const TurntableView look = turntableView(world.scene->meshes[mesh], object);
 
-    // Use the default lights of scenes without lights, even if the scene has its own.
+    // Use the default lights, even if the scene has lights.
     world.pose = {};
     world.pose.objects = {object};
     world.pose.bounds = posedBounds(world.scene->meshes[mesh], object);

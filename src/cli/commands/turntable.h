@@ -1,6 +1,6 @@
 #pragma once
-// Draws a contact sheet of a mesh's levels, with a row for each level. The object turns before a fixed camera and fixed
-// lights. The accumulation method draws the views.
+// Draws a contact sheet of a mesh's levels: one row per level, one column per view angle. The object rotates in front
+// of a fixed camera and fixed lights. The views are drawn with the method "accumulation".
 
 #include <cstdint>
 #include <filesystem>
@@ -13,9 +13,9 @@
 
 namespace defocus::engine {
 
-inline constexpr int turntableViews = 6;  // equal steps of angle; the first view is from the front (+z)
+inline constexpr int turntableViews = 6;  // at equal angles; the first view is from the front (+z)
 
-// Position of a view on the sheet; px, row 0 at the top.
+// Position of a view's image on the sheet, px; row 0 is at the top.
 struct TurntableCell {
     int x = 0;
     int y = 0;
@@ -25,23 +25,23 @@ struct TurntableCell {
 
 struct TurntableSheet {
     Image image;                                    // linear RGB
-    std::vector<std::vector<TurntableCell>> cells;  // by level, then by view
+    std::vector<std::vector<TurntableCell>> cells;  // positions by level, then by view
 };
 
-// View of the object on the sheet. It is the same for all levels and angles, so that these can be compared.
+// Camera and rotations of the views on a sheet. They are the same for all levels, so that levels can be compared.
 struct TurntableView {
-    View view;                          // pinhole camera, with the size of a cell
-    std::vector<glm::dmat4> worldTurn;  // rotation for each view, about the object's vertical axis
+    View view;                          // pinhole camera with the size of a cell
+    std::vector<glm::dmat4> worldTurn;  // rotation about the object's vertical axis, by view
 };
 
-// Returns a view that frames `mesh` from all sides, in the pose of `object`.
+// Returns views of `mesh` in the pose of `object`, with a camera that keeps the mesh in the image from all sides.
 TurntableView turntableView(const Mesh& mesh, const Object& object);
 
-// Returns settings with which the only object of `world` is drawn at `level`. Their threshold equals the level's error.
+// Returns settings that draw the only object of `world` at `level`: their threshold equals the error of that level.
 RenderSettings settingsForLevel(const World& world, const View& view, std::uint32_t level);
 
-// Draws `object` in its pose at each level of its mesh's pyramid, in the environment of `world`. Replaces the pose and
-// the lights of `world`. `title` heads the sheet. Needs a current GL context.
+// Draws `object`, in its pose, at each level of its mesh's pyramid, in the environment of `world`. Replaces the pose
+// and the lights of `world`. `title`: heading of the sheet. Needs a current GL context.
 TurntableSheet turntableSheet(World& world, const Object& object, const std::string& title,
                               const std::filesystem::path& shaderFolder = {}, const Progress& progress = {});
 

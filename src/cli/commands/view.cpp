@@ -56,7 +56,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
         if (!options->screenshot.empty() && options->frames == 0) options->frames = 1;
         options->shaderFolder = global.shaderDir;
         options->quiet = global.quiet;
-        // The window adds samples without end; this number is for stills that it exports.
+        // The window accumulates samples without limit; this number applies to still images that it exports.
         if (!options->request.samples) options->request.samples = RenderSettings{}.sampleCount;
         runView(*options);
     });

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t lineWidth = 100;
 
-// Returns the number of columns of a UTF-8 text: its bytes without continuation bytes.
+// Returns the number of columns of a UTF-8 text: its number of bytes without continuation bytes.
 std::size_t columnsOf(std::string_view text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));
 }
 
-// Returns `left`, then `text` wrapped beside it from `column` on. `text` starts on a new line if `left` is too wide.
+// Returns `left`, and `text` wrapped from `column` on. `text` starts on a new line if `left` is too wide.
 std::string inColumns(const std::string& left, const std::string& text, std::size_t column) {
     std::string lines = "  " + left;
     std::size_t at = columnsOf(lines);
@@ -50,7 +50,7 @@ std::string inColumns(const std::string& left, const std::string& text, std::siz
     return lines + '\n';
 }
 
-// Returns the named options of a group: all of them, or only those that --help shows.
+// Returns the named options of a group: all of them, or only the options that --help shows.
 std::vector<const CLI::Option*> optionsOf(const CLI::App& app, const std::string& group, bool all) {
     return app.get_options([&](const CLI::Option* option) {
         return option->nonpositional() && option->get_group() == group && (all || isEveryday(*option));
@@ -79,7 +79,7 @@ std::string HelpFormat::make_option(const CLI::Option* option, bool isPositional
                      get_column_width());
 }
 
-// Returns the name of an option; a flag that can be negated is shown as "--dof,--no-dof".
+// Returns an option's name; a flag with a negation is shown as "--dof,--no-dof".
 std::string HelpFormat::make_option_name(const CLI::Option* option, bool isPositional) const {
     std::string name = CLI::Formatter::make_option_name(option, isPositional);
     const std::string mark = "{false}";

@@ -1,6 +1,6 @@
 #pragma once
-// Layout of --help: a column of options with wrapped descriptions beside it, each ending with the default. --help shows
-// the common options. --help-all shows every option of the command, or of all commands.
+// Formats --help: a column of options, and a column of wrapped descriptions that end with the default. --help shows the
+// common options; --help-all shows all options of the command, or of all commands.
 
 #include <CLI/CLI.hpp>
 #include <string>

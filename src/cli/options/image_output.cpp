@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the extension of a standard output: ".exr" for "exr:-".
+// Returns the extension of an output to standard output: ".exr" for "exr:-".
 std::string streamExtension(const fs::path& output) {
     const std::string text = output.string();
     return text == "-" ? ".png" : "." + text.substr(0, text.find(':'));
@@ -30,7 +30,7 @@ void writeToStandardOutput(std::span<const std::byte> bytes) {
         fail("standard output cannot be written: {}", std::strerror(errno));
 }
 
-// A temporary file, removed by the destructor. Image writers need a file in which they can seek.
+// A temporary file that the destructor removes. Image writers need a seekable file, which standard output is not.
 class ScratchFile {
 public:
     explicit ScratchFile(const std::string& extension) {

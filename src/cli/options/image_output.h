@@ -10,21 +10,21 @@
 
 namespace defocus::engine {
 
-// Text about standard output for --help, after the formats.
+// Part of a --help text about standard output; follows the list of formats.
 inline constexpr const char* standardOutputHelp = "- is standard output, as PNG or as in exr:- and jpg:-";
 
 bool isStandardOutput(const std::filesystem::path& output);
 
-// Returns the file's name, or "standard output".
+// Returns the file's name; "standard output" for "-".
 std::string shownOutput(const std::filesystem::path& output);
 
-// Throws Error for an unknown format, for a file that can't be written, and for an image to a terminal. Also throws for
-// two outputs to one file or to standard output, and for an output that would replace an input. `more`: other files
-// that the command writes, such as figures. `inputs`: files that the command reads; empty and missing ones are ignored.
+// Checks all outputs of a command. Throws Error for an unknown format, an unwritable file, an image to a terminal, two
+// outputs to the same file or to standard output, and an output that would replace an input. `more`: other files that
+// the command writes, such as figures. `inputs`: files that the command reads; empty and missing paths are ignored.
 void checkImageOutputs(const std::vector<std::filesystem::path>& images, const std::vector<std::filesystem::path>& more,
                        const std::vector<std::filesystem::path>& inputs);
 
-// Writes an image to a file, as writeImage does, or to standard output.
+// Writes an image to a file, with writeImage, or to standard output.
 void writeOutput(const std::filesystem::path& output, const Image& image, const Metadata& metadata,
                  const WriteOptions& options);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Adds options with this program's own parsers, so that a wrong value gives one clear line: "--samples: '0' is not a
-// whole number from 1 to 65536".
+// Adds options that use this program's own parsers, so that a wrong value gives one clear line such as "--samples: '0'
+// is not a whole number from 1 to 65536".
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,11 +17,11 @@
 
 namespace defocus::engine {
 
-// Adds an option whose text goes to `parse`. An Error from `parse` is reported as an error of the command line.
+// Adds an option that passes its text to `parse`. An Error from `parse` is reported as a command-line error.
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
                        const std::string& description, std::function<void(const std::string&)> parse);
 
-// Marks an option that only --help-all shows. CLI11 has no such flag; `configurable` is free for it, because the
+// Marks an option that only --help-all shows. CLI11 has no such flag; `configurable` is used instead, because the
 // program reads no configuration files.
 inline CLI::Option* advanced(CLI::Option* option) {
     return option->configurable(false);
@@ -30,15 +30,16 @@ inline CLI::Option* advanced(CLI::Option* option) {
 // Returns whether --help shows the option.
 bool isEveryday(const CLI::Option& option);
 
-// Returns all names of an option, such as "-o" and "--output", or the word of a positional argument.
+// Returns all names of an option, such as "-o" and "--output"; for a positional argument, its placeholder.
 std::vector<std::string> namesOf(const CLI::Option& option);
 
-// Returns a check without a name in --help, where the description already names the allowed values.
+// Returns a copy of the check that adds nothing to --help, for options whose description already gives the allowed
+// values.
 inline CLI::Validator unnamed(const CLI::Validator& check) {
     return check.description("");
 }
 
-// Adds an option for a number that may stay unset. `target` must outlive the parse.
+// Adds an option for a number that may remain unset. `target` must outlive the parsing.
 CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
                        const std::string& type, const std::string& description);
 CLI::Option* addNumber(CLI::App& command, const std::string& names, double& target, const Range& range,
@@ -54,10 +55,10 @@ CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& targ
         ->default_str(std::to_string(target));
 }
 
-// Splits a list at its commas.
+// Splits a list at commas.
 std::vector<std::string> partsOf(const std::string& text);
 
-// Adds an option for a list separated by commas; `parse` reads each part.
+// Adds an option for a comma-separated list; `parse` converts each part.
 template <typename Value, typename Parse>
 CLI::Option* addList(CLI::App& command, const std::string& names, const std::string& type, std::vector<Value>& target,
                      const std::string& description, Parse parse) {
@@ -67,7 +68,7 @@ CLI::Option* addList(CLI::App& command, const std::string& names, const std::str
     });
 }
 
-// Adds an option for a list of numbers separated by commas.
+// Adds an option for a comma-separated list of numbers.
 CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector<double>& target, const Range& range,
                         const std::string& type, const std::string& description);
 

@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 CLI::Option* addBoolean(CLI::App& command, Request& request, const Setting& setting) {
-    // The file's camera may have the flag on or off, so the command line can set both.
+    // The file's camera may turn a lens flag on or off, so the command line needs options for both.
     std::string names = setting.option;
     if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
     return command
@@ -85,7 +85,7 @@ void addMethodSettings(CLI::App& command, Request& request) {
     for (const Method& method : methods())
         for (const MethodSetting& setting : method.settings) {
             const auto owner = owners.extract(setting.name);
-            if (owner.empty()) continue;  // added with an earlier method
+            if (owner.empty()) continue;  // already added for an earlier method
             command
                 .add_option_function<std::string>(
                     "--" + setting.name,

@@ -4,7 +4,7 @@
 
 namespace defocus::engine {
 
-// Returns docs/shot.schema.json as of the program's build.
+// Returns the text of docs/shot.schema.json, embedded in the build.
 std::string_view shotSchemaText();
 
 }  // namespace defocus::engine

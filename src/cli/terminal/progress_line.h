@@ -1,5 +1,5 @@
 #pragma once
-// Formats the line of a progress bar, for a terminal of any width.
+// Formats a progress bar as one line for a terminal of any width.
 
 #include <optional>
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace defocus::engine {
 
-// Returns "samples [####----]  42 %, 12 s left" in fewer than `columns` columns, so that no terminal breaks the line.
-// If space is short, it leaves out the bar first, then the rest of the stage's name, then the time, then the name.
-// `share`: 0 … 1. `left`: seconds; none: unknown.
+// Returns a line such as "samples [####----]  42 %, 12 s left", shorter than `columns`, so that no terminal wraps it.
+// If space is short, omits in this order: the bar, the stage's name after its first word, the time, the first word.
+// `share`: finished fraction, 0 … 1. `left`: seconds; none: unknown.
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns);
 
-// Estimates the remaining time of work. Stages with the same first word, such as the frames of a film, count as one
-// work.
+// Estimates the remaining time of a task. Stages with the same first word, such as the frames of a film, count as one
+// task.
 class TimeLeft {
 public:
-    // Returns the seconds until `share` is 1, at the average pace so far. None while less than one second or one
-    // hundredth of the work has passed. `seconds`: time since any fixed moment.
+    // Returns the remaining time in seconds, extrapolated from the average speed so far. None within the first second
+    // or the first hundredth of the work. `share`: finished fraction. `seconds`: current time since any fixed moment.
     std::optional<double> after(std::string_view stage, double share, double seconds);
 
 private:

@@ -1,5 +1,6 @@
 #pragma once
-// Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job): long work stops after the current piece.
+// Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job): lets long work stop after the current
+// step.
 
 namespace defocus::engine {
 

@@ -1,4 +1,4 @@
-// Shows progress on stderr: a bar that is redrawn in place on a terminal, or occasional lines in a file or pipe.
+// Shows progress on stderr: a bar redrawn in place on a terminal, occasional lines in a file or pipe.
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto firstShown = 1s;  // shorter work shows nothing
+constexpr auto firstShown = 1s;  // shorter work shows no progress
 constexpr auto redraw = 100ms;
 constexpr auto plainLines = 5s;
 
@@ -40,7 +40,7 @@ public:
         const double share = total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0;
         const std::optional<double> left =
             timeLeft_.after(stage, share, std::chrono::duration<double>(now.time_since_epoch()).count());
-        const bool ends = !terminal_ && stage == shown_ && done == total;  // the last shown stage is complete
+        const bool ends = !terminal_ && stage == shown_ && done == total;  // the displayed stage is complete
         if (now < next_ && !ends) return;
         shown_ = stage;
         next_ = now + (terminal_ ? Clock::duration(redraw) : Clock::duration(plainLines));
@@ -60,7 +60,7 @@ private:
         drawn_ = true;
     }
 
-    // Clears the bar, so that the next message begins on an empty line.
+    // Erases the bar, so that the next message begins on an empty line.
     void erase() {
         if (!drawn_) return;
         writeMessage("\r\x1b[K");
@@ -69,7 +69,7 @@ private:
     bool terminal_;
     bool drawn_ = false;
     TimeLeft timeLeft_;
-    std::string shown_;  // the latest shown stage
+    std::string shown_;  // stage that was displayed last
     Clock::time_point next_ = Clock::now() + firstShown;
 };
 

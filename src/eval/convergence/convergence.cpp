@@ -37,8 +37,8 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     return uses;
 }
 
-// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes. Post-process methods start
-// from a sharp image, in which no blur hides a coarse level.
+// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
+// start from a sharp image, in which no blur hides a coarse level.
 bool drawsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
@@ -115,7 +115,8 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
     return cases;
 }
 
-// Returns the cases of a method with settings of its own, or with default settings those of each requested form.
+// Returns the cases of one method: for a method with settings of its own, these settings; for default settings, all
+// requested forms of the method.
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;
@@ -170,8 +171,8 @@ bool needsShading(const Scene& scene) {
     });
 }
 
-// Throws Error if the method can't match the reference on this scene because it shades differently or lacks shadows or
-// motion.
+// Throws Error if the method cannot match the reference on this scene, because its shading differs or because it draws
+// no shadows or no motion.
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
         fail("it shades otherwise than the reference; compare it with --shading unlit");
@@ -186,7 +187,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 
-    // Set-up, with an untimed first wave.
+    // Set up the renderer and draw an untimed first wave.
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
     renderer->start(plan);
@@ -194,7 +195,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     frame.run.setupMilliseconds = millisecondsSince(begin);
     renderer->advance();
 
-    // The timed frame.
+    // Draw the timed frame.
     renderer->start(plan);
     while (renderer->advance()) {
     }
@@ -236,8 +237,8 @@ public:
         return std::ranges::any_of(runs_, [&](const ConvergenceRun& r) { return r.run == run && sameCase(r, wanted); });
     }
 
-    // Measures run `number` of a case. Throws Error if the method can't draw it. Fills `flipMap` only for the first
-    // frame of the case.
+    // Measures run `number` of a case. Throws Error if the method cannot draw the case. Sets `flipMap` only in the
+    // first run of the case.
     Frame measure(ConvergenceCase wanted, int number, Image& flipMap) {
         wanted.plan.seed += static_cast<std::uint32_t>(number % seeds_);
         Frame frame = frameOf(wanted.world != nullptr ? *wanted.world : world_, view_, wanted, renderer_);
@@ -252,13 +253,13 @@ public:
     }
 
 private:
-    // Identifies a set of lens samples by its size, sequence and seed.
+    // Identifies a set of lens samples: number, sequence, seed.
     using SamplePoints = std::tuple<std::uint32_t, Sequence, std::uint32_t>;
     static SamplePoints pointsOf(const ConvergenceCase& wanted) {
         return {wanted.samples, wanted.plan.sequence, wanted.plan.seed};
     }
 
-    // Sets the frame's error. If an earlier run with the same seed has the same image, its error is reused.
+    // Sets the frame's error. Reuses the error of an earlier run if that run has the same seed and the same image.
     void measureError(Frame& frame, const ConvergenceCase& wanted, Image& flipMap) {
         ConvergenceRun& run = frame.run;
         const auto ofCase = [&](const ConvergenceRun& r) { return sameCase(r, wanted); };
@@ -270,7 +271,7 @@ private:
             return;
         }
         if (frame.image.width != view_.width || frame.image.height != view_.height)
-            return;  // a fault; the error stays unset
+            return;  // a fault: the error stays unset
         CompareOptions options;
         if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));
@@ -282,7 +283,7 @@ private:
         fullDetail_ = image;
     }
 
-    // Returns full detail at the same lens samples, usually from the cache.
+    // Returns the image at full detail with the same lens samples; it is cached until other samples are needed.
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
         if (fullDetailPoints_ != pointsOf(wanted)) {
             const ConvergenceCase full =
@@ -351,7 +352,7 @@ void measureConvergence(const World& world, const View& view, const ReferenceIma
     const std::uint64_t total = cases.size() * static_cast<std::size_t>(options.runs);
     std::uint64_t count = 0;
     Measurement measurement(world, view, reference, options.renderer, pyramidMilliseconds, options.seeds, done);
-    std::set<std::string> leftOut;  // methods with their settings
+    std::set<std::string> leftOut;  // texts of methods with their settings
 
     for (int run = 0; run < options.runs; ++run)
         for (const ConvergenceCase& wanted : cases) {

@@ -1,13 +1,13 @@
 #pragma once
-// Measures error against run time for each method, each of its settings and each number of lens samples. The reference
-// is a converged image.
+// Measures image error against render time for each method, setting and number of lens samples. The error is the
+// difference from a converged reference image.
 //
-// Held equal: scene, camera, lens, image size, reference, process. The methods take turns frame by frame, so a slowdown
-// of the machine affects all of them. A bench that stops early has measured all cases, with fewer runs each. Before a
-// frame is timed, its first wave is drawn once, so that shaders, uploads and the driver's caches are ready. No thread
-// is pinned to a core.
+// Equal for all cases: scene, camera, lens, image size, reference, process. Runs alternate between all cases, so a
+// slowdown of the machine affects all of them, and a bench that stops early has measured each case with fewer runs.
+// Before a frame is timed, its first wave is drawn once, so that shaders, uploads and driver caches are ready. Threads
+// are not pinned to cores.
 //
-// Each finished frame is a ConvergenceRun and is reported at once. convergence/rows.h computes the medians.
+// Each finished frame is reported at once as a ConvergenceRun. convergence/rows.h computes medians over these.
 
 #include <cstdint>
 #include <functional>
@@ -24,59 +24,61 @@
 
 namespace defocus::engine {
 
-// Settings with which a method is measured if it is named without settings of its own.
+// Settings for measuring a method that the user names without settings.
 enum class MethodForm {
-    published,  // as in its paper, if there is one
-    best,       // Method::best; reported as `standard` if both are equal
+    published,  // as in the method's paper, if it has one
+    best,       // Method::best; called `standard` if these are equal
     standard,
 };
 const char* methodFormName(MethodForm form);
 
-// A method with the settings of its paper (frame/presets.h).
+// A method with the settings of its paper; see frame/settings/presets.h.
 struct PublishedForm {
     std::string preset;
     MethodUse use;
-    RenderSettings plan = {};        // except the number of samples
-    const World* world = nullptr;    // the measured world with pyramids of these settings; null: the measured world
-    double pyramidMilliseconds = 0;  // time that building the world's pyramids took
+    RenderSettings plan = {};        // all settings except the number of samples
+    const World* world = nullptr;    // the measured world with pyramids for these settings; null: the measured world
+    double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
 };
 
 struct ConvergenceOptions {
-    std::vector<MethodUse> methods;  // empty: all methods of the table, with standard settings
+    std::vector<MethodUse> methods;  // empty: all methods, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // for methods with standard settings
-    std::vector<PublishedForm> published;                    // for MethodForm::published
-    RenderSettings plan;                                     // base of every case; the lists below override it
-    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
-    // For methods that draw levels of detail. Accumulation at full detail is always measured, in this list or not.
+                                     MethodForm::standard};  // measured for methods with default settings
+    std::vector<PublishedForm> published;                    // forms for MethodForm::published
+    RenderSettings plan;                                     // settings of every case; the lists below override them
+    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // only for methods that use lens samples
+    // For methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off is not
+    // listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
-    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
+    std::vector<double> thresholdFactors = {0.5, 1, 2};  // multiply defaultThresholds for the number of samples
     int runs = 3;                                        // runs of each case, ≥ 1
-    int seeds = 1;             // ≥ 1; run r draws with the plan's seed + r % seeds, which gives the errors a spread
-    RendererOptions renderer;  // its `settings` are not used
+    int seeds = 1;             // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
+    RendererOptions renderer;  // RendererOptions::settings is ignored
 };
 
-// A case to measure: a method with one setting and one number of lens samples.
+// A case to measure: a method with its settings and a number of lens samples.
 struct ConvergenceCase {
     MethodUse use;
     std::string form;  // "published", "best", "standard"; empty for other settings
-    // "lod=fractional metric=size thresholds=2", "components=5"; "standard" for the defaults; a preset's name.
+    // Text of the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the defaults, or
+    // a preset's name.
     std::string setting;
-    std::uint32_t samples = 0;  // requested lens samples; 0 if the method takes none
+    std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none
     RenderSettings plan;
     const World* world = nullptr;    // null: the measured world
-    double pyramidMilliseconds = 0;  // time that building the pyramids of `world` took
+    double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
     [[nodiscard]] bool usesLevels() const { return plan.lod != LodMode::off; }
 };
 
-// Returns the cases, ordered by their number of samples; for each number, accumulation at full detail comes first.
-// Methods without lens samples come with the first number. Accumulation at full detail is always included, and so are
-// the ray tracers "embree" and "embree-shared" if the table has them. Post-process methods and ray tracers have full
-// detail only. Published forms have their own level settings and ignore the lists.
+// Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first; it is
+// always included, as are the ray tracers "embree" and "embree-shared" if the program has them. Methods without lens
+// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Published
+// forms ignore the lists of levels.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
-// The error of an image on display-encoded values; see metrics.h.
+// Error of an image, computed from display-encoded values; see metrics.h.
 struct ImageError {
     double mse = 0;
     double ssim = 1;
@@ -84,41 +86,40 @@ struct ImageError {
     [[nodiscard]] double psnr() const;  // dB; infinity for equal images
 };
 
-// One frame.
+// Measurement of one run of a case.
 struct ConvergenceRun {
     std::string method;
     std::string form;
     std::string setting;
-    std::uint32_t asked = 0;         // requested lens samples; 0 if the method takes none
-    int run = 0;                     // counted from 0
+    std::uint32_t asked = 0;         // requested lens samples; 0 if the method uses none
+    int run = 0;                     // index of the run, from 0
     std::uint32_t samples = 0;       // lens samples drawn
-    double pyramidMilliseconds = 0;  // set-up time: simplifying all meshes, if the case uses levels
-    double setupMilliseconds = 0;    // set-up time of the renderer (uploads, shaders, hierarchies of the ray tracer)
+    double pyramidMilliseconds = 0;  // build time of the pyramids, if the case uses levels
+    double setupMilliseconds = 0;    // set-up time of the renderer: uploads, shaders, ray-tracing structures
     double milliseconds = 0;         // wall-clock time of the frame
-    double gpuMilliseconds = 0;      // from timer queries, which miss the vertex work on a software driver
+    double gpuMilliseconds = 0;      // from timer queries, which miss the vertex work on software drivers
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;  // peak size of the renderer's resources
     std::uint64_t imageHash = 0;
-    ImageError error;                // against the reference
-    std::optional<ImageError> bias;  // only with levels: against full detail at the same lens samples
-    std::string fault;               // says why the image isn't valid; empty if it is
+    ImageError error;                // difference from the reference
+    std::optional<ImageError> bias;  // only with levels: difference from full detail with the same lens samples
+    std::string fault;               // why the image is invalid; empty if it is valid
 };
 
 // Returns whether `run` belongs to the case `wanted`.
 bool sameCase(const ConvergenceRun& run, const ConvergenceCase& wanted);
 
 struct ConvergenceVisitor {
-    // Gets each frame as soon as it is measured. `image` and its FLIP map come with the first frame of a case only.
+    // Called with each frame as soon as it is measured. `image` and its FLIP map are non-null only in the first run of
+    // a case.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
-    // Gets each skipped case and the reason. Either the method can't render the scene (a ray tracer without environment
-    // maps …), or its image differs from the reference by design (Method::shadesAsLit, drawsMotion). The other cases
-    // are still measured.
+    // Called with each skipped case and the reason. Either the method cannot render the scene (a ray tracer without
+    // environment maps …), or its image differs from the reference by design (Method::shadesAsLit, drawsMotion).
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 
-// Measures the runs that are missing from `done`, the runs of an earlier call. `pyramidMilliseconds` is the time that
-// building the world's pyramids took. Needs a current GL context. Throws Error if accumulation at full detail can't be
-// drawn.
+// Measures all runs that are not in `done`, the runs of an earlier call. `pyramidMilliseconds`: build time of the
+// world's pyramids. Needs a current GL context. Throws Error if accumulation at full detail cannot be drawn.
 void measureConvergence(const World& world, const View& view, const ReferenceImage& reference,
                         const ConvergenceOptions& options, double pyramidMilliseconds,
                         std::span<const ConvergenceRun> done, const ConvergenceVisitor& visitor,

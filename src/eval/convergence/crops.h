@@ -1,5 +1,5 @@
 #pragma once
-// Chooses parts of an image that show details too small to see in the complete picture.
+// Chooses crops of an image: parts with details that are too small to see in the complete image.
 
 #include <optional>
 #include <string>
@@ -17,13 +17,12 @@ struct Crop {
     int height = 0;
 };
 
-// Returns the square of `size` px with the largest sum in a 1-channel image of values ≥ 0; ties go to the first in
-// reading order. The square shares no pixel with `other`. Returns nothing if no square fits.
+// Returns the square with a side of `size` px that has the largest sum of values ≥ 0 in a 1-channel image. If several
+// are equal, returns the first in reading order. The square doesn't overlap `other`. Returns none if no square fits.
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other = {});
 
-// Returns two squares of a quarter of the image's shorter side. In the first, accumulation at full detail with
-// `fewSamples` lens samples is farthest from the reference. In the second, the geometry is most blurred. Needs a
-// current GL context.
+// Returns two squares with a quarter of the image's shorter side: where the error of accumulation at full detail with
+// `fewSamples` lens samples is largest, and where the geometry is most blurred. Needs a current GL context.
 std::vector<Crop> tellingCrops(const World& world, const View& view, const ReferenceImage& reference,
                                std::uint32_t fewSamples, const RendererOptions& options);
 

@@ -20,7 +20,7 @@ std::string competitorOf(const ConvergenceRow& row) {
     return row.bias ? row.method + " with levels" : row.method;
 }
 
-// Returns the competitor's Pareto front, from the fastest step to the most accurate one.
+// Returns the Pareto front of a competitor's rows, from the fastest to the most accurate.
 std::vector<Step> frontOf(std::span<const ConvergenceRow> rows, const std::string& competitor) {
     std::vector<Step> steps;
     std::vector<Trial> trials;
@@ -37,7 +37,7 @@ std::vector<Step> frontOf(std::span<const ConvergenceRow> rows, const std::strin
     return front;
 }
 
-// Returns the time at error `rmse`, interpolated linearly between the logarithms of both steps.
+// Returns the time at which the error is `rmse`, by linear interpolation of log time over log error between two steps.
 double timeBetween(const Step& far, const Step& close, double rmse) {
     if (!(close.rmse > 0) || !(far.milliseconds > 0)) return close.milliseconds;
     const double part = std::log(far.rmse / rmse) / std::log(far.rmse / close.rmse);

@@ -1,4 +1,4 @@
-// Writes and reads the journal of bench convergence; see convergence/text.h.
+// Writes and reads the journal of bench convergence, a CSV line per frame; see convergence/text.h.
 
 #include <fmt/format.h>
 
@@ -30,13 +30,13 @@ std::vector<std::string_view> fieldsOf(std::string_view line) {
     return fields;
 }
 
-// Reads a line's fields in order; `good` turns false at the first malformed field.
+// Reads the fields of a CSV line in order. good() becomes false at the first malformed field.
 class FieldReader {
 public:
     explicit FieldReader(std::string_view line) : fields_(fieldsOf(line)), good_(fields_.size() == fieldCount) {}
 
     [[nodiscard]] bool good() const { return good_; }
-    // Returns whether the next field is empty, so that an optional group of fields is absent.
+    // Returns whether the next field is empty, which means that an optional group of fields is missing.
     [[nodiscard]] bool missing() const { return good_ && fields_[next_].empty(); }
     void skip(std::size_t count) { next_ += count; }
 

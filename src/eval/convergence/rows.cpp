@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Max relative difference of the MSE between frames of one case and seed, which should be the same image.
+// Max relative difference of the MSE between runs of the same case and seed, which should give equal images.
 constexpr double maxDifference = 0.01;
 
 bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
@@ -38,7 +38,7 @@ ImageError meanOf(const std::vector<ImageError>& errors) {
     return mean;
 }
 
-// Sets the row's errors to the means over the seeds, taking the first run of each seed.
+// Sets the row's errors to the means over the seeds, using the first run of each seed.
 void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& runs, int seeds) {
     std::set<int> seen;
     std::vector<ImageError> biases;
@@ -47,7 +47,7 @@ void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& ru
         row.ofSeeds.push_back(run->error);
         if (run->bias) biases.push_back(*run->bias);
     }
-    // A single value is copied, to stay identical bit for bit.
+    // Copy a single value, so that it stays bit-identical.
     row.error = row.ofSeeds.size() == 1 ? row.ofSeeds.front() : meanOf(row.ofSeeds);
     if (!biases.empty()) row.bias = biases.size() == 1 ? biases.front() : meanOf(biases);
 }

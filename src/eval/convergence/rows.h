@@ -1,6 +1,6 @@
 #pragma once
-// Summarises the frames of each case as one row: medians with their spread, and whether another row beats it. Also
-// computes how far each setting of the levels stays from full detail, however many lens samples it has.
+// Summarises the runs of each case as one row: medians, their spread, and whether the row is on a Pareto front. Also
+// computes the error of each level setting against full detail, which more lens samples cannot reduce.
 
 #include <optional>
 #include <span>
@@ -14,31 +14,31 @@ namespace defocus::engine {
 
 struct ConvergenceRow {
     std::string method;
-    std::string form;  // see ConvergenceCase
+    std::string form;  // see ConvergenceCase::form
     std::string setting;
-    std::uint32_t asked = 0;    // requested lens samples; 0 if the method takes none
+    std::uint32_t asked = 0;    // requested lens samples; 0 if the method uses none
     std::uint32_t samples = 0;  // lens samples drawn
     int runs = 0;
     Spread milliseconds;              // wall-clock time of a frame
-    Spread setupMilliseconds;         // time of the renderer's set-up; not part of `milliseconds`
-    double pyramidMilliseconds = 0;   // time of building the pyramids; not part of `milliseconds`
-    double gpuMilliseconds = 0;       // median
-    ImageError error;                 // against the reference; the mean over the seeds
-    std::optional<ImageError> bias;   // only with levels: against full detail at the same lens samples; the same mean
-    std::vector<ImageError> ofSeeds;  // the error of each seed that was drawn
+    Spread setupMilliseconds;         // set-up time of the renderer; not part of `milliseconds`
+    double pyramidMilliseconds = 0;   // build time of the pyramids; not part of `milliseconds`
+    double gpuMilliseconds = 0;       // median, from timer queries
+    ImageError error;                 // difference from the reference, mean over the seeds
+    std::optional<ImageError> bias;   // only with levels: difference from full detail, mean over the seeds
+    std::vector<ImageError> ofSeeds;  // `error` of each measured seed
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
-    bool front = false;          // no other row of any method beats it: see paretoFront, with time and MSE
-    bool frontOfMethod = false;  // the same among the rows of its method
-    bool frontByFlip = false;    // the same as `front`, with FLIP instead of MSE
-    // True if the error is smaller than the reference's own error; the value is then only an upper bound.
+    bool front = false;          // on the Pareto front of time and MSE of all rows (paretoFront)
+    bool frontOfMethod = false;  // on the Pareto front of time and MSE of the method's rows
+    bool frontByFlip = false;    // on the Pareto front of time and FLIP of all rows
+    // Whether the error is smaller than the reference's own error, so that its value is only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;
-    std::string fault;  // says why the image isn't valid; such a row is on no front
+    std::string fault;  // why the image is invalid; such a row is on no front
 };
 
-// Returns the rows in the order in which their cases first appear. `remaining` is the reference's estimate of its own
-// error, `seeds` as in ConvergenceOptions.
+// Returns one row per case, in the order in which the cases first appear in `runs`. `remaining`: estimate of the
+// reference's own error. `seeds`: as in ConvergenceOptions.
 std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {},
                                             int seeds = 1);
 
@@ -47,21 +47,21 @@ struct Trial {
     double error = 0;
 };
 
-// Returns for each trial whether it is on the Pareto front. A trial is off the front if another one has a lower or
-// equal cost and a lower or equal error, and one of them is lower. Equal trials are all on the front or all off it.
+// Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial has a cost and
+// an error that are both at most as large, one of them smaller. Equal trials are all on the front or all off it.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
-// Error of one setting of the levels against full detail, with the thresholds of the largest measured number of
-// samples. More lens samples would not reduce the error: both images have the same sampling noise, which cancels in
-// their difference.
+// Error of a level setting against full detail, at the thresholds for the largest measured number of samples. More lens
+// samples would not reduce this error, because both images have the same sampling noise, which cancels in their
+// difference.
 struct BiasFloor {
     std::string method;
     std::string setting;
-    std::uint32_t samples = 0;  // number of lens samples of the measurement
+    std::uint32_t samples = 0;  // number of lens samples of this measurement
     ImageError error;
 };
 
-// Returns one floor for each setting with levels.
+// Returns one floor for each setting that draws levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
 }  // namespace defocus::engine

@@ -25,7 +25,7 @@ std::string nameOf(const ConvergenceRow& row) {
     return isStandard ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
 }
 
-// Returns two characters that mark the fronts of a row.
+// Returns two characters that show which Pareto fronts the row is on.
 std::string frontsOf(const ConvergenceRow& row) {
     return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
 }
@@ -91,7 +91,7 @@ ordered_json competitorJson(const Competitor& competitor) {
     return {{"name", competitor.name}, {"times", std::move(times)}};
 }
 
-// Returns a file name without spaces and signs, such as "accumulation-lod-off-64" for "accumulation lod=off".
+// Returns a file name without spaces and signs, such as "accumulation-lod-off-64".
 std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
     std::string name = fmt::format("{} {}", method, setting);
     if (asked > 0) name += fmt::format(" {}", asked);

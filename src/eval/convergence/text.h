@@ -1,5 +1,5 @@
 #pragma once
-// Writes the results of bench convergence as a text table, CSV and JSON, and as a journal of single frames from which
+// Writes the results of bench convergence as a text table, CSV and JSON, and reads and writes its journal, from which
 // an interrupted run continues.
 
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace defocus::engine {
 
 std::string convergenceHeader();                         // two lines
 std::string convergenceLine(const ConvergenceRow& row);  // one line
-// Returns sentences about the reference, the rows that no other row beats, the bias floors and the times to equal
+// Returns sentences about the reference, the rows on the Pareto front, the bias floors, and the times to reach equal
 // errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------
 
-// Subject of the rows: program, machine and scene, with the crops and the skipped cases.
+// What the rows were measured with: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;
@@ -37,9 +37,9 @@ struct ConvergenceSubject {
     std::vector<LeftOut> leftOut;
 };
 
-// Return the file names of a row's image and of its FLIP map, relative to the folder of the results.
+// Return the file names of a row's image and of its FLIP map, relative to the results folder.
 std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked);
-inline constexpr float errorMapFullScale = 0.25f;  // FLIP value of the map's brightest colour; most errors are smaller
+inline constexpr float errorMapFullScale = 0.25f;  // FLIP value of the brightest colour; most errors are smaller
 std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked);
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows);
@@ -48,12 +48,12 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
 
 // ---- journal --------------------------------------------------------------------------------------------------------
 
-// Returns one line for each frame, with numbers that read back exactly. `subject` is a hash of the properties that all
+// Returns one CSV line per frame, with numbers that are read back exactly. `subject`: hash of the properties that all
 // frames of a journal share (scene, reference, device, program).
 std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject);
 
-// Returns the runs of a journal. The text may be cut off at any byte: an incomplete last line is dropped. Throws Error,
-// with the file `name`, if the subject differs or a line is malformed.
+// Returns the runs of a journal. The text may end at any byte: an incomplete last line is dropped. Throws Error, with
+// the file `name` in its message, if the hash `subject` differs or a line is malformed.
 std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t subject, const std::string& name);
 
 }  // namespace defocus::engine

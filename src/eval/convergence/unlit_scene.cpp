@@ -13,7 +13,7 @@ namespace {
 const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // object space
 constexpr float ambient = 0.2f;
 
-// Returns the linear mean colour; white for an image without pixels.
+// Returns the mean linear colour of the image; white for an image without pixels.
 glm::vec3 meanColour(const TextureImage& image) {
     glm::dvec3 sum(0);
     const std::size_t count = image.rgba.size() / 4;
@@ -54,7 +54,7 @@ void paintLight(Mesh& mesh) {
 
 Scene unlitScene(Scene scene) {
     for (Material& material : scene.materials) material = unlitMaterial(material, scene);
-    // Primitives without a material get one too: glTF's default material is lit.
+    // Give primitives without a material an unlit one, because glTF's default material is lit.
     Material plain;
     plain.unlit = true;
     scene.materials.push_back(std::move(plain));

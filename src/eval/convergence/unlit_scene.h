@@ -1,13 +1,14 @@
 #pragma once
-// Makes a scene that every method shades alike, ray tracers included: unlit and opaque, with baked lighting. Images can
-// then differ only by geometry, visibility, the lens and its sampling.
+// Converts a scene to unlit, opaque materials with baked lighting, which all methods, ray tracers included, shade
+// alike. Images can then differ only by geometry, visibility, the lens and sampling.
 
 #include "scene/scene.h"
 
 namespace defocus::engine {
 
-// Returns the scene with unlit, opaque materials in the mean colours of their textures. Lambert shading by one light,
-// fixed to each mesh, is baked into vertex colours. Geometry, nodes, cameras and environment don't change.
+// Returns the scene with unlit, opaque materials. Their colours are the mean colours of the textures, times Lambert
+// shading baked into vertex colours; the light is fixed to each mesh. Geometry, nodes, cameras and environment stay
+// unchanged.
 Scene unlitScene(Scene scene);
 
 }  // namespace defocus::engine

@@ -14,14 +14,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double dollyLength = 0.5;  // as a fraction of the focus distance
+constexpr double dollyLength = 0.5;  // length as a fraction of the focus distance
 
 struct Depths {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
 };
 
-// Returns the depth range of the objects in the view. Throws Error if it is empty.
+// Returns the depth range (m) of the objects in the view. Throws Error if the range is empty.
 Depths depthsOf(const World& world, const View& view) {
     RenderSettings settings;
     settings.sampleCount = 1;
@@ -48,7 +48,7 @@ View dolliedToPlace(const View& view, double focusDistance, double place) {
     return result;
 }
 
-// Returns the levels that LodMode::nearest draws, by object.
+// Returns the level of each object under LodMode::nearest, by object index.
 std::map<int, std::uint32_t> nearestLevels(const World& world, const View& view, RenderSettings settings) {
     settings.lod = LodMode::nearest;
     std::map<int, std::uint32_t> levels;
@@ -80,7 +80,7 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
     const double focusDistance =
-        std::min(view.lens.focusDistance, depths.farthest);  // finite, even if the lens focuses at infinity
+        std::min(view.lens.focusDistance, depths.farthest);  // stays finite if the lens focuses at infinity
     std::vector<MovementFrame> result;
     for (int i = 0; i < frames; ++i) {
         const double place = static_cast<double>(i) / (frames - 1);
@@ -113,7 +113,7 @@ std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& fram
     if (length < 1 || static_cast<std::size_t>(length) > frames.size())
         fail("{} frames: the movement has {}", length, frames.size());
 
-    // Level changes up to each frame.
+    // Number of level changes from the first frame up to each frame.
     std::vector<int> changes;
     std::map<int, std::uint32_t> levels;
     for (const MovementFrame& frame : frames) {

@@ -1,5 +1,5 @@
 #pragma once
-// Movements of focus, camera and scene that change levels of detail. The popping benchmark measures along them.
+// Movements of focus, camera and scene that change levels of detail, for the popping benchmark.
 
 #include <vector>
 
@@ -8,30 +8,31 @@
 namespace defocus::engine {
 
 enum class Movement {
-    focusPull,  // the focus goes from the nearest to the farthest object, evenly in 1/distance, as a focus ring does
-    dolly,      // the camera goes forward along its axis by half the focus distance; the focus stays on its plane
-    turntable,  // the camera circles the scene's centre once, about the vertical
-    clip,       // an animation of the scene plays once, such as a walk cycle; the camera stands still
+    focusPull,  // the focus moves from the nearest to the farthest object, evenly in 1/distance, like a focus ring
+    dolly,      // the camera moves ahead by half the focus distance; the plane of focus stays fixed in the scene
+    turntable,  // the camera circles the scene's centre once, about the vertical axis
+    clip,       // an animation of the scene plays once, such as a walk cycle; the camera is fixed
 };
 
-const char* movementName(Movement movement);  // the name on the command line
+const char* movementName(Movement movement);  // name on the command line
 
 struct MovementFrame {
     View view;
     Pose pose;
 };
 
-// Returns the complete movement as `frames` frames. `view` is in the middle of the dolly and of the turntable. All
-// frames have the world's pose, except with Movement::clip, which plays the scene's clip number `clip`. Throws Error if
-// there are fewer than two frames, if nothing lies in front of the camera, or if the scene doesn't have the clip.
+// Returns the complete movement, divided into `frames` frames. `view`: view at the middle of the dolly and of the
+// turntable. All frames have the world's pose, except with Movement::clip, which plays the scene's clip with index
+// `clip`. Throws Error for fewer than two frames, if no object is in front of the camera, or if the scene doesn't have
+// the clip.
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames,
                                        int clip = 0);
 
 // Sets the world's pose and lights to those of the frame.
 void poseWorld(World& world, const MovementFrame& frame);
 
-// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; ties go to the first.
-// Leaves `world` in the pose of the last frame. Throws Error if `length` is larger than the number of frames.
+// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; if several are equal, the
+// first. Leaves `world` in the pose of the last frame. Throws Error if `length` exceeds the number of frames.
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 

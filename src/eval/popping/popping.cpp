@@ -1,4 +1,4 @@
-// Measures the popping that Jeong, Kim and Lee discuss in Multi-Resolution Depth-of-Field Rendering (2011).
+// Measures popping, which Jeong, Kim and Lee discuss in Multi-Resolution Depth-of-Field Rendering (2011).
 
 #include "eval/popping/popping.h"
 
@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float maxBlur = 256;  // px; max blur diameter added around an object
+constexpr float maxBlur = 256;  // px; max blur diameter by which objects are grown
 
 Image rendered(Renderer& renderer, const FramePlan& plan) {
     renderer.start(plan);
@@ -35,7 +35,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of the modes. Their layers are precise enough that rounding doesn't affect the measurements.
+// The renderers of all modes. They use layers precise enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;
@@ -74,11 +74,11 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose draws differ
+    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or splits differ from before
 };
 
-// Returns `plan` with the levels of the frame before, for objects that both frames show. Returns nothing if no level
-// differs.
+// Returns `plan` with the levels and splits of the previous frame, for objects that are in both frames. Returns none if
+// nothing differs.
 std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before) {
     if (plan.samples.size() != before.samples.size()) return {};
     HeldPlan held{plan, {}};
@@ -98,14 +98,15 @@ std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before)
     return held;
 }
 
-// Returns the pixels of the mask `objects` that lie in the bounding boxes of `changed`, grown by their blur.
+// Returns the pixels of the mask `objects` that lie in the bounding boxes of the objects `changed`, grown by their
+// blur.
 Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects) {
     Image pixels(objects.width, objects.height, 1);
     const auto bounded = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
-        const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel from a pixel's centre
+        const double reach = 0.5 * object->coc.largest + 1;  // edges may be half a pixel from pixel centres
         const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);
         const int top = bounded(0.5 * (1 - box.ndcMax.y) * objects.height - reach, objects.height);
@@ -126,8 +127,8 @@ double largestSpeed(const FramePlan& plan, const FramePlan& before) {
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-// Returns the root mean square of `difference` (3 channels of display values) over the mask, or over all pixels if it
-// is null.
+// Returns the root mean square of `difference` (3 channels of display values) over the pixels of the mask; over all
+// pixels if `mask` is null.
 double rootMeanSquare(const Image& difference, const Image* mask) {
     double sum = 0;
     std::uint64_t values = 0;
@@ -151,7 +152,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// Returns the error of `image` against `expected`, both in display values.
+// Returns the difference between `image` and `expected`, both in display values.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -172,7 +173,7 @@ Image displayColours(const Image& linear) {
     return colours;
 }
 
-// Returns the expected frame, I_{t−1} + (R_t − R_{t−1}).
+// Returns the previous frame plus the change at full detail, I_{t−1} + (R_t − R_{t−1}).
 Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
     Image result = before;
     for (std::size_t i = 0; i < result.pixels.size(); ++i)
@@ -199,7 +200,7 @@ std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movem
 struct ModeState {
     FramePlan plan;
     Image image;      // display values
-    Image reference;  // the same at full detail
+    Image reference;  // full detail with the same samples, display values
 };
 
 PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
@@ -248,7 +249,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
 
 // ---- one sample's step ----------------------------------------------------------------------------------------------
 
-// Returns the most blurred object that has a coarser level; null if there is none.
+// Returns the most blurred of the objects that have a coarser level; null if there is none.
 ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {
     ObjectPlan* found = nullptr;
     for (ObjectPlan& object : plan.objects) {
@@ -290,7 +291,7 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
     step.level = static_cast<std::uint32_t>(object->lambda);
     const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
     step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
-    // projectedEdge is the size in px of level 0's mean edge at the nearest depth.
+    // projectedEdge is the size in px of level 0's mean edge at the object's nearest depth.
     step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
                      object->nearestDepth / depth;
     step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;
@@ -316,7 +317,7 @@ std::string_view poppingModeName(PoppingMode mode) {
 }
 
 Image objectPixels(const Image& level, const Image& coc) {
-    // Each object pixel marks its blur disk, row by row, as the beginning and the end of a run.
+    // Each object pixel marks the rows of its blur disk: +1 where a row of the disk begins, −1 where it ends.
     const int width = level.width;
     std::vector<int> runs(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(level.height));
     for (int y = 0; y < level.height; ++y)
@@ -351,7 +352,7 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
     const Renderers renderers{methodNamed("accumulation").make(world, precise),
                               methodNamed("multirate").make(world, precise)};
     const MovementFrame own{view, world.pose};
-    std::vector<std::vector<MovementFrame>> movements;  // computed first: impossible movements throw
+    std::vector<std::vector<MovementFrame>> movements;  // computed first, because invalid movements throw
     for (const Movement movement : options.movements) {
         movements.push_back(busiestStretch(
             framesAlong(movement, world, view, options.pathFrames, options.clip), world,
@@ -362,12 +363,12 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
         options.movements.size() * options.sampleCounts.size() * static_cast<std::size_t>(options.frames);
     std::uint64_t done = 0;
 
-    // Static objects.
+    // Measure the step of one sample for a static object.
     for (const std::uint32_t samples : options.sampleCounts)
         if (const auto step = measureSampleStep(world, *renderers.accumulation, view, options, samples))
             visitor.sampleStep(*step);
 
-    // Movements.
+    // Measure the popping during the movements.
     for (std::size_t m = 0; m < movements.size(); ++m) {
         const std::vector<Image> masks = masksOf(world, movements[m], options);
         for (const std::uint32_t samples : options.sampleCounts) {

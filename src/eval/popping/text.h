@@ -10,35 +10,35 @@
 
 namespace defocus::engine {
 
-// The summary of one measure over the frames of a movement.
+// Summary of one measure over the frames of a movement.
 struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
-    double percentile99 = 0;  // interpolated linearly between frames
-    double ofNearest = 0;     // `worst` divided by the `worst` of LodMode::nearest; NaN if the latter is 0 or missing
+    double percentile99 = 0;  // linearly interpolated between frames
+    double ofNearest = 0;     // `worst` relative to that of LodMode::nearest; NaN if the latter is 0 or missing
 };
 
 struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frames = 0;  // number of frame pairs, one less than the number of views
+    int frames = 0;  // number of frame pairs: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // over the objects' pixels
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // over the object pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 
-// Returns a row for each movement, number of samples and mode, in the order of their first frames.
+// Returns a row for each movement, number of samples and mode, ordered by first appearance.
 std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 
 std::string poppingHeader();                         // two lines
 std::string poppingLine(const PoppingRow& row);      // one line
-std::string sampleStepLine(const SampleStep& step);  // one line with its own legend
-// Returns the largest pop of each mode as a fraction of the nearest level's, at the largest number of samples.
+std::string sampleStepLine(const SampleStep& step);  // one line, labels included
+// Returns a sentence: the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
 std::string poppingCsv(std::span<const PoppingFrame> frames);  // one line for each frame
-// Returns the worst frame and the 99th percentile of each movement, number of samples and mode.
+// Returns JSON with the worst frame and the 99th percentile of each movement, number of samples and mode.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);
 

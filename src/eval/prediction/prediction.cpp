@@ -19,17 +19,18 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // of each of two sets, whose sampling noise cancels
+constexpr std::uint32_t enoughSamples = 1024;  // per set; the noise of two sets cancels in a product
 
-// A single static mesh without background, under the default lights, with the focus far away.
+// Scene for the measurement: a single static mesh without background, under the default lights, with the focus far
+// away.
 struct Stand {
     World world;
     View view;
     PlacedCamera camera;
-    double depth = 0;  // m, depth of the mesh's centre
+    double depth = 0;  // m, of the mesh's centre
 };
 
-// Turns the mesh so that the camera sees it from the direction `towards`, as the prediction's pictures do.
+// Rotates the mesh so that the camera sees it from the direction `towards`, as in the prediction's pictures.
 void turnTo(Stand& stand, const glm::dvec3& towards) {
     const Pyramid& pyramid = stand.world.pyramids[0];
     const Eye eye = eyeAlong(pyramid, towards, 1);
@@ -63,7 +64,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     const Finishes finishes(*scene);
     stand.world.pyramids = buildPyramids(scene->meshes, {.finishes = &finishes});
     if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels", frame.sceneName);
-    // Frame the bounding sphere, so that the mesh fits the image from every side.
+    // Frame the bounding sphere, so that the mesh is inside the image from every direction.
     const Bounds& bounds = stand.world.pyramids[0].bounds;
     const glm::dvec3 radius(0.5 * glm::length(bounds.size()));
     Pose ball = stand.world.pose;
@@ -82,7 +83,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     return stand;
 }
 
-// Sets the f-number that blurs the mesh's centre by `coc` px.
+// Sets the f-number for which the mesh's centre has a circle of confusion of `coc` px.
 void blurBy(Stand& stand, double coc) {
     Lens& lens = stand.view.lens;
     const double aperture = coc * stand.depth * 2 * tanHalfHorizontalFov(lens) / stand.view.width;
@@ -105,7 +106,7 @@ FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level,
 
 using Views = std::vector<Image>;
 
-// Renders the level from each view direction of the prediction.
+// Renders a level from each of the prediction's view directions.
 Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uint32_t seed,
               const RendererOptions& options) {
     Views views;
@@ -120,14 +121,14 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     return views;
 }
 
-// Images with two independent sets of lens samples.
+// Images for two independent sets of lens samples.
 using TwoSets = std::array<Views, 2>;
 
 TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& options) {
     return {viewsOf(stand, enoughSamples, level, 1, options), viewsOf(stand, enoughSamples, level, 2, options)};
 }
 
-// Mean light of the covered pixels, and the covered area in pixels.
+// Mean light of the covered pixels, and covered area in pixels.
 struct Light {
     double mean = 0;
     double cover = 0;
@@ -144,9 +145,9 @@ Light lightOf(const Views& views) {
     return light;
 }
 
-// Returns the RMS error over the covered area, in units of the mean light and clamped at shownWhite times the mean
-// light. It multiplies the differences of both sample sets: their independent noise cancels, and the error of N → ∞
-// samples remains.
+// Returns the RMS error over the covered area, relative to the mean light. Light is clamped at shownWhite times the
+// mean light. The differences of both sample sets are multiplied: their independent noise cancels, and the error for N
+// → ∞ samples remains.
 double renderedError(const TwoSets& reference, const TwoSets& level) {
     const Light light = lightOf(reference[0]);
     if (!(light.mean > 0)) return 0;

@@ -1,12 +1,12 @@
 #pragma once
-// Compares the errors that a pyramid predicts for its levels (blurred_error.h) with rendered ones. The scene's mesh
-// with the most triangles is drawn alone, level by level, under growing blur, from the prediction's view directions,
-// and compared with level 0. Two independent sets of 1,024 lens samples separate the level's error from sampling noise:
+// Compares the errors that a pyramid predicts for its levels (blurred_error.h) with rendered errors. The mesh with the
+// most triangles is drawn alone at each level, under increasing blur and from the prediction's view directions, and
+// compared with level 0. Two independent sets of 1,024 lens samples separate the level's error from sampling noise:
 // only the error common to both sets counts.
 //
-// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur, the default lights. Both
-// errors are of linear light up to white, over the three channels and the area that level 0 covers, in units of its
-// mean light. The renderer's shading has normal maps and the default sky; the prediction's shading is simpler.
+// Equal for prediction and rendering: mesh, level, lens, patches of the blur, default lights. Both errors are of linear
+// light up to white, over three channels and the area that level 0 covers, relative to its mean light. The renderer's
+// shading includes normal maps and the default sky; the prediction's shading is simpler.
 
 #include <functional>
 #include <string>
@@ -19,7 +19,7 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // px, at the mesh's centre
+    std::vector<double> cocs = {1, 4, 16, 64};  // px, diameter at the mesh's centre
     int width = 320;                            // px
     int height = 240;                           // px
     RendererOptions renderer;
@@ -27,21 +27,21 @@ struct PredictionOptions {
 
 struct PredictionRow {
     std::string mesh;
-    double coc = 0;           // px
-    std::uint32_t level = 0;  // 0: the row holds the sampling error at full detail
+    double coc = 0;           // diameter at the mesh's centre, px
+    std::uint32_t level = 0;  // 0: sampling error of 64 samples at full detail
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
-    // True if the level is drawn at this blur with LodMetric::measured and any number of samples from 16 to 512. If λ
+    // Whether the level is drawn at this blur with LodMetric::measured for some number of samples from 16 to 512. If λ
     // lies between two levels, both are drawn.
     bool used = false;
 
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }
 };
 
-// Calls `visit` for each blur with the error of 64 lens samples at full detail, then with each level's error in level
-// order. Needs a current GL context and frame.scene; animated meshes are measured at rest. Throws Error for a scene
-// without a mesh that has levels.
+// For each blur, calls `visit` with the error of 64 lens samples at full detail, then with the error of each level in
+// ascending order. Needs a current GL context and frame.scene; animated meshes are measured in their rest pose. Throws
+// Error if no mesh of the scene has levels.
 void measurePrediction(const PreparedFrame& frame, const PredictionOptions& options,
                        const std::function<void(const PredictionRow&)>& visit, const Progress& progress = {});
 

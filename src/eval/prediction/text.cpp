@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns the ratio between prediction and rendering, inverted if necessary to be ≥ 1.
+// Returns the ratio of predicted and rendered error or its inverse, whichever is ≥ 1.
 double factorOff(const PredictionRow& row) {
     return std::max(row.predicted / row.rendered, row.rendered / row.predicted);
 }

@@ -16,11 +16,11 @@ std::vector<LargeScene> largeScenes() {
 }
 
 LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions& options, const Progress& progress) {
-    giveBackFreedMemory();  // memory of the previous scene
+    giveBackFreedMemory();  // free the memory of the previous scene
     LargeSceneRow row;
     row.scene = scene;
 
-    // World and pyramids.
+    // Build the world and its pyramids.
     const Clock::time_point begin = Clock::now();
     const ScalingWorld world =
         scene.instances ? gridOf(scene.objects, scene.trianglesPerObject, options.cacheFolder)
@@ -30,7 +30,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     for (const Object& object : world.world.pose.objects)
         row.triangles += world.world.pyramids[static_cast<std::size_t>(object.mesh)].levels.front().triangleCount;
 
-    // The plan, timed repeatedly.
+    // Time the planning repeatedly.
     RenderSettings settings;
     settings.sampleCount = 8;
     FramePlan plan;
@@ -42,7 +42,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     }
     row.planMilliseconds = spreadOf(times);
 
-    // The first image, then the frame with all resources ready.
+    // Time the first image, then a frame with all resources ready.
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world.world, options.renderer);
     renderer->start(plan);

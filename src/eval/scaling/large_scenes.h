@@ -1,7 +1,6 @@
 #pragma once
-// Measures two scenes beyond the axes of the scaling benchmark: 100 million triangles in 10,000 instances of one mesh,
-// and 10,000 objects with a mesh each. Measures the time to the first image and the memory in addition to the time of a
-// frame.
+// Measures two scenes that exceed the scaling benchmark: 100 million triangles in 10,000 instances of one mesh, and
+// 10,000 objects with a mesh each. Measures the time to the first image, the time of a frame, and the memory.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +18,7 @@ struct LargeScene {
     std::string name;
     int objects = 0;
     int trianglesPerObject = 0;
-    bool instances = false;  // true: all objects share one mesh
+    bool instances = false;  // all objects share one mesh
 };
 
 // Returns the two scenes.
@@ -28,24 +27,24 @@ std::vector<LargeScene> largeScenes();
 struct LargeSceneRow {
     LargeScene scene;
     std::size_t meshes = 0;
-    std::uint64_t triangles = 0;   // triangles of all objects at full detail
-    double worldMilliseconds = 0;  // to make the scene and its pyramids, which may come from the cache
+    std::uint64_t triangles = 0;   // sum over all objects at full detail
+    double worldMilliseconds = 0;  // time to build the scene and its pyramids, which may come from the cache
     Spread planMilliseconds;
-    double firstImageMilliseconds = 0;  // from the plan to the image of the first wave, including uploads and shaders
-    double frameMilliseconds = 0;       // the same frame again, with all samples
+    double firstImageMilliseconds = 0;  // from the plan to the image of the first wave, with uploads and shaders
+    double frameMilliseconds = 0;       // time of a further frame with all samples
     std::uint64_t trianglesDrawn = 0;   // sum over all samples
-    std::uint64_t residentBytes = 0;    // memory of the process after drawing
+    std::uint64_t residentBytes = 0;    // resident memory of the process after drawing
     std::uint64_t gpuBytes = 0;         // peak size of the renderer's resources
 };
 
 struct LargeSceneOptions {
-    int runs = 3;                       // timed runs of the plan
-    std::filesystem::path cacheFolder;  // for pyramids; empty for none
+    int runs = 3;                       // timed runs of the planning
+    std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
     RendererOptions renderer;
 };
 
-// Measures the scene with 8 samples at 640 × 480 px, the school's own lens and the default levels. Needs a current GL
-// context.
+// Measures a scene with 8 samples at 640 × 480 px, the lens of the built-in school and the default levels. Needs a
+// current GL context.
 LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions& options,
                                 const Progress& progress = {});
 

@@ -16,11 +16,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
-constexpr int gridTriangles = 500;        // of each instance
-constexpr int smallFactor = 40;           // by which the image shrinks to leave only vertex work
-constexpr double bytesPerTriangle = 600;  // mesh, pyramid during construction, and the driver's copy
+constexpr int gridTriangles = 500;        // triangles of each instance at full detail
+constexpr int smallFactor = 40;           // divides width and height, so that only vertex work remains
+constexpr double bytesPerTriangle = 600;  // main memory: mesh, pyramid while it is built, driver's copy
 constexpr double memoryShareMax = 0.8;
-constexpr double minMargin = 0.05;  // share of the frame by which two parts must differ to rank them
+constexpr double minMargin = 0.05;  // min difference of two ranked parts, as a fraction of the frame time
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -40,8 +40,8 @@ double milliseconds(Renderer& renderer, const FramePlan& plan) {
     return renderer.stats().renderMilliseconds;
 }
 
-// The frame in its three versions. The complete and the empty frame share a renderer, so targets and programs are made
-// once.
+// The renderers, plans and times of a frame's three versions. The complete and the empty frame share a renderer, so
+// that render targets and programs are created once.
 struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;
@@ -120,7 +120,7 @@ bool sameWorld(const ScalingPoint& a, const ScalingPoint& b) {
     return a.triangles == b.triangles && a.instances == b.instances;
 }
 
-// Returns why this machine can't hold the point; empty if it can.
+// Returns why the point doesn't fit into this machine's memory; empty if it does.
 std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     const double needed = bytesPerTriangle * static_cast<double>(point.triangles);
     const double max = memoryShareMax * static_cast<double>(machine.memoryBytes);
@@ -128,28 +128,28 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("{:.0f} GB of main memory needed, about", needed / 1e9);
 }
 
-// The last measured point and its world, which the next point may share.
+// The point measured last, with its world, which the next point may reuse.
 struct Subject {
     Machine machine;
     ScalingPoint point;
     std::unique_ptr<ScalingWorld> world;
 };
 
-// Measures the point. Returns why it could not; empty on success.
+// Measures a point. Returns why that failed; empty on success.
 std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);
     if (!reason.empty()) return reason;
     try {
         if (!subject.world || !sameWorld(point, subject.point)) {
-            subject.world.reset();  // freed first: two worlds may not fit
+            subject.world.reset();  // freed first, because two worlds may not fit into memory
             subject.world = std::make_unique<ScalingWorld>(
                 point.instances > 0 ? gridOf(point.instances, gridTriangles, options.cacheFolder)
                                     : schoolOf(point.triangles, options.cacheFolder, progress));
             subject.point = point;
         }
         measurePoint(*subject.world, point, options, visitor);
-    } catch (const Error& error) {  // out of graphics memory
+    } catch (const Error& error) {  // such as out of graphics memory
         reason = error.what();
     } catch (const std::bad_alloc&) {
         reason = "main memory is exhausted";

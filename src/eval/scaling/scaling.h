@@ -1,14 +1,14 @@
 #pragma once
-// Measures how the time and the memory of a frame grow with triangles, instances, lens samples, pixels and blur, one at
-// a time, at full detail and with fractional levels. Also finds the part of the work that bounds the time.
+// Measures how a frame's time and memory grow with triangles, instances, lens samples, pixels and blur, one at a time,
+// at full detail and with fractional levels. Also finds which part of the work limits the frame time.
 //
-// Each frame is timed in three versions. The first is the complete frame. The second draws nothing, which leaves
-// clearing and adding the layers. The third draws the same levels into an image of 1/40 the width and height, which
-// leaves the work for each vertex and triangle. The rest of the complete frame is fill, the work for each pixel of a
-// surface. On a GPU these parts overlap, so they show what bounds a frame, not what each part costs.
+// Three versions of each frame are timed: the complete frame; an empty frame, which only clears and adds the layers;
+// and the same levels drawn into an image of 1/40 the width and height, which leaves the work per vertex and triangle.
+// The rest of the complete frame's time is fill, the work per pixel of a surface. On a GPU these parts overlap, so they
+// show which part limits a frame, not the cost of each part.
 //
-// Held equal along an axis: everything that the axis doesn't name (see scalingPoints), and the process. Runs alternate
-// between modes. Times are medians of wall-clock times between finished frames, after one untimed frame.
+// Equal along an axis: all parameters that the axis doesn't vary (see scalingPoints), and the process. Runs alternate
+// between modes. Times are medians of the wall-clock time between finished frames, after one untimed frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -27,21 +27,21 @@
 namespace defocus::engine {
 
 enum class ScalingAxis {
-    triangles,  // 100,000 … 10,000,000 in eight fish
-    instances,  // 1 … 10,000 copies of one fish
-    samples,    // 2 … 64
-    pixels,     // 640 × 480 … 3840 × 2160
-    blur,       // the largest circle of confusion, for f-numbers from 16 to 1
+    triangles,  // 100,000 … 10,000,000 triangles in eight fish
+    instances,  // 1 … 10,000 instances of one fish
+    samples,    // 2 … 64 lens samples
+    pixels,     // 640 × 480 … 3840 × 2160 px
+    blur,       // largest circle of confusion, for f-numbers from 16 to 1
 };
 
-const char* scalingAxisName(ScalingAxis axis);  // the name on the command line
+const char* scalingAxisName(ScalingAxis axis);  // name on the command line
 
 struct ScalingOptions {
     std::vector<ScalingAxis> axes = {ScalingAxis::triangles, ScalingAxis::instances, ScalingAxis::samples,
                                      ScalingAxis::pixels, ScalingAxis::blur};
-    bool large = false;                 // true: the triangles go up to 50,000,000
+    bool large = false;                 // extends the triangles axis to 50,000,000
     int runs = 3;                       // timed runs of each frame
-    std::filesystem::path cacheFolder;  // for pyramids; empty for none
+    std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
     RendererOptions renderer;
 };
 
@@ -49,12 +49,12 @@ enum class ScalingPart { layers, vertices, fill };
 
 const char* scalingPartName(ScalingPart part);
 
-// A frame on an axis. The axis changes one value; the others are the defaults here.
+// A frame on an axis. The axis sets one value; all other values have the defaults here.
 struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
     std::uint64_t triangles = 300'000;
-    int instances = 0;  // 0 for the school, else the number of fish in the grid
+    int instances = 0;  // number of fish in the grid; 0: the school is drawn instead
     std::uint32_t samples = 8;
     int width = 640;
     int height = 480;
@@ -65,53 +65,52 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // value on the axis; px for blur
+    double value = 0;  // value on the axis; for blur: px
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;
     int height = 0;
     int runs = 0;
-    Spread milliseconds;             // the complete frame
-    Spread layers;                   // ms
-    Spread vertices;                 // ms
-    Spread fill;                     // ms; the rest of each run, ≥ 0
-    std::uint64_t triangles = 0;     // drawn, over all samples
+    Spread milliseconds;             // time of the complete frame
+    Spread layers;                   // time of the empty frame, ms
+    Spread vertices;                 // time of the small frame, ms
+    Spread fill;                     // rest of the complete frame's time, ms, ≥ 0
+    std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
-    std::uint64_t pyramidBytes = 0;  // main memory of all levels
+    std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
-    // Returns the part with the largest median and the parts that are too close to it to rank. Two parts are too close
-    // if their spreads touch or their medians differ by less than a twentieth of the frame. The order is that of
-    // ScalingPart.
+    // Returns the part with the largest median time and all parts too close to rank below it: parts whose spreads touch
+    // its spread or whose medians differ by less than a twentieth of the frame time. Ordered as in ScalingPart.
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
-// The times of a frame's runs in its three versions, ms. The three vectors have the same size.
+// Times of the runs of a frame's three versions, ms. The three vectors have the same size.
 struct ScalingTimes {
     std::vector<double> complete;
-    std::vector<double> layers;    // nothing drawn
-    std::vector<double> vertices;  // drawn into a small image
+    std::vector<double> layers;    // empty frame
+    std::vector<double> vertices;  // frame drawn into a small image
 };
 
-// Fills row.runs, milliseconds, layers, vertices and fill.
+// Sets the row's members runs, milliseconds, layers, vertices and fill.
 void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;  // points that don't fit in memory
+    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;  // points that exceed the memory
 };
 
-// Measures all points of the axes. Needs a current GL context.
+// Measures all points of the requested axes. Needs a current GL context.
 void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor, const Progress& progress = {});
 
-// The fit y ≈ factor · x^exponent by least squares of the logarithms.
+// Least-squares fit of y ≈ factor · x^exponent to the logarithms of x and y.
 struct PowerLaw {
     double exponent = 0;
-    double residual = 0;  // root mean square of ln y − ln(factor · x^exponent), about a relative error
+    double residual = 0;  // RMS of ln y − ln(factor · x^exponent): approximately the relative RMS error
     std::size_t points = 0;
 };
 
-// Fits the upper half of the points: x at or above the geometric mean of the min and max x. Returns nothing if these
-// points have fewer than two different x. All values must be > 0.
+// Fits a power law to the points with x at or above the geometric mean of the min and max x. Returns none if these
+// points have fewer than two distinct x. All values must be > 0.
 std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>> points);
 
 }  // namespace defocus::engine

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns a short number such as "300 k" or "10 M".
+// Returns a short text for a number, such as "300 k" or "10 M".
 std::string shortNumber(double value) {
     if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
     return value >= 1e4 ? fmt::format("{:.3g} k", value / 1e3) : fmt::format("{:.4g}", value);
@@ -22,7 +22,7 @@ std::string valueText(const ScalingRow& row) {
     return row.axis == ScalingAxis::blur ? fmt::format("{:.1f} px", row.value) : shortNumber(row.value);
 }
 
-// Returns the rows grouped by axis and mode, in order of first appearance.
+// Groups the rows by axis and mode, ordered by first appearance.
 std::vector<std::vector<ScalingRow>> curvesOf(std::span<const ScalingRow> rows) {
     std::vector<std::vector<ScalingRow>> curves;
     for (const ScalingRow& row : rows) {
@@ -52,7 +52,7 @@ std::optional<PowerLaw> lawOf(std::span<const ScalingRow> curve, double (*quanti
     return fittedPowerLaw(points);
 }
 
-// Returns the row's largest parts, such as "fill" or "vertex work and fill alike".
+// Returns the names of the row's largest parts, such as "fill" or "vertex work and fill alike".
 std::string largestText(const ScalingRow& row) {
     std::string text;
     const std::vector<ScalingPart> largest = row.largestParts();

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the rows of the scaling benchmark and the exponents fitted to them as a text table, CSV and JSON.
+// Writes the rows of the scaling benchmark, and the exponents fitted to them, as a text table, CSV and JSON.
 
 #include <span>
 #include <string>
@@ -14,7 +14,8 @@ namespace defocus::engine {
 std::string scalingHeader();                     // two lines
 std::string scalingLine(const ScalingRow& row);  // one line
 
-// Returns a line for each axis and mode: the fitted exponents of time and memory, and the parts that bound the frame.
+// Returns a line for each axis and mode: the fitted exponents of time and memory, and the parts that limit the frame
+// time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
 // Returns the largest parts along the rows of one axis and mode, such as "fill up to 300 k, vertex work and fill alike

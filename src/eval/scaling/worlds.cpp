@@ -13,11 +13,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr int fishCount = 8;
-constexpr double gridNear = 2;     // m
-constexpr double gridFar = 6;      // m
-constexpr double gridWidth = 0.8;  // share of the view's width at each depth
+constexpr double gridNear = 2;     // depth of the grid's front, m
+constexpr double gridFar = 6;      // depth of the grid's back, m
+constexpr double gridWidth = 0.8;  // width of the grid, as a fraction of the view's width
 
-// Sets the school's camera, lens, lights and environment. The caller adds the pyramids.
+// Sets pose, camera, lens, lights and environment of the built-in school. The caller adds the pyramids.
 void surround(ScalingWorld& result) {
     const Scene& scene = *result.scene;
     World& world = result.world;
@@ -64,7 +64,7 @@ ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& c
     surround(result);
     result.world.pyramids = cachedPyramids(result.scene->meshes, cacheFolder).pyramids;
 
-    // Cells of the view frustum, front layer first, each with a fish at its centre.
+    // Divide the view frustum into cells, from front to back, and place a fish at the centre of each.
     const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(instances) - 1e-9)));
     const Bounds& box = result.world.pyramids.front().bounds;
     const double extent = std::max({box.size().x, box.size().y, box.size().z});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default: reference samples per max measured samples
+constexpr std::uint32_t referenceFactor = 8;  // default reference samples per max measured samples
 
 struct Setting {
     const char* sweep;
@@ -56,14 +56,14 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
-// Renders the reference for a setting's lens, and reuses it while consecutive settings have the same lens.
+// Renders the reference for the lens of a setting; reuses it for consecutive settings with the same lens.
 class References {
 public:
     References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
                const Progress& progress)
         : world_(world), settings_(settings), options_(options), progress_(progress) {}
 
-    // Returns null if no reference is requested.
+    // Returns the setting's reference; null if no reference is requested.
     const ReferenceImage* of(const Setting& setting) {
         const std::uint32_t samples = referenceSamplesOf(setting, settings_, options_);
         if (samples == 0) return nullptr;
@@ -82,31 +82,32 @@ private:
     ReferenceImage image_;
 };
 
-// One of the frames that are compared with each other.
+// A variant of the frame that is compared: form, method, level mode, with its renderer and measurements.
 struct SpeedupSubject {
     const SpeedupForm* form = nullptr;
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // full detail of the same form
+    const SpeedupSubject* fullDetail = nullptr;  // variant of the same form at full detail
     std::unique_ptr<Renderer> renderer;
-    std::vector<FramePlan> plans;  // of the seeds
+    std::vector<FramePlan> plans;  // one per seed
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
-    double setupMilliseconds = 0;           // set-up of the renderer, once
+    double setupMilliseconds = 0;           // set-up time of the renderer
     Image image;                            // image of the first seed
-    std::vector<Difference> fromReference;  // of the seeds
+    std::vector<Difference> fromReference;  // one per seed
 };
 
-// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes. Post-process methods start
-// from a sharp image, in which no blur hides a coarse level.
+// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
+// start from a sharp image, in which no blur hides a coarse level.
 bool followsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
 
-// Returns the subjects in row order; the parts of a row (size only, blur only) follow it.
+// Returns the subjects in the order of the rows. Size-only and blur-only subjects follow the row that they are parts
+// of.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
-    std::deque<SpeedupSubject> subjects;  // a deque keeps pointers to its elements valid
+    std::deque<SpeedupSubject> subjects;  // a deque, because pointers to its elements stay valid
     const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, LodCause cause) {
         SpeedupSubject& subject = subjects.emplace_back();
         subject.form = &form;
@@ -138,7 +139,7 @@ FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uin
     return planFrame(*subject.form->world, setting.view, settings);
 }
 
-// Plans all seeds, sets up the renderer and draws an untimed frame, which fills the driver's caches.
+// Plans the frame for all seeds, sets up the renderer, and draws an untimed frame to fill the driver's caches.
 void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, RendererOptions options) {
     for (int seed = 0; seed < seeds; ++seed) subject.plans.push_back(planOf(subject, setting, setting.samples, seed));
     const Clock::time_point begin = Clock::now();
@@ -149,13 +150,13 @@ void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, Rendere
     finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-// Draws and times run `number`; the seeds take turns.
+// Draws and times run `number`, with the seed number % seeds.
 void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
     finish(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
     subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);
-    if (number >= subject.plans.size()) return;  // the image is known
+    if (number >= subject.plans.size()) return;  // an earlier run has drawn the same image
     Image image = subject.renderer->image();
     if (reference != nullptr) subject.fromReference.push_back(compareImages(reference->image, image));
     if (number == 0) subject.image = std::move(image);
@@ -172,7 +173,7 @@ Difference meanOf(const std::vector<Difference>& differences) {
     }
     const auto count = static_cast<double>(differences.size());
     mean.rmse = std::sqrt(mse / count);
-    mean.psnr = -20 * std::log10(mean.rmse);  // infinity for an RMSE of 0
+    mean.psnr = -20 * std::log10(mean.rmse);  // infinity if the RMSE is 0
     mean.ssim = ssim / count;
     mean.flip = flip / count;
     return mean;
@@ -214,7 +215,8 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     return row;
 }
 
-// Visits a row for each subject; size-only and blur-only subjects become parts of the row before them.
+// Calls `visit` with a row for each subject, but adds size-only and blur-only subjects to the preceding row as its
+// parts.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {

@@ -68,8 +68,8 @@ public:
     }
 
     bool advance() override { return walk_.advance(); }
-    // Returns the mean number of samples. 1e-6 absorbs rounding errors in the sum of row fractions, which could cost
-    // the last sample.
+    // Returns the number of samples drawn so far, averaged over all rows. The 1e-6 keeps a rounding error of share()
+    // from lowering the result by one.
     [[nodiscard]] std::uint32_t samples() const override {
         return static_cast<std::uint32_t>(sampleTotal() * share() + 1e-6);
     }
@@ -80,7 +80,7 @@ public:
     [[nodiscard]] const FramePlan& plan() const override { return plan_; }
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = walk_.stats();
-        stats.samples = sampleTotal();  // each finished tile has all samples
+        stats.samples = sampleTotal();  // a finished tile has all samples of the frame
         return stats;
     }
     [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
@@ -88,7 +88,8 @@ public:
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
 private:
-    // Copies a finished tile into the kept image or, with a row sink, into its band. A complete band goes to the sink.
+    // Copies a finished tile into the kept image. If there is a row sink, copies the tile into its band instead and
+    // passes each complete band to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
         const Band& band = bands_[band_];
@@ -110,7 +111,7 @@ private:
     std::vector<Band> bands_;
     std::size_t band_ = 0;  // index of the band that is being drawn
     Image rowsOfBand_;
-    Image kept_;  // the whole frame, if there is no row sink
+    Image kept_;  // complete frame; empty if there is a row sink
     int rows_ = 0;
     TileWalk walk_;
 };
@@ -128,7 +129,8 @@ public:
         part_.width = plan_.view.width;
         part_.height = plan_.view.height;
         if (count() == 0) return;  // the frame has no samples in the requested range
-        // Cat's eye and axial chromatic aberration weight all samples of a frame relative to each other.
+        // Cat's eye and axial chromatic aberration weight the samples of a frame relative to each other, so partial
+        // sums of such frames cannot be merged.
         const Lens& lens = plan_.view.lens;
         if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
             fail(
@@ -194,7 +196,7 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Chooses between one piece and tiles, and the number of layers that are drawn at once.
+// Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.
 void FrameDriver::fit(const FrameOrder& order) {
     const Method& method = *options_.method.method;
     const DrawLimits& limits = options_.limits;
@@ -212,7 +214,7 @@ void FrameDriver::fit(const FrameOrder& order) {
         return renderer_->setWave(0);
     }
 
-    // Free the memory of the previous frame before measuring the remaining memory.
+    // Free the memory of the previous frame before the remaining memory is measured.
     renderer_.reset();
     giveBackFreedMemory();
     const FramePlan plan = planOfTiles(*world_, order.view, order.settings, order.stop.automatic);

@@ -24,11 +24,11 @@ bool namesRows(const fs::path& path) {
 }
 
 struct FoundTiles {
-    std::vector<RowFile> fitting;  // tiles with the wanted settings, from the top, without overlap
+    std::vector<RowFile> fitting;  // tiles with the wanted settings and size, from top to bottom, without overlap
     std::vector<fs::path> all;
 };
 
-// Finds the tiles of an earlier run, and removes incomplete files of a killed process.
+// Returns the tiles that an earlier run left in `folder`, and removes incomplete files of killed processes.
 FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
     FoundTiles found;
     std::error_code none;
@@ -75,7 +75,7 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
     if (files.share && !oneExr) throw UsageError("--tile writes to one EXR file, such as -o tile.exr");
 }
 
-// Returns the folder of the tiles: out.tiles for the output out.exr.
+// Returns the folder of the temporary tiles: out.tiles for the output out.exr.
 fs::path FrameOutput::tilesFolder() const {
     fs::path folder = files_.outputs.front();
     folder.replace_extension("tiles");
@@ -93,7 +93,7 @@ RowFileHeader FrameOutput::header() const {
     return header;
 }
 
-// Keeps the finished tiles of an earlier run if that run is resumed, and removes all other tiles.
+// Keeps the finished tiles of an earlier run if this run resumes it; removes all other tiles.
 void FrameOutput::findTiles() {
     const FoundTiles found = tilesIn(tilesFolder(), header());
     std::vector<RowRange> missing = {wanted_};

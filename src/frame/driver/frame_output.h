@@ -1,11 +1,12 @@
 #pragma once
-// Draws a frame and writes it to files in parts: tiles of an image that doesn't fit into memory, a share of its rows,
-// or the sums of some of its lens samples. The tiles of an interrupted run are kept and can be resumed.
+// Draws a frame, or a part of a frame, and writes it to files: a complete image (in tiles if memory is short), a share
+// of the rows, or partial sums over some of the lens samples. Finished tiles of an interrupted run are kept on disk and
+// can be resumed.
 //
 //   FrameOutput output(driver, files);
 //   output.start();
 //   while (output.advance()) {}
-//   std::optional<Image> image = output.finish();   // the frame, if it fits into memory in one piece
+//   std::optional<Image> image = output.finish();   // the frame, unless it was drawn in tiles
 
 #include <filesystem>
 #include <optional>
@@ -20,10 +21,10 @@ namespace defocus::engine {
 
 struct FrameFiles {
     std::vector<std::filesystem::path> outputs;  // at least one; a part of a frame goes to the first
-    std::optional<SampleRange> samples;          // write only the sums of these lens samples, for `merge`
+    std::optional<SampleRange> samples;          // write only the partial sums over these lens samples, for `merge`
     std::optional<TileShare> share;              // write only this share of the rows, for `merge`
-    bool resume = false;                         // keep rows that an interrupted run of the same settings finished
-    std::string whole;                           // why tiles are impossible; empty: tiles are possible
+    bool resume = false;                         // keep rows that an interrupted run with the same settings finished
+    std::string whole;                           // reason why tiles are forbidden; empty: they are allowed
 };
 
 class FrameOutput {
@@ -31,22 +32,23 @@ public:
     // `driver` must outlive the output.
     FrameOutput(SceneDriver& driver, FrameFiles files) : driver_(driver), files_(std::move(files)) {}
 
-    // Throws Error for files and requests that cannot be combined. The scene need not be loaded.
+    // Throws Error for files and requests that cannot be combined. Doesn't need a loaded scene.
     static void check(const FrameFiles& files, const Request& request);
 
-    // Begins the frame of the driver's request, or the remaining part of an interrupted run. Throws Error as
-    // SceneDriver::start does.
+    // Begins the frame of the driver's request, or the missing part of an interrupted run. Throws Error in the same
+    // cases as SceneDriver::start.
     void start(const Progress& progress = {});
-    // Draws one wave of samples and writes the finished rows. Returns false once the frame is done.
+    // Draws one wave of samples and writes the finished rows. Returns false once the frame is complete.
     bool advance();
-    // Writes the sums, finishes the share, or joins the tiles into the output files. Returns the image of a whole frame
-    // that fits into memory; the caller writes it.
+    // Writes the partial sums, completes the file of the share, or joins the tiles into the output files. Returns the
+    // image of an untiled frame; the caller writes that image.
     std::optional<Image> finish();
 
-    [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including an earlier run's
-    // Returns a message about the parts that stay if the run stops: "stopped: 96 of 768 rows are kept in out.tiles; …"
+    [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
+    // Returns the message about the files that remain if the run stops: "stopped: 96 of 768 rows are kept in out.tiles;
+    // …"
     [[nodiscard]] std::string stopMessage() const;
-    [[nodiscard]] int rowsKept() const { return rowsKept_; }  // rows kept from an earlier run
+    [[nodiscard]] int rowsKept() const { return rowsKept_; }  // number of rows kept from an earlier run
 
 private:
     [[nodiscard]] std::filesystem::path tilesFolder() const;
@@ -60,10 +62,10 @@ private:
     FrameFiles files_;
     FrameParts parts_;
     std::string settings_;  // SceneDriver::settingsHash; empty until a file needs it
-    RowRange wanted_;       // rows of the frame or of the share
+    RowRange wanted_;       // rows to draw: all rows of the frame, or the rows of the share
     int rowsKept_ = 0;
     int rowsDone_ = 0;                      // rows that this run has written to files
-    std::optional<ImageRowWriter> writer_;  // writer of the share's file
+    std::optional<ImageRowWriter> writer_;  // writer of the file of the share
 };
 
 }  // namespace defocus::engine

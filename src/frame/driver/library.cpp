@@ -1,4 +1,4 @@
-// Functions of the public API that need no renderer of their own.
+// Functions of the public API that need no renderer object.
 
 #include <fmt/format.h>
 

@@ -48,7 +48,7 @@ bool holds(const Metadata& metadata, const char* name, const std::string& text) 
     return found != metadata.end() && found->second == MetadataValue(text);
 }
 
-// Returns the stored image; none if the file is missing, damaged or has another hash.
+// Returns the image stored at `path`; none if the file is missing, damaged or has a hash other than `hash`.
 std::optional<Part> stored(const fs::path& path, std::uint64_t hash, Metadata& metadata) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};
@@ -92,7 +92,7 @@ Difference remainingIn(const Metadata& metadata) {
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
 struct Half {
-    std::uint32_t first = 0;  // index relative to referenceOffset
+    std::uint32_t first = 0;  // index of the first lens sample, counted from referenceOffset
     std::uint32_t count = 0;
 };
 
@@ -133,14 +133,15 @@ Half secondHalf(std::uint32_t samples) {
     return {samples / 2, samples - samples / 2};
 }
 
-// Sets the reference's image to the mean of its halves, and its error to the difference between the mean and a half.
+// Sets the reference's image to the mean of its two halves, and its error to the difference between that mean and a
+// half.
 void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.image = meanOf(one.image, firstHalf(reference.samples), other.image, secondHalf(reference.samples));
     reference.remaining = compareImages(reference.image, one.image);
     reference.milliseconds = one.milliseconds + other.milliseconds;
 }
 
-// Returns a reference with its number of samples and its hash, but without its image.
+// Returns a reference that has its number of samples and its hash, but no image yet.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
         fail("reference of {} samples: choose 2 to {}", options.samples, maxSamples);
@@ -189,7 +190,7 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
                               const fs::path& folder, const Progress& progress) {
     ReferenceImage reference = askedFor(world, view, options);
 
-    // Return the stored reference if it has the right hash.
+    // Return the stored reference if its hash matches.
     const fs::path path = folder / referenceName;
     Metadata metadata;
     if (std::optional<Part> part = stored(path, reference.hash, metadata)) {
@@ -200,7 +201,8 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
         return reference;
     }
 
-    // Render two halves. The file of the first half is kept until the complete reference is stored.
+    // Render two halves with different samples. The file of the first half is kept until the complete reference is
+    // stored.
     const fs::path halfPath = folder / referenceHalfName;
     std::optional<Part> one = stored(halfPath, reference.hash, metadata);
     if (!one) {

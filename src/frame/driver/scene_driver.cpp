@@ -18,7 +18,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Bytes per pixel of images in main memory: the kept image, the returned image and its encoded copy.
+// Bytes per pixel of RGBA float images in main memory: the driver's image, the returned image and its encoded copy.
 constexpr std::uint64_t keptPixelBytes = 3 * 16;
 
 bool sameScene(const Request& a, const Request& b) {
@@ -46,7 +46,7 @@ std::size_t pyramidKind(const Request& request) {
     return 1 + static_cast<std::size_t>(request.levelVertices);
 }
 
-// Explains why a frame in tiles may have more samples than a frame in one piece.
+// Returns a note that a frame in tiles may take more samples than an untiled frame; empty if the frame doesn't.
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (plan.samples.size() <= blockSamples) return {};
     return {
@@ -80,14 +80,14 @@ SceneDriver::~SceneDriver() {
         const InContext use(*context_);
         driver_.reset();
         context_.reset();
-    } catch (const Error&) {  // another thread uses the context: its resources stay until the process ends
+    } catch (const Error&) {  // another thread uses the context: leak its resources until the process ends
         if (driver_) static_cast<void>(new FrameDriver(std::move(*driver_)));
         static_cast<void>(context_.release());
     }
 }
 
-// Returns the scene with the request's units, node blur and ground. A changed scene is a copy, because others may use
-// it.
+// Returns the scene with the request's units, node blur and ground. The loaded scene may be shared, so changes are made
+// in a copy.
 std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
     const double metresPerUnit = request.units.value_or(scene_->metresPerUnit);
     if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
@@ -101,8 +101,8 @@ std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
     return scaled;
 }
 
-// Moves the pyramids of the previous frame to `next`, or keeps them for later if `next` needs another kind. Never
-// throws.
+// Moves the pyramids of the previous frame to `next`, or stores them for later frames if `next` needs pyramids of
+// another kind. Doesn't throw.
 void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
     if (kind == pyramidKind(request_)) {
         next.world.pyramids = std::move(frame_.world.pyramids);
@@ -116,7 +116,7 @@ void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
 }
 
 void SceneDriver::start(const Request& request, const FrameParts& parts, const Progress& progress) {
-    // Run all steps first that may fail because of the request.
+    // Run all steps that may fail because of the request before the previous frame is replaced.
     checkRequest(request);
     if (named_ && !sameScene(request, first_))
         throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
@@ -133,11 +133,11 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     Request asked = request;
     const InContext use(*context_);
 
-    // The request has passed its checks: replace the previous frame.
+    // All checks of the request have passed: replace the previous frame.
     if (!same) driver_.reset();
     if (sameGround)
         handOnPyramids(next, kind);
-    else  // the ground adds or removes a mesh, so the other pyramids no longer match the scene
+    else  // the ground adds or removes a mesh, so stored pyramids don't match the scene
         otherPyramids_ = {};
     next.loadMilliseconds = loadMilliseconds_;
     next.pyramidMilliseconds = pyramidMilliseconds_;
@@ -197,7 +197,8 @@ Image SceneDriver::sweptWork() const {
 std::vector<std::string> SceneDriver::warnings() const {
     std::vector<std::string> lines = requestWarnings(request_, frame_);
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
-    // Without a fixed number of samples, warnings about the plan need the number drawn so far.
+    // Warnings about the plan need the final number of samples. If that number isn't fixed, use the number drawn so
+    // far.
     const StopSettings stop = stopSettings(request_);
     const bool counted = !stop.given() && !stop.automatic;
     if (driver_ && (counted || driver_->samples() > 0)) {

@@ -1,6 +1,6 @@
 #pragma once
-// Turns requests of one scene into pixels, frame after frame. Implements the public SceneRenderer (defocus/renderer.h)
-// and serves the program's commands. The scene is loaded once, and its pyramids are reused.
+// Renders requests of one scene, frame after frame. Implements the public SceneRenderer (defocus/renderer.h) and serves
+// the program's commands. The scene is loaded once; its pyramids are reused between frames.
 
 #include <array>
 #include <filesystem>
@@ -30,47 +30,47 @@ struct FrameParts {
 
 class SceneDriver {
 public:
-    // Loads the scene that the request names, or takes `scene` if it isn't null. Checks values, scene, lens and device
-    // before building pyramids. Throws Error as SceneRenderer does.
+    // Loads the scene that the request names, or uses `scene` if it isn't null. Checks the values, scene, lens and
+    // device before any pyramid is built. Throws Error in the same cases as SceneRenderer.
     SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
     ~SceneDriver();
     SceneDriver(const SceneDriver&) = delete;
     SceneDriver& operator=(const SceneDriver&) = delete;
 
-    // Begins a frame. A request that fails its checks leaves the previous frame unchanged.
+    // Begins a frame. If the request fails its checks, throws Error and leaves the previous frame unchanged.
     void start(const Request& request, const FrameParts& parts = {}, const Progress& progress = {});
-    // Draws one wave of samples. Returns false once the frame is done.
+    // Draws one wave of samples. Returns false once the frame is complete.
     bool advance();
 
     [[nodiscard]] const Request& firstRequest() const { return first_; }
-    [[nodiscard]] const Request& request() const { return request_; }  // request of the latest started frame
+    [[nodiscard]] const Request& request() const { return request_; }  // request of the frame that was started last
     [[nodiscard]] const PreparedFrame& frame() const { return frame_; }
     [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
     [[nodiscard]] const GlContext& context() const { return *context_; }
 
     [[nodiscard]] bool started() const { return driver_.has_value(); }
-    // Returns times and counts of the latest started frame; before the first frame, only the times of loading.
+    // Returns times and counts of the frame that was started last; before the first frame, only the loading times.
     [[nodiscard]] RenderStatistics statistics() const;
 
-    // Returns warnings for the user: about the scene, the request and, once it is started, the frame.
+    // Returns warnings for the user: about the scene, the request and, after start(), the frame.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
     // Returns the hash that all parts of the frame share; see frame/setup/settings_hash.h.
     [[nodiscard]] std::string settingsHash() const;
 
-    // All members below need a started frame.
+    // All members below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
-    // Returns how the image is encoded as PNG and JPEG. A metered exposure is measured for the first frame and then
-    // kept.
+    // Returns the settings for encoding the image as PNG and JPEG. A metered exposure is measured for the first frame
+    // and then kept.
     [[nodiscard]] WriteOptions writeOptions();
     [[nodiscard]] Metadata metadata();
-    // `command`: the command line in shell syntax; empty: none. `milliseconds`: time of the whole command so far.
+    // `command`: the command line in shell syntax; empty: none. `milliseconds`: time since the command began.
     [[nodiscard]] RenderReport report(std::string command = {}, double milliseconds = 0);
     // Writes an image of the frame to a file, with the frame's metadata.
     void write(const std::filesystem::path& path, const ImageView& image);
@@ -81,21 +81,21 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and levels of each LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // one for full detail only, one for levels of each LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
 
-    bool named_;  // whether the request names the scene
+    bool named_;  // whether the request that loaded the scene names it
     std::filesystem::path shaderFolder_;
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;                                  // may be shared with others; never modified
-    PreparedFrame frame_;                                           // frame of request_; driver_ refers to its world
-    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids of other frames, one entry per kind
+    std::shared_ptr<Scene> scene_;                                  // may be shared with other owners; never modified
+    PreparedFrame frame_;                                           // frame of request_; driver_ refers to frame_.world
+    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids for later frames, indexed by pyramidKind
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
     std::optional<double> metered_;     // metered exposure, EV
-    std::vector<std::string> clipped_;  // warnings about the latest written 8-bit image
+    std::vector<std::string> clipped_;  // warnings about clipping in the latest written 8-bit image
     std::unique_ptr<GlContext> context_;
     std::optional<FrameDriver> driver_;
 };

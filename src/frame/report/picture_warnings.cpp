@@ -12,11 +12,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float white = 254.5f / 255;  // display-encoded channel value
+constexpr float white = 254.5f / 255;  // min display-encoded value that rounds to 255
 constexpr float black = 0.5f / 255;
-constexpr double maxWhite = 0.5;  // fraction of the covered pixels
+constexpr double maxWhite = 0.5;  // max fraction of white pixels without a warning
 constexpr double maxBlack = 0.95;
-constexpr double wantedMedian = 0.18;  // middle grey
+constexpr double wantedMedian = 0.18;  // middle grey, linear
 constexpr double minLuminance = 1e-6;
 
 // Returns the exposure (EV) that maps the median luminance of the lit pixels to middle grey.

@@ -1,5 +1,5 @@
 #pragma once
-// Plans and pyramids as the public structs, and the JSON of both.
+// Converts plans and pyramids to the public structs and to JSON.
 
 #include <nlohmann/json.hpp>
 
@@ -12,15 +12,15 @@ namespace defocus::engine {
 
 defocus::Plan reportedPlan(const FramePlan& plan);
 
-// Returns a mesh's pyramid. `mesh`: index of the mesh in the scene.
+// Converts a mesh's pyramid to the public struct. `mesh`: index of the mesh in the scene.
 defocus::Pyramid reportedPyramid(const Pyramid& pyramid, const std::string& name, std::size_t mesh);
 
 nlohmann::ordered_json jsonOf(const defocus::Pyramid& pyramid);
 
-// Returns the text of a JSON document, with a line break at its end. Invalid UTF-8 is replaced.
+// Returns the JSON as text that ends with a line break. Invalid UTF-8 is replaced.
 std::string documentText(const nlohmann::ordered_json& json);
 
-// Returns why a pyramid has no further level, for people.
+// Returns a readable text of why a pyramid has no further level.
 std::string_view endReason(PyramidEnd end);
 
 }  // namespace defocus::engine

@@ -18,10 +18,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double visibleShare = 0.02;   // fraction of the image's width: a blur that is easy to see
-constexpr std::size_t maxIgnored = 20;  // maximum number of lines
+constexpr double visibleShare = 0.02;   // blur that is easy to see, as a fraction of the image width
+constexpr std::size_t maxIgnored = 20;  // maximum number of lines in ignoredWarnings
 
-// Rounds `value` to 1, 2 or 5 times a power of ten.
+// Rounds `value` > 0 to 1, 2 or 5 times a power of ten.
 double roundNumber(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     const double digit = value / power;
@@ -41,10 +41,11 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Distance between a point's images from neighbouring samples, px. With lens cells: σ of the blur that fills the gap.
+// Distance between the images of a point from neighbouring lens samples, px. With lens cells: σ of the blur that fills
+// the gap between these images.
 struct Gaps {
     double size = 0;
-    double max = 16;  // largest gap without a warning
+    double max = 16;  // largest distance without a warning
     double good = 8;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about a picture that follow from its plan, its request and its scene.
+// Warnings about a picture that are derived from its plan, its request and its scene.
 
 #include <cstdint>
 #include <string>
@@ -11,21 +11,22 @@
 
 namespace defocus::engine {
 
-// Returns a warning with a remedy for each of these cases:
+// Returns a warning with a remedy for each of these cases that applies:
 // - The lens is open, but the largest blur is below half a pixel.
-// - The method draws transmitting materials opaque, and the frame has such materials.
-// - The method draws no shadows, and the frame has shadows.
-// - The method draws an image per lens sample, and the blur is so large that these images show as copies. N points in a
-//   disk of c px lie about c·√(π/(4N)) px apart. Lens cells (plan/lens_cells/lens_cells.h) fill gaps up to their widest
-//   blur.
-// `samples`: number of lens samples in the whole frame, if `plan` covers only its last block; 0: the plan's number.
+// - The frame has transmitting materials, but the method draws them opaque.
+// - The frame has shadows, but the method draws none.
+// - The method draws one image per lens sample, and the blur is so large that these images show as separate copies. N
+//   lens points in a blur disk of diameter c px lie about c·√(π/(4N)) px apart. Lens cells
+//   (plan/lens_cells/lens_cells.h) fill gaps up to the widest blur of a cell.
+// `samples`: number of lens samples of the complete frame if `plan` covers only its last block; 0: the number in the
+// plan.
 std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples = 0);
 
-// Returns a line for each kind of thing in the scene's file that isn't drawn, up to 20, and a line for the number of
-// further kinds. damageWarnings (frame/setup/prepared_frame.h) reports faults of the file.
+// Returns a line for each feature of the scene's file that isn't drawn, up to 20 lines, and a line with the number of
+// further features. damageWarnings (frame/setup/prepared_frame.h) reports faults of the file.
 std::vector<std::string> ignoredWarnings(const Scene& scene);
 
-// Returns all warnings of a request that need no plan: about the scene, the camera, and settings without effect.
+// Returns all warnings about a request that need no plan: about the scene, the camera, and settings without effect.
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Adds an option and its value, joined by '=' if the value begins with '-'.
+// Appends an option and its value to the command, joined by '=' if the value begins with '-'.
 void addWords(std::string& command, std::string_view option, const std::string& value) {
     command += fmt::format(" {}{}{}", option, value.starts_with('-') ? '=' : ' ', shellWord(value));
 }
@@ -40,20 +40,21 @@ void addSetting(std::string& command, const Setting& setting, const Request& req
     }
 }
 
-// Sets the request's camera to that of the view. A camera that moves during the exposure is left to the scene's file.
+// Sets the request's camera to the camera of the view. Does nothing for a camera that moves during the exposure,
+// because options cannot describe it.
 void placeCameraOf(const RenderCommandText& text, Request& request) {
     if (!text.view.shutterCameras.empty()) return;
     const glm::dmat4& camera = text.view.worldFromCamera;
     const glm::dvec3 position(camera[3]);
     request.cameraPosition = asArray(position);
     request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
-    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // rolled, or looking straight up or down
+    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // or looking straight up or down
     request.cameraUp.reset();
     if (rolled) request.cameraUp = asArray(camera[1]);
 }
 
-// Returns the view's lens values that differ from the camera's own. The focal length is always included, because its
-// default depends on the scene. The focus distance is left out.
+// Returns the lens values of the view that differ from those of the scene's camera. The focal length is always
+// included, because its default depends on the scene. The focus distance is left out.
 LensSettings lensOf(const RenderCommandText& text) {
     const Lens& lens = text.view.lens;
     LensSettings given;
@@ -70,7 +71,7 @@ LensSettings lensOf(const RenderCommandText& text) {
     return given;
 }
 
-// Returns the request with which `defocus render` makes the picture.
+// Returns the request for which `defocus render` makes the picture of the view.
 Request requestOf(const RenderCommandText& text) {
     Request request = text.options;
     request.size = {text.view.width, text.view.height};
@@ -78,9 +79,9 @@ Request requestOf(const RenderCommandText& text) {
     request.lens = lensOf(text);
     request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->max)};
     const double metresPerUnit = text.frame.scene->metresPerUnit;
-    if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess would differ for a camera placed by options
+    if (metresPerUnit != 1) request.units = metresPerUnit;  // else `render` may guess another unit
     request.toneMap = text.write.toneMap;
-    // The lens's exposure time and an exposure value exclude each other.
+    // The exposure options exclude each other: use the lens's exposure time, or an exposure value.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
     const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
@@ -113,7 +114,7 @@ std::string captureCommand(const std::filesystem::path& shot, const Request& opt
 
 std::string renderCommand(const RenderCommandText& text) {
     const Request request = requestOf(text);
-    // Options that the preset sets are left out.
+    // Leave out options with the value that the preset sets.
     const Setting& preset = *settingNamed("preset");
     const std::optional<std::string> presetName = preset.text(request);
     Request standard;

@@ -1,5 +1,5 @@
-// The matrices follow OpenEXR, "Standard Attributes". They lead from the world to a left-handed camera space that looks
-// along +z, and to an NDC space. (0, 0) in NDC is the upper left corner of the image, (1, 1) the lower right corner.
+// The matrices follow OpenEXR, "Standard Attributes". They transform world space to a left-handed camera space that
+// looks along +z, and world space to NDC: (0, 0) is the upper left corner of the image, (1, 1) the lower right corner.
 
 #include "frame/report/render_report.h"
 
@@ -27,7 +27,7 @@ namespace {
 std::uint64_t peakMemory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // ru_maxrss is in KiB on Linux
 }
 
 glm::dmat4 cameraFromWorld(const View& view) {
@@ -45,7 +45,8 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
-// Adds the recorded settings. Camera and lens are left out, as they have attributes of their own; paths are private.
+// Adds the settings with Setting::recorded to the metadata. Camera and lens have attributes of their own and paths are
+// private, so both are left out.
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
         const std::optional<std::string> text = setting.text(request);
@@ -63,7 +64,7 @@ void addSettings(Metadata& metadata, const Request& request) {
     }
 }
 
-// Returns the current time in UTC: "2026-01-31T12:00:00Z".
+// Returns the current time in UTC, such as "2026-01-31T12:00:00Z".
 std::string dateNow() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -96,7 +97,7 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:device", report.stats.device},
     };
     addSettings(metadata, report.options);
-    // Values that were used for settings that the request leaves open.
+    // Values that the renderer chose for settings that the request leaves unset.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
     if (stopSettings(report.options).given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
     if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;

@@ -1,5 +1,5 @@
 #pragma once
-// Describes a render: metadata for its images, JSON for --stats, and a line of text.
+// Describes a render: metadata for its image files, JSON for --stats, and a line of text.
 
 #include <optional>
 #include <string>
@@ -13,30 +13,31 @@ namespace defocus::engine {
 
 struct RenderReport {
     const Request& options;
-    std::string method;  // method and settings, from MethodUse::text
+    std::string method;  // method and its settings, from MethodUse::text
     const PreparedFrame& frame;
     const FramePlan& plan;
     RenderStats stats;
     bool softwareDriver = false;
-    double totalMilliseconds = 0;         // time of the whole command so far
-    std::optional<double> exposure = {};  // EV of the 8-bit images; none: from the lens
+    double totalMilliseconds = 0;         // time since the command began
+    std::optional<double> exposure = {};  // exposure of 8-bit images, EV; none: from the lens
     std::string command = {};             // the command line in shell syntax
     std::uint64_t memoryLimit = 0;        // maximum memory of the process, bytes
-    int tiles = 1;                        // number of tiles drawn; 1: the image in one piece
+    int tiles = 1;                        // number of tiles drawn; 1: untiled
 };
 
-// Returns metadata under the standard names of EXR if they exist: aperture (f-number), focus (m), nominalFocalLength
-// (mm), worldToCamera, worldToNDC, cameraLabel, software, expTime, isoSpeed. All other names begin with "defocus:".
+// Returns image metadata. Uses the standard EXR names where they exist: aperture (f-number), focus (m),
+// nominalFocalLength (mm), worldToCamera, worldToNDC, cameraLabel, software, expTime, isoSpeed. All other names begin
+// with "defocus:".
 Metadata renderMetadata(const RenderReport& report);
 
-// Returns a JSON object. Its keys name the units milliseconds and bytes; memoryLimit is in bytes too. largestBlur is a
-// diameter in pixels, null if unbounded. date is in UTC. peakBytes is the peak memory of the whole process.
+// Returns a JSON object. Key names state milliseconds and bytes; memoryLimit is also in bytes. largestBlur is a
+// diameter in pixels, null if unbounded; date is in UTC; peakBytes is the peak memory of the process.
 std::string statsJson(const RenderReport& report);
 
-// Returns "error about 0.0047" or "error not estimated".
+// Returns a text such as "error about 0.0047", or "error not estimated".
 std::string errorText(const RenderStats& stats);
 
-// Returns a line such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …".
+// Returns a summary such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …".
 std::string summary(const RenderReport& report);
 
 }  // namespace defocus::engine

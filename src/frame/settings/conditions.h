@@ -12,8 +12,8 @@ namespace defocus::engine {
 using Condition = std::string (*)(const SettingContext&);
 
 std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
-std::string methodWithoutShapes(const SettingContext& context);      // the method's aperture is round or oval
-std::string methodWithoutLensPoints(const SettingContext& context);  // the method's lens is the same for all pixels
+std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
+std::string methodWithoutLensPoints(const SettingContext& context);  // the lens is equal for all colours and pixels
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
 std::string withoutEnvironment(const SettingContext& context);
@@ -24,7 +24,7 @@ std::string withoutBlurOrExposure(const SettingContext& context);
 std::string withoutLevels(const SettingContext& context);
 std::string withMeasuredLevels(const SettingContext& context);
 
-// Returns the first reason that isn't empty; empty if all conditions let the setting have an effect.
+// Returns the first reason that isn't empty; empty if no condition gives a reason.
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions);
 
 }  // namespace defocus::engine

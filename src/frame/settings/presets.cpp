@@ -10,7 +10,8 @@
 namespace defocus::engine {
 
 std::span<const Preset> presets() {
-    // Jeong, Kim and Lee 2011 use fixed thresholds. The values here are this program's thresholds for 64 samples.
+    // Jeong, Kim and Lee 2011 use fixed thresholds. These values are the thresholds that this program computes for 64
+    // samples.
     static const std::vector<Preset> all = {
         {"jeong2011",
          "Jeong, Kim and Lee 2011 as published: Halton samples, fixed thresholds, levels by the blur at the box's "
@@ -22,7 +23,8 @@ std::span<const Preset> presets() {
           {"lodMetric", "halving"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
-        // Tzeng and others 2012. The score at which a level begins is this program's choice; blurThreshold sets it.
+        // Tzeng and others 2012. blurThreshold is the score at which a level begins; its value is this program's
+        // choice.
         {"tzeng2012",
          "Tzeng and others 2012 as published: line samples in a buffer of fixed size, the same for all pixels, each "
          "segment shaded in its middle from the light of vertices; of three levels of 100, 75 and 50 % of the vertices "
@@ -78,7 +80,7 @@ const Preset* presetOf(const Request& request) try {
     const auto found = std::ranges::find_if(presets(), has);
     return found == presets().end() ? nullptr : &*found;
 } catch (const Error&) {
-    return nullptr;  // the request names an unknown method or method setting
+    return nullptr;  // the request has an unknown method or method setting
 }
 
 }  // namespace defocus::engine

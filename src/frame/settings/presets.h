@@ -1,6 +1,6 @@
 #pragma once
-// Presets: named groups of settings. Applying a preset sets all its settings; later settings override them. A request
-// doesn't store a preset's name. The request has a preset while all of the preset's settings have the preset's values.
+// Presets: named groups of settings. Applying a preset sets all its settings; settings given later override them. A
+// request doesn't store the name of a preset: it matches a preset as long as all values of the preset are set.
 
 #include <optional>
 #include <span>
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 struct PresetValue {
     std::string setting;  // name of the setting in the settings table
-    std::string text;     // value as Setting::text writes it
+    std::string text;     // value in the format of Setting::text
 };
 
 struct Preset {
@@ -23,18 +23,18 @@ struct Preset {
     std::vector<PresetValue> values;
 };
 
-// Returns all presets; their names are the choices of the setting "preset".
+// Returns all presets. Their names are the choices of the setting "preset".
 std::span<const Preset> presets();
 
-// Returns the preset of that name. Throws UsageError for an unknown name.
+// Returns the preset with that name. Throws UsageError for an unknown name.
 const Preset& presetNamed(std::string_view name);
 
 void applyPreset(const Preset& preset, Request& request);
 
-// Resets the preset's settings to their defaults.
+// Resets all settings of the preset to their defaults.
 void clearPreset(const Preset& preset, Request& request);
 
-// Returns the first preset whose settings the request has; null if there is none.
+// Returns the first preset whose values the request has; null if no preset matches.
 const Preset* presetOf(const Request& request);
 
 }  // namespace defocus::engine

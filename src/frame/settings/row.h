@@ -1,6 +1,6 @@
 #pragma once
-// Builds rows of the settings table, with a function for each kind of value and a member for each column. The functions
-// take a `member`: a callable that returns a reference to the value in a request, const or not. Private to rows.cpp.
+// Builds rows of the settings table: a function for each kind of value, and a Row member for each column. `member` is a
+// callable that returns a reference to the setting's value in a request, const or not. Private to rows.cpp.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +28,7 @@ public:
         setting_.help = std::move(help);
     }
 
-    // Members that set a column.
+    // Members that set one column of the row.
     Row&& kind(SettingKind kind) && { return with(&Setting::kind, kind); }
     Row&& metavar(std::string metavar) && { return with(&Setting::metavar, std::move(metavar)); }
     Row&& unit(std::string unit) && { return with(&Setting::unit, std::move(unit)); }
@@ -55,7 +55,7 @@ public:
     }
     Row&& unused(Setting::Unused reason) && { return with(&Setting::unused, std::move(reason)); }
 
-    // Members that set how a value is read, written and cleared.
+    // Members that set how the value is parsed, formatted and cleared.
     template <typename Set, typename Text>
     Row&& values(Set set, Text text) && {
         setting_.set = set;
@@ -67,7 +67,8 @@ public:
         setting_.clear = clear;
         return std::move(*this).values(set, text);
     }
-    // Clearing the setting restores the value that `member` has in a default Request, or calls `member`.
+    // Defines how the setting is cleared: by restoring the default value of `member`, or by calling `member` if it is a
+    // function of a Request.
     template <typename Member>
     Row&& clears(Member member) && {
         if constexpr (std::is_same_v<Member, void (*)(Request&)>)
@@ -76,7 +77,7 @@ public:
             setting_.clear = [=](Request& request) { member(request) = member(std::as_const(defaultRequest())); };
         return std::move(*this);
     }
-    // Marks a setting that may be given several times; `texts` returns all its values.
+    // Marks a setting that may be given several times. `texts` returns all its values.
     Row&& repeats(std::function<std::vector<std::string>(const Request&)> texts) && {
         setting_.repeated = true;
         return with(&Setting::texts, std::move(texts));
@@ -106,7 +107,7 @@ struct IsOptional : std::false_type {};
 template <typename Value>
 struct IsOptional<std::optional<Value>> : std::true_type {};
 
-// Returns the value of a member; none for an empty optional.
+// Returns the value of a member; an empty optional gives none.
 template <typename Member>
 auto valueOf(const Request& request, Member member) {
     const auto& value = member(request);
@@ -180,7 +181,7 @@ Row choice(std::string name, std::string option, std::vector<std::pair<std::stri
                 });
 }
 
-// Row for a text or, with SettingKind::path, a file or folder name. An empty text leaves the value open.
+// Returns a row for a text or, with SettingKind::path, a file or folder name. An empty text means unset.
 template <typename Member>
 Row words(SettingKind kind, std::string name, std::string option, std::string metavar, Member member,
           std::string help) {
@@ -196,7 +197,7 @@ Row words(SettingKind kind, std::string name, std::string option, std::string me
                 });
 }
 
-// Row for a value with a text form of its own.
+// Returns a row for a value with a text format of its own.
 template <typename Set, typename Text>
 Row other(std::string name, std::string option, std::string metavar, Set set, Text text, std::string help) {
     return Row(SettingKind::other, std::move(name), std::move(option), std::move(metavar), std::move(help))

@@ -24,7 +24,7 @@ namespace {
 
 using Rows = std::vector<Setting>;
 
-// Callable that returns a member of a Request, for the functions of row.h.
+// Callable that returns a member of a Request, as the functions of row.h expect.
 #define MEMBER(path)             \
     [](auto& request) -> auto& { \
         return request.path;     \
@@ -220,7 +220,7 @@ std::string unitOf(std::string_view metavar) {
     return "";
 }
 
-// Returns the function that says why a lens field has no effect.
+// Returns the function that gives the reason why a lens field has no effect.
 Setting::Unused unusedLensField(LensFeature feature) {
     switch (feature) {
         case LensFeature::camera:
@@ -315,8 +315,8 @@ Rows lensRows() {
 
 // ---- samples --------------------------------------------------------------------------------------------------------
 
-// A preset has no value of its own; see presets.h. Its row precedes the rows of all settings that it sets, so that
-// explicit options override the preset.
+// Row of the setting "preset", which stores no value; see presets.h. It precedes the rows of all settings that a preset
+// sets, so that options given explicitly override the preset.
 Row presetRow() {
     std::vector<std::string> names;
     std::vector<std::string> lines;
@@ -545,7 +545,7 @@ std::vector<Setting>& table() {
         add(SettingGroup::method, methodRows());
         add(SettingGroup::display, displayRows());
         add(SettingGroup::developer, developerRows());
-        rows.reserve(rows.size() + 16);  // keeps pointers to rows valid when addSetting adds rows
+        rows.reserve(rows.size() + 16);  // keeps pointers to rows valid when addSetting appends rows
         return rows;
     }();
     return all;

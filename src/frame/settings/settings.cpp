@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Converts "farComponents" to "far-components".
+// Converts a name to an option's form: "farComponents" to "far-components".
 std::string dashed(std::string_view name) {
     std::string text = snakeCase(name);
     std::ranges::replace(text, '_', '-');

@@ -1,9 +1,10 @@
 #pragma once
-// The settings table: one row for each value of a request. The command line, shots and their schema, image metadata,
-// the settings hash, the window, Python's keywords and docs/settings.md are made from these rows. A new setting needs a
-// member of Request (include/defocus/request.h), a row in rows.cpp, and the code that uses it.
+// The settings table: one row for each value of a request. The command line, shot files and their schema, image
+// metadata, the settings hash, the window, Python's keywords and docs/settings.md are generated from it. A new setting
+// needs a member of Request (include/defocus/request.h), a row in rows.cpp, and the code that uses the value.
 //
-// Values are read and written as text, in the form of the command line: set(request, *text(request)) changes nothing.
+// Values are parsed and formatted as text, in the format of the command line: set(request, *text(request)) changes
+// nothing.
 
 #include <functional>
 #include <optional>
@@ -19,14 +20,14 @@ namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
-// The results that a setting affects.
+// Which results a setting affects.
 enum class SettingEffect {
     pixels,   // the linear image
-    display,  // only PNG, JPEG and video
+    display,  // only the 8-bit output: PNG, JPEG and video
     run,      // only how the image is computed: time, memory, caches
 };
 
-// Inputs that decide whether a setting has an effect.
+// Inputs for deciding whether a setting has an effect.
 struct SettingContext {
     const Request& request;
     const Method& method;
@@ -38,67 +39,67 @@ struct Setting {
     // Returns the REASON in the warning "--option has no effect: REASON"; empty if the setting has an effect.
     using Unused = std::function<std::string(const SettingContext&)>;
 
-    std::string name;    // name in shots, metadata and glTF extras: "blurThreshold"; snake_case in Python
-    std::string option;  // name on the command line: "--blur-threshold"; "SCENE" for a positional argument
+    std::string name;    // in shots, metadata and glTF extras: "blurThreshold"; snake_case in Python
+    std::string option;  // on the command line: "--blur-threshold"; "SCENE" for a positional argument
     SettingGroup group = SettingGroup::scene;
     SettingKind kind = SettingKind::text;
-    std::string metavar;  // form of the value in --help: "N", "PX", "X,Y,Z", "a|b|c"
+    std::string metavar;  // placeholder for the value in --help: "N", "PX", "X,Y,Z", "a|b|c"
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
-    double min = 0;       // range of numbers and integers
+    double min = 0;       // allowed range of numbers and integers
     double max = 0;
-    std::vector<std::string> choices;  // allowed words; for a number: words that may replace it
+    std::vector<std::string> choices;  // allowed words; for a number: words allowed in its stead
     std::string help;
-    bool everyday = false;              // shown by --help; --help-all shows all
-    std::string example;                // example value, for settings without default and choices
-    std::vector<std::string> excludes;  // names of settings that cannot be given together with this one
+    bool everyday = false;              // shown by --help; --help-all shows all settings
+    std::string example;                // example value, for settings that have neither default nor choices
+    std::vector<std::string> excludes;  // names of settings that exclude this one
     SettingEffect effect = SettingEffect::pixels;
-    bool recorded = true;     // written to image metadata
-    bool repeated = false;    // may be given several times; each value is added to the others
-    bool lensField = false;   // field of lens/lens_fields.h; a file's camera may set it too
+    bool recorded = true;     // whether it is written to image metadata
+    bool repeated = false;    // may be given several times; values accumulate
+    bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
-    bool keyed = false;       // whether a shot may animate the setting
+    bool keyed = false;       // whether a shot may animate the setting with keyframes
     std::string schema;       // JSON schema of the value; empty: derived from the kind
-    char arraySeparator = 0;  // separates array elements in the text; 0: the JSON value is no array
-    Unused unused = {};       // empty: the setting always has an effect
+    char arraySeparator = 0;  // separates array elements in the text; 0: the JSON value isn't an array
+    Unused unused = {};       // empty function: the setting always has an effect
 
-    // Sets the value from a text. Throws Error that names the allowed values.
+    // Sets the value from its text. Throws Error, with the allowed values in its message, for any other text.
     std::function<void(Request&, const std::string&)> set;
-    // Returns the value in the form that set() reads; none if the value is open.
+    // Returns the value in the format that set() reads; none if the value is unset.
     std::function<std::optional<std::string>(const Request&)> text;
-    // Restores the value of a default Request.
+    // Restores the value that a default Request has.
     std::function<void(Request&)> clear;
-    // Returns all values of a repeated setting.
+    // Returns the texts of all values of a repeated setting.
     std::function<std::vector<std::string>(const Request&)> texts;
 };
 
 // Returns all rows in the order of --help. Settings of methods (MethodSetting) are not included.
 std::span<const Setting> settings();
 
-// Adds a row at the end. Only for programs that extend the table before its first use, such as tests.
+// Appends a row. Only for programs that extend the table before its first use, such as tests.
 void addSetting(Setting setting);
 
-// Returns the setting of that name; null for an unknown name.
+// Returns the setting with that name; null for an unknown name.
 const Setting* settingNamed(std::string_view name);
 
-// Returns whether a value suits only one scene, such as a camera, a lens or a clip. The window clears these settings when
-// it opens another file.
+// Returns whether a setting applies to one scene only, such as a camera, a lens or a clip. The window clears these
+// settings when it opens another file.
 bool dependsOnScene(const Setting& setting);
 
-// Sets a value by name. Names of method settings ("far-components" or "farComponents") are allowed too. Throws
-// UsageError for a bad value or an unknown name. For an unknown name, the message suggests the nearest name.
+// Sets a value by the setting's name, or a method's setting by its name ("far-components" or "farComponents"). Throws
+// UsageError for a bad value or an unknown name; the message suggests the nearest known name.
 void setByName(Request& request, std::string_view name, const std::string& text);
 
-// Returns the text of a request's value; none if the value is open or the default.
+// Returns the text of the setting's value in a request; none if the value is unset or the default.
 std::optional<std::string> changedText(const Setting& setting, const Request& request);
 
-// Returns the names and values of all settings that affect the pixels. Paths are left out, because file contents are
-// hashed elsewhere.
+// Returns names and values of all settings that affect the pixels. Paths are left out, because file contents are hashed
+// separately.
 std::string pixelSettings(const Request& request);
 
-// Converts "blurThreshold" to "blur_threshold".
+// Converts a name to snake_case: "blurThreshold" to "blur_threshold".
 std::string snakeCase(std::string_view name);
 
-// Returns the group's heading in --help and docs: "Samples and level of detail".
+// Returns the group's heading in --help and docs, such as "Samples and level of detail".
 std::string groupTitle(SettingGroup group);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Finds settings that a request gives but that have no effect.
+// Finds settings that a request gives although they have no effect.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns a line for each reason that lists the options without effect. `lens`: the lens of the request and its camera.
+// Returns a line for each reason, with the options that have no effect for that reason. `lens`: lens of the request and
+// its camera.
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens);
 
 }  // namespace defocus::engine

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t maxSegments = 64;
 constexpr std::size_t minFocusPoints = 3;
 constexpr std::size_t maxFocusPoints = 16;
-constexpr double farthest = 1e12;  // m
+constexpr double farthest = 1e12;  // largest distance or coordinate, m
 
 Pixel parsePixel(const std::string& column, const std::string& row) {
     return {static_cast<int>(parseInteger(column, 0, maxImageSide - 1)),
@@ -173,7 +173,7 @@ std::optional<std::string> focusAutoText(const Request& request) {
     return std::holds_alternative<FocusAuto>(request.focus) ? "true" : "false";
 }
 
-// Splits at the last '=', because the name may contain '='.
+// Splits the text at the last '=', because the node's name may contain '='.
 void addNodeBlur(Request& request, const std::string& text) {
     const std::size_t equals = text.rfind('=');
     if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);

@@ -1,6 +1,7 @@
 #pragma once
-// Text forms of values such as "320x240", "x,y", "circular:far-components=5". Private to rows.cpp. Each set… function
-// throws Error that names the allowed values. Each …Text function returns none if the value is open.
+// Parses and formats values such as "320x240", "x,y", "circular:far-components=5". Private to rows.cpp. Each set…
+// function throws Error, with the allowed values in its message, for any other text. Each …Text function returns none
+// if the value is unset.
 
 #include <optional>
 #include <string>
@@ -40,7 +41,7 @@ std::optional<std::string> focusPointsText(const Request& request);
 void setFocusAuto(Request& request, const std::string& text);
 std::optional<std::string> focusAutoText(const Request& request);
 
-// Restores the default focus if the request has a focus of this type.
+// Restores the default focus if the request's focus has the type Choice.
 template <typename Choice>
 void clearFocus(Request& request) {
     if (std::holds_alternative<Choice>(request.focus)) request.focus = CameraFocus{};
@@ -50,7 +51,7 @@ void addNodeBlur(Request& request, const std::string& text);
 std::vector<std::string> nodeBlurTexts(const Request& request);
 std::optional<std::string> nodeBlurText(const Request& request);
 
-// Sets the method. Method settings that the text doesn't name get their defaults.
+// Sets the method. Its settings that the text doesn't give are reset to their defaults.
 void setMethod(Request& request, const std::string& text);
 std::optional<std::string> methodText(const Request& request);
 void clearMethod(Request& request);

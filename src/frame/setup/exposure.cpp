@@ -17,7 +17,7 @@ constexpr double middleGrey = 0.18;
 constexpr double brightestAtMost = 1;
 constexpr double brightestAtLeast = 0.4;
 constexpr double brightestShare = 0.02;
-constexpr int meterWidth = 160;  // px
+constexpr int meterWidth = 160;  // width of the metered image, px
 constexpr std::uint32_t meterSamples = 4;
 
 struct HiddenSurroundings {

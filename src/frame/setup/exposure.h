@@ -10,28 +10,28 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered. The request can ask for that. It is also the default for the lights of a
-// file, which may be as bright as the sun, if the lens has no exposure time.
+// Returns whether the exposure is metered: if the request asks for it, or by default if the file has lights, which may
+// be as bright as the sun, and the lens has no exposure time.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
-// Returns the exposure (EV) for a linear image whose alpha is the coverage by metered surfaces. The exposure maps the
-// log-average luminance to middle grey, 18 % (Reinhard et al. 2002, Photographic Tone Reproduction for Digital Images).
-// It is clamped so that the 98th percentile of the luminances lies between 40 % and 100 % of white. 0 for an image
-// without light.
+// Returns the exposure (EV) that maps the log-average luminance of a linear image to middle grey, 18 % (Reinhard et al.
+// 2002, Photographic Tone Reproduction for Digital Images). Ignores pixels with alpha, the coverage by metered
+// surfaces, up to 0.5. The exposure is clamped so that the 98th percentile of the luminances lies between 40 % and 100
+// % of white. Returns 0 for an image without light.
 double meteredExposure(const ImageView& image);
 
-// Returns the exposure (EV) for a view, from a small image of its surfaces without blur and environment. Needs a
-// current GL context and pyramids. Hides the world's environment during the call.
+// Renders a small image of the view's surfaces, without blur and environment, and meters it. Returns the exposure (EV).
+// Needs a current GL context and pyramids. Hides the world's environment during the call.
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
                        const std::filesystem::path& shaderFolder = {});
 
-// Returns the exposure (EV) that the request gives as a value; none if it leaves the exposure to the lens or a meter.
+// Returns the exposure (EV) that the request gives as a value; none if it is left to the lens or the meter.
 std::optional<double> exposureOf(const Request& request);
 
-// Returns the exposure (EV) that the request or the lens gives without a meter.
+// Returns the exposure (EV) that follows from the request or the lens without metering.
 double unmeteredExposure(const Request& request, const Lens& lens);
 
-// Returns the exposure (EV) of a request's image.
+// Returns the exposure (EV) of a request's image, metered if metersExposure() says so.
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,
                       const std::filesystem::path& shaderFolder = {});
 

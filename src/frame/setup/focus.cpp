@@ -14,14 +14,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double defaultFocusDistance = 2.5;  // m, for a scene beside or behind the camera
+constexpr double defaultFocusDistance = 2.5;  // m, if the centre of the scene is beside or behind the camera
 
 double depthOfCentre(const Bounds& bounds, const View& view) {
     const double depth = bounds.empty() ? 0 : -(glm::inverse(view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
     return depth > view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
 }
 
-// Returns the median depth (m) of the surfaces in the image's middle; without such surfaces, the depth of the scene's
+// Returns the median depth (m) of the surfaces near the image's centre; if there are none, the depth of the scene's
 // centre.
 double depthOfSubject(const Scene& scene, const Pose& pose, const View& view) {
     const std::optional<double> depth = depthOfMiddle(scene, pose, view);
@@ -37,7 +37,8 @@ void focusAlong(const Scene& scene, const Pose& pose, const std::vector<Pixel>& 
     focusThrough(points, view.lens, "--focus-points");
 }
 
-// Solves w + mx·X + my·Y = s for points (X, Y, −w) in view space, with mx = tan(swing) and my = tan(tilt).
+// Fits a plane of focus: solves w + mx·X + my·Y = s for three points (X, Y, −w) in view space, with focus distance s,
+// mx = tan(swing) and my = tan(tilt).
 void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::string& what) {
     const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
     const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
@@ -47,16 +48,17 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
     const double distance = -glm::dot(normal, points[0]) / normal.z;
     if (!(distance > 0))
         fail("{}: the plane through the three points meets the view axis at or behind the camera; choose others", what);
-    // Plane equation: normal·(X, Y, −w) = normal·point. It is divided by −normal.z.
+    // Plane equation: normal·(X, Y, −w) = normal·point, divided by −normal.z.
     lens.focusSwing = std::atan(-normal.x / normal.z);
     lens.focusTilt = std::atan(-normal.y / normal.z);
     lens.focusDistance = distance;
 }
 
-// Solves 1/w = 1/s + mx/s·X/w + my/s·Y/w + κ/s·r² for all points, by the normal equations. A small term on the diagonal
-// sets undetermined unknowns to 0.
+// Fits a curved surface of focus: solves 1/w = 1/s + mx/s·X/w + my/s·Y/w + κ/s·r² for all points by least squares; r is
+// the distance from the image's centre. A small term on the diagonal of the normal equations sets undetermined unknowns
+// to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
-    constexpr double raised = 1e-12;  // times the number of points
+    constexpr double raised = 1e-12;  // added to the diagonal for each point
     const double tanX = tanHalfHorizontalFov(lens);
     glm::dmat4 matrix(raised * static_cast<double>(points.size()));
     glm::dvec4 right(0);

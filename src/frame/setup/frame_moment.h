@@ -1,5 +1,5 @@
 #pragma once
-// State of the scene, lights and camera for one frame: everything that changes between the frames of a film.
+// State of the scene, lights and camera in one frame: everything that changes between the frames of a film.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 struct FrameMoment {
     int frame = 0;    // frame number in the film
-    double time = 0;  // seconds in the animation clip
+    double time = 0;  // s, in the animation clip
     Pose pose;        // pose in the middle of the exposure
     Shutter shutter;
     std::vector<PlacedLight> lights;
@@ -22,7 +22,7 @@ struct FrameMoment {
 // Returns the state of a prepared frame at the request's time.
 FrameMoment momentOf(const PreparedFrame& frame, const Request& request);
 
-// Sets the world's pose, shutter and lights to those of the moment.
+// Sets the world's pose, shutter and lights to those of `moment`.
 void applyMoment(const FrameMoment& moment, World& world);
 
 }  // namespace defocus::engine

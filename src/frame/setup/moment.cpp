@@ -13,7 +13,7 @@ int clipOf(const Request& request, const Scene& scene) {
 
 namespace {
 
-// Returns the time within the animation, s; a looped animation wraps it.
+// Returns `time` as a time within the animation, s; with Request::loop, it wraps at the animation's end.
 double animationTime(const Request& request, const Scene& scene, double time) {
     if (!request.loop || scene.clips.empty()) return time;
     return loopedTime(scene.clips[static_cast<std::size_t>(clipOf(request, scene))], time);

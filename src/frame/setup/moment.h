@@ -1,19 +1,19 @@
 #pragma once
-// Chooses the animation and the time of a frame, and opens the shutter for motion blur.
+// Chooses the animation and its time for a frame, and opens the shutter for motion blur.
 
 #include "frame/request.h"
 #include "plan/motion/shutter.h"
 
 namespace defocus::engine {
 
-// Returns the index of the animation that the request names. Throws Error for an animation that the scene doesn't have.
+// Returns the index of the animation that the request selects. Throws Error if the scene doesn't have that animation.
 int clipOf(const Request& request, const Scene& scene);
 
-// Returns the scene's pose in the middle of the exposure, without the nodes that the request hides. Throws Error for an
-// animation that the scene doesn't have.
+// Returns the scene's pose at the middle of the exposure, without the nodes that the request hides. Throws Error if the
+// scene doesn't have the requested animation.
 Pose exposedPose(const Request& request, const Scene& scene);
 
-// Calls openShutter (plan/motion/shutter.h) for the request's animation and for `camera`, which belongs to the world's
+// Calls openShutter (plan/motion/shutter.h) for the request's animation and for `camera`, a camera of the world's
 // scene.
 void exposeMotion(const Request& request, const PlacedCamera& camera, const RenderSettings& settings, World& world,
                   View& view);

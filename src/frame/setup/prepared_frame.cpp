@@ -50,8 +50,8 @@ void brighten(Environment& environment, double scale) {
 
 // ---- camera and lens ------------------------------------------------------------------------------------------------
 
-// Returns the lens without its focus distance, which needs the view. Messages about impossible values of the camera go
-// to `refused`. `folder`: folder of the scene's file.
+// Returns the lens without its focus distance, which depends on the view. Messages about invalid values in the camera's
+// extras are stored in `refused`. `folder`: folder of the scene's file.
 Lens chosenLens(const Request& request, const Camera& camera, const std::filesystem::path& folder,
                 std::vector<std::string>& refused) {
     const LensValues given = givenLensValues(request);
@@ -84,7 +84,7 @@ std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const P
     return pyramids;
 }
 
-// Returns the camera's matrix after the moves and turns that the request gives.
+// Returns the camera's matrix with the position, target and up direction that the request gives.
 glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCamera) {
     const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& standard) {
         return given ? asVector(*given) : standard;
@@ -103,7 +103,7 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
-// Places the camera and its lens. The focus comes last, because it may depend on all other values.
+// Places the camera and its lens. The focus is chosen last, because it may depend on all other values.
 PlacedCamera place(PreparedFrame& frame, const Request& request) {
     const double aspect = static_cast<double>(request.size.width) / request.size.height;
     PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
@@ -143,7 +143,7 @@ std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path
     Lens lens;
     lens.apertureImage = std::make_shared<Image>(readImage(path));
     try {
-        static_cast<void>(makeAperture(lens));  // throws Error for an unusable image
+        static_cast<void>(makeAperture(lens));  // throws Error for an unusable aperture image
     } catch (const Error& error) {
         fail("{}: {}", path.string(), error.what());
     }
@@ -206,7 +206,7 @@ std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<P
 }
 
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
-    // Scene and pose.
+    // Set the scene and its pose.
     PreparedFrame frame;
     frame.scene = scene;
     frame.scaleNote = guessedScaleNote(request, *scene);
@@ -214,7 +214,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
-    // Camera, lights, environment and settings.
+    // Set camera, lights, environment and settings.
     const PlacedCamera placed = place(frame, request);
     // An environment that the request names replaces the default lights.
     frame.ownLights =
@@ -224,7 +224,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     frame.settings = renderSettings(request);
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
-    // Pyramids of full detail are not worth caching.
+    // Pyramids of full detail only are not worth caching.
     if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
 }
@@ -266,7 +266,7 @@ std::vector<std::string> damageWarnings(const Scene& scene) {
     return lines;
 }
 
-// Bounds that keep squared lengths within the range of 32-bit floats.
+// Limits of the scene's size that keep squared lengths within the range of 32-bit floats.
 constexpr double largestScene = 1e15;    // m
 constexpr double smallestScene = 1e-15;  // m
 

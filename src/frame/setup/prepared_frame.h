@@ -1,5 +1,5 @@
 #pragma once
-// Builds the world and the view of a request, ready to be planned and rendered.
+// Builds the world and the view of a request, ready for planning and rendering.
 
 #include <filesystem>
 #include <memory>
@@ -16,14 +16,14 @@ namespace defocus::engine {
 struct PreparedFrame {
     std::shared_ptr<Scene> scene;
     World world;
-    std::vector<PlacedLight> ownLights;  // lights before the request changes their sizes
+    std::vector<PlacedLight> ownLights;  // lights before the request's sizes are applied
     View view;
     RenderSettings settings;
-    std::string sceneName;                 // file name, or "fish school"
-    std::optional<std::string> scaleNote;  // names the guessed unit of the scene; none: no guess
+    std::string sceneName;                 // name of the file, or "fish school"
+    std::optional<std::string> scaleNote;  // note about the guessed unit of the scene; none: unit not guessed
     std::string cameraName;
-    Lens cameraLens;                             // lens without the request's values
-    std::vector<std::string> refusedLensValues;  // messages about bad values in the camera's extras
+    Lens cameraLens;                             // lens of the scene's camera, without the request's values
+    std::vector<std::string> refusedLensValues;  // messages about invalid values in the camera's extras
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
@@ -31,49 +31,46 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
 
-// Loads the scene that a request names, or builds the built-in school of fish. Throws Error for a file that can't be
-// read.
+// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read.
 Scene loadScene(const Request& request, const Progress& progress = {});
 
 // Loads the scene and places camera, lens and lights. The world has no pyramids yet. Throws Error if the request names
-// a thing that the scene doesn't have.
+// an object, camera or animation that the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// Places camera, lens and lights in a scene that is already loaded. The scene isn't changed: the blur of its nodes and
-// its units stay as they are.
-// `environment`: environment map of an earlier frame; null: the request's.
+// Places camera, lens and lights in a loaded scene. Leaves the scene unchanged, including the blur of its nodes and its
+// units. `environment`: environment map to reuse; null: the request's is loaded.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 
-// Scales the blur of the nodes that the request names. Throws Error for a node that the scene doesn't have.
+// Scales the blur of the nodes that the request lists. Throws Error for a node that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 
-// Adds the ground that the request asks for, unless the scene has one. The ground lies beneath the scene's pose at the
-// start of the animation, so that all frames of a film share it. The scene's units must be set.
+// Adds the ground that the request asks for, unless the scene has a ground. The ground lies beneath the scene's pose at
+// the start of the animation, so that all frames of a film share it. The scene's units must already be set.
 void setGround(const Request& request, Scene& scene);
 
-// Returns the lights `own`, moved by `pose`, with the sizes that the request gives.
+// Returns the lights `own`, moved by `pose`, with the light sizes that the request gives.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
-// Sets camera and lens of a placed frame for a request with another camera. The lights stay.
+// Sets camera and lens of a placed frame for a request with another camera. The lights stay unchanged.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
 // Returns the request's environment. A default sky is scaled to the brightness of the scene's own lights. Throws Error
-// for a map that can't be read or holds infinity.
+// for a map that can't be read or contains infinity.
 Environment chosenEnvironment(const Request& request, const Scene& scene, const Pose& pose);
 
-// Loads an aperture image. Throws Error for an image that can't be read or lets no light pass.
+// Loads an aperture image. Throws Error for an image that can't be read or is entirely black.
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
 
-// Returns the near plane (m) for cameras that the user moves. It is that of the camera they started from, or nearer if
-// the scene is small.
+// Returns the near plane (m) for a camera that the user moves: `cameraNear`, or a smaller value if the scene is small.
 double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 
 // Returns the cache folder for simplified meshes; empty if the request disables the cache.
 std::filesystem::path pyramidFolder(const Request& request);
 
-// Reads the meshes' pyramids from the cache and builds the missing ones. With LodMode::off, builds pyramids of full
-// detail only.
+// Reads the meshes' pyramids from the cache and builds the missing ones. With LodMode::off, builds pyramids that have
+// full detail only.
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
 // Calls placeFrame, then addPyramids.
@@ -82,8 +79,8 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress = {}
 // Returns a line for each kind of damage in the scene's file.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
-// Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, unused values
-// of the camera, a focus that no real lens has, and pyramids that couldn't be stored.
+// Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
+// values in the camera's extras, a focus that no real lens can have, and pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine

@@ -1,6 +1,7 @@
 #pragma once
-// Computes a hash of everything that a frame's pixels depend on. Frames with equal hashes have equal pixels on machines
-// of one kind. The metadata of frames and of their parts hold the hash, so that --resume and `merge` can match files.
+// Computes a hash of all inputs of a frame's pixels. Frames with equal hashes have equal pixels on machines of the same
+// kind. The hash is stored in the metadata of frames and of parts of frames, so that --resume and `merge` can match
+// files.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,14 +12,14 @@
 
 namespace defocus::engine {
 
-// Settings that all frames of a film, and all parts of one frame, share.
+// Settings that all frames of a film, or all parts of a frame, have in common.
 struct FilmSettings {
-    std::uint64_t world = 0;  // worldHash: meshes, materials, environment, shaders
-    Request request;          // for method, layer format and other settings that affect pixels
-    std::string encoding;     // pixel encoding, such as tone map and exposure; empty: linear EXR
+    std::uint64_t world = 0;  // worldHash of meshes, materials, environment and shaders
+    Request request;          // for the method, layer format and other settings that affect pixels
+    std::string encoding;     // encoding of the pixels, such as tone map and exposure; empty: linear EXR
 };
 
-// Returns the settings that `frame` shares with the other frames of its film. `frame` may lack its pyramids.
+// Returns the settings that `frame` has in common with the other frames of its film. `frame` needs no pyramids.
 FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
                           const std::filesystem::path& shaderFolder);
 

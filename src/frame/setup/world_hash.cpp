@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Hashes members one by one, because the padding bytes of structs are undefined.
+// Hashes structs member by member, because their padding bytes are undefined.
 class Hasher {
 public:
     template <typename... Values>
@@ -44,7 +44,7 @@ private:
         if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
             const std::array<Value, 1> one = {value};
             hash_ = hashBytes(std::as_bytes(std::span(one)), hash_);
-        } else {  // a vector or matrix
+        } else {  // value is a vector or matrix
             for (typename Value::length_type i = 0; i < Value::length(); ++i) addOne(value[i]);
         }
     }

@@ -20,7 +20,7 @@ Request withoutScene(Request options) {
     return options;
 }
 
-// Adds the scene to the recent files and reads the lists of recent files and saved views.
+// Adds the scene to the recent files, and reads the recent files and the scene's saved views.
 void readKeptLists(const Document& document, ViewState& state) {
     const std::filesystem::path& scene = state.options.scene;
     try {
@@ -46,7 +46,7 @@ void sayCacheFailure(const PreparedFrame& frame, ViewState& state) {
     if (!frame.cacheFailure.empty()) sayFault(state, "simplified meshes are not cached: " + frame.cacheFailure);
 }
 
-// Replaces the scene and resets the state that belongs to it.
+// Replaces the scene and resets the state that belongs to a scene.
 void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
     document.frame = std::move(scene.frame);
     document.draft = scene.draft;
@@ -81,7 +81,7 @@ void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
 }
 
 void stepThroughHistory(Document& document, ViewState& state, const ViewActions& actions) {
-    // A focus pull that is in progress counts as finished.
+    // Finish a running focus pull immediately.
     if (state.pull) state.lens.focusDistance = state.pull->to;
     state.pull.reset();
     EditHistory& history = document.history;
@@ -94,14 +94,14 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     static_cast<ViewEdit&>(state) = *edit;
     state.options.time = time;
     state.options.clip = clip;
-    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens already has the image
-    document.poseIsStale = !document.frame->scene->clips.empty();          // the followed camera may be elsewhere
+    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens already contains the image
+    document.poseIsStale = !document.frame->scene->clips.empty();          // a followed camera may have moved since
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;
     state.focusPoints.clear();
 }
 
-// Saves, restores and deletes views. Throws Error if the file can't be read or written.
+// Saves, restores or deletes a saved view. Throws Error if the file of saved views can't be read or written.
 void actOnSavedViews(ViewState& state, const ViewActions& actions) {
     std::vector<SavedView> views = state.savedViews;
     if (actions.saveView) {
@@ -150,7 +150,7 @@ bool takeLoadedScene(Document& document, ViewState& state) {
         adoptScene(document, state, std::move(*loaded));
         return true;
     }
-    // The pyramids of the draft: camera, lens and all edits stay.
+    // Replace the draft's pyramids; camera, lens and all edits stay.
     document.frame->world.pyramids = std::move(loaded->frame->world.pyramids);
     document.draft = false;
     ++document.worldVersion;

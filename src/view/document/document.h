@@ -1,5 +1,5 @@
 #pragma once
-// The window's scene: loading, edits, and the world that is drawn.
+// The scene of the window: loading, edits, and the world that is drawn.
 
 #include "view/document/edit_history.h"
 #include "view/document/scene_loader.h"
@@ -8,44 +8,45 @@
 namespace defocus::engine {
 
 struct Document {
-    std::filesystem::path shaderFolder;  // empty: the embedded shaders
-    bool remembersFiles = true;          // opened scenes are added to the recent files
+    std::filesystem::path shaderFolder;  // empty: use the embedded shaders
+    bool remembersFiles = true;          // add opened scenes to the recent files
 
     SceneLoader loader;
-    std::unique_ptr<PreparedFrame> frame;  // null: no scene yet
-    bool draft = false;                    // the scene's pyramids are still being built
+    std::unique_ptr<PreparedFrame> frame;  // null: no scene is open
+    bool draft = false;                    // `frame` has draft pyramids; the final ones are being built
     EditHistory history;
-    Request shown;                           // the request that `frame` shows; see updateWorld
-    bool poseIsStale = false;                // the pose is due even if the request is unchanged
-    std::vector<double> ownBlurs;            // Node::cocScale of the scene's nodes when it was opened
-    std::vector<glm::dmat4> shutterCameras;  // see View; only while the view follows the file's camera
-    std::uint64_t poseVersion = 0;           // increases when anything in the world moves
-    std::uint64_t worldVersion = 0;          // increases when GPU copies of the world must be rebuilt
+    Request shown;                           // request that `frame` was last updated to; see updateWorld
+    bool poseIsStale = false;                // the pose must be updated even if the request is unchanged
+    std::vector<double> ownBlurs;            // Node::cocScale of the scene's nodes as loaded
+    std::vector<glm::dmat4> shutterCameras;  // View::shutterCameras; empty unless the view follows the file's camera
+    std::uint64_t poseVersion = 0;           // incremented when anything in the world moves
+    std::uint64_t worldVersion = 0;          // incremented when GPU copies of the world must be rebuilt
 };
 
-// Starts to open a scene. It keeps samples, levels, method and surroundings of the current one.
+// Starts to open a scene. Keeps samples, levels, method and surroundings of the current request.
 void openScene(Document& document, const ViewState& state, const std::filesystem::path& scene);
 
-// Takes over the loader's result. Returns whether another scene was opened: everything that refers to `frame` is then
-// invalid. Needs a current GL context.
+// Adopts the loader's result, if there is one. Returns whether a new scene was opened, which invalidates all references
+// into `frame`. Needs a current GL context.
 bool takeLoadedScene(Document& document, ViewState& state);
 
-// Returns the view of the picture.
+// Returns the view that the window shows.
 View currentView(const Document& document, const ViewState& state);
 
-// Notes the state as an edit; `held`: a mouse button or key is held down.
+// Records the state for undo and redo. `held`: a mouse button or key is held down.
 void noteEdit(Document& document, const ViewState& state, bool held);
 
-// Does the document's part of the actions: opening, undo, saved views, cameras. `exporting`: the scene must not change.
-// Throws Error.
+// Executes the actions that concern the document: opening, undo, saved views, cameras. `exporting`: the scene must not
+// change. Throws Error if an action fails.
 void actOnDocument(Document& document, ViewState& state, const ViewActions& actions, bool exporting);
 
 // Applies all differences between the state's request and Document::shown: camera, aperture image, blur of nodes, time
-// and hidden nodes, ground, surroundings, lights. Changes that can't be applied are reverted with a message.
-// `held`: a mouse button is held down; surroundings wait until it is released. A ground waits for the pyramids.
+// and hidden nodes, ground, surroundings, lights. A change that can't be applied is reverted, with a message. `held`: a
+// mouse button is held down; surroundings are applied after its release. A ground is applied after the pyramids are
+// built.
 void updateWorld(Document& document, ViewState& state, bool held);
 
-// Switches to a camera of the file, or "auto", and to its lens. Throws Error.
+// Switches to a camera of the file, or "auto", and to the camera's lens. Throws Error for an unknown camera.
 void switchCamera(Document& document, ViewState& state, const std::string& name);
 
 }  // namespace defocus::engine

@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxSteps = 200;
-constexpr double restTime = 0.5;  // s
+constexpr double restTime = 0.5;  // s without change after which an edit is complete
 
 bool sameOptions(const Request& a, const Request& b) {
     return std::ranges::all_of(settings(), [&](const Setting& setting) {
@@ -51,7 +51,7 @@ void EditHistory::note(const ViewEdit& now, bool held, double seconds) {
     const bool grasped = held && !held_;
     const bool letGo = !held && held_;
     held_ = held;
-    if (grasped && pending_) commit(latest_);  // the wheel's edit ends when a drag begins
+    if (grasped && pending_) commit(latest_);  // an edit by mouse wheel is complete when a drag begins
     if (changed) changedAt_ = seconds;
     latest_ = now;
     if (changed) pending_ = !sameEdit(now, current_);

@@ -1,6 +1,6 @@
 #pragma once
-// Undo and redo of everything that determines the picture: camera, lens, surroundings, levels, samples, exposure.
-// Overlays, comparisons and the animation's time don't count as edits.
+// Undo and redo of everything that affects the picture: camera, lens, surroundings, levels, samples, exposure.
+// Overlays, comparisons and the animation's time are not part of an edit.
 
 #include <deque>
 #include <optional>
@@ -10,22 +10,22 @@
 
 namespace defocus::engine {
 
-// Returns whether both states differ in nothing that counts as an edit.
+// Returns whether two states are equal in all properties that undo and redo restore.
 bool sameEdit(const ViewEdit& a, const ViewEdit& b);
 
 class EditHistory {
 public:
-    // Restarts with the state in which a scene was opened.
+    // Clears the history. `opened`: state in which the scene was opened.
     void begin(const ViewEdit& opened);
 
-    // Takes the state of each frame. An edit becomes an undo step when the mouse button or key is released (`held`
-    // turns false). Edits by mouse wheel and keys become one after half a second without change.
+    // Receives the state of each frame. An edit becomes an undo step when the mouse button or key is released (`held`
+    // becomes false). Edits by mouse wheel or keys become an undo step after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
-    // Returns the state before the latest edit, or after the next one; none if there is no such step.
+    // Return the state before the latest edit (undo) or after the next one (redo); none if there is no such step.
     std::optional<ViewEdit> undo(const ViewEdit& now);
     std::optional<ViewEdit> redo(const ViewEdit& now);
-    // Returns the opened state, as an edit that can be undone; none if nothing differs from it.
+    // Returns the opened state, as an edit that can be undone; none if the current state equals it.
     std::optional<ViewEdit> reset(const ViewEdit& now);
 
     [[nodiscard]] std::size_t undoSteps() const { return before_.size() + (pending_ ? 1 : 0); }
@@ -39,9 +39,9 @@ private:
     ViewEdit opened_, current_;
     ViewEdit latest_;  // state of the previous frame
     Steps before_, after_;
-    bool pending_ = false;  // latest_ differs from current_
+    bool pending_ = false;  // latest_ has changes that aren't an undo step yet
     bool held_ = false;
-    double changedAt_ = 0;  // s
+    double changedAt_ = 0;  // time of the latest change, s
 };
 
 }  // namespace defocus::engine

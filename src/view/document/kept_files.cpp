@@ -25,7 +25,8 @@ fs::path userFile(const char* variable, const char* folderInHome, const char* na
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / folderInHome / "defocus" / name;
 }
 
-// Returns null without a file, and a discarded value for a file that isn't JSON. Throws Error for an unreadable file.
+// Returns the JSON in a file; null if there is no file, a discarded value if it isn't JSON. Throws Error if the file is
+// unreadable.
 json readKept(const fs::path& file) {
     std::error_code ignored;
     if (file.empty() || !fs::exists(file, ignored)) return nullptr;
@@ -65,7 +66,7 @@ json viewJson(const SavedView& view) {
             {"lens", lens}};
 }
 
-// Returns none for an impossible camera or lens.
+// Parses a saved view. Returns none for an invalid camera or lens.
 std::optional<SavedView> viewOf(const json& object) try {
     SavedView view;
     view.name = object.at("name").get<std::string>();
@@ -93,14 +94,14 @@ json allViews(const fs::path& file) {
     return object;
 }
 
-// Returns the recent scenes, including missing ones, whose drive may be mounted again.
+// Returns the recent scenes. Missing files are included, because their drive may be mounted again.
 std::vector<std::string> rememberedNames(const fs::path& list) {
     std::vector<std::string> names;
     try {
         for (const json& entry : readKept(list))
             if (entry.is_string()) names.push_back(entry.get<std::string>());
     } catch (const Error&) {
-        return {};  // an unreadable list is replaced
+        return {};  // an unreadable list is overwritten later
     }
     return names;
 }

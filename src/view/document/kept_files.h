@@ -1,12 +1,12 @@
 #pragma once
-// The JSON files that the window keeps between runs. Settings and saved views are in $XDG_CONFIG_HOME/defocus
+// JSON files that the window keeps between runs. Settings and saved views are stored in $XDG_CONFIG_HOME/defocus
 // (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
 
 #include "view/state/view_state.h"
 
 namespace defocus::engine {
 
-// Paths of the files; empty if the environment names no folder.
+// Return the paths of the files; empty if neither the XDG variable nor the home folder is known.
 std::filesystem::path viewSettingsPath();
 std::filesystem::path savedViewsPath();
 std::filesystem::path recentFilesPath();
@@ -14,24 +14,24 @@ std::filesystem::path recentFilesPath();
 struct ViewSettings {
     bool dark = true;
     bool panel = true;
-    double interfaceScale = 1;                 // 0.5 … 3
-    std::optional<double> budgetMilliseconds;  // none: depends on the driver
-    int width = 0;                             // window size in window units; 0: not stored
+    double interfaceScale = 1;                 // factor, 0.5 … 3
+    std::optional<double> budgetMilliseconds;  // ms per frame; none: depends on the driver
+    int width = 0;                             // size in window units; 0: not stored
     int height = 0;
 };
 
-// Reads the settings; missing and invalid values are the defaults. Throws Error for a file that isn't a JSON object.
+// Reads the settings; missing and invalid values get their defaults. Throws Error for a file that isn't a JSON object.
 ViewSettings readViewSettings(const std::filesystem::path& file);
-// Throws Error if the file can't be written.
+// Writes the settings. Throws Error if the file can't be written.
 void writeViewSettings(const std::filesystem::path& file, const ViewSettings& settings);
 
-// Returns a scene's key for saved views: its absolute path, or "school" for the built-in scene.
+// Returns the key of a scene's saved views: its absolute path, or "school" for the built-in scene.
 std::string savedViewsKey(const std::filesystem::path& scene);
 
-// Returns the valid views of a scene. Throws Error for a file that isn't a JSON object.
+// Returns the saved views of a scene, without invalid ones. Throws Error for a file that isn't a JSON object.
 std::vector<SavedView> readSavedViews(const std::filesystem::path& file, const std::string& key);
 
-// Replaces the views of one scene. Throws Error if the file can't be read or written.
+// Replaces the saved views of one scene. Throws Error if the file can't be read or written.
 void writeSavedViews(const std::filesystem::path& file, const std::string& key, const std::vector<SavedView>& views);
 
 inline constexpr std::size_t maxRecentFiles = 12;
@@ -39,7 +39,7 @@ inline constexpr std::size_t maxRecentFiles = 12;
 // Returns the recent scenes that exist, latest first; none if the list can't be read.
 std::vector<std::filesystem::path> readRecentFiles(const std::filesystem::path& list);
 
-// Puts a scene first. Throws Error if the list can't be written.
+// Moves or adds a scene to the front of the list. Throws Error if the list can't be written.
 void rememberRecentFile(const std::filesystem::path& list, const std::filesystem::path& scene);
 
 }  // namespace defocus::engine

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t draftTriangles = 60'000;  // min triangles of all meshes for a draft
+constexpr std::uint64_t draftTriangles = 60'000;  // approximate triangles of a draft; smaller scenes get no draft
 
-// Returns the scene with draft pyramids; null for small scenes, whose pyramids are ready soon.
+// Returns the scene with draft pyramids; null for a small scene, whose final pyramids are built quickly.
 std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {
     const std::vector<Mesh>& meshes = frame.scene->meshes;
     std::uint64_t total = 0;
@@ -59,7 +59,7 @@ void SceneLoader::run(Job& job) {
             const std::scoped_lock lock(job.mutex);
             job.ready = LoadedScene{job.options, std::move(draft), {}, true};
         }
-        // The window may switch between all modes, which need more than full detail.
+        // Build all levels, because the window may switch between all level modes.
         frame->settings.lod = job.options.lod == LodMode::off ? LodMode::fractional : job.options.lod;
         addPyramids(*frame, progress);
         frame->settings.lod = job.options.lod;

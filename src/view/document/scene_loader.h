@@ -15,31 +15,32 @@ namespace defocus::engine {
 
 struct LoadedScene {
     Request options;
-    std::unique_ptr<PreparedFrame> frame;  // null: opening failed
-    std::string fault;                     // reason of the failure
-    bool draft = false;                    // coarse meshes; the same scene with its pyramids follows
+    std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
+    std::string fault;                     // why the scene could not be opened
+    bool draft = false;                    // has coarse draft pyramids; the final result follows
 };
 
 class SceneLoader {
 public:
     SceneLoader() = default;
-    // Cancels all jobs, at their next report of progress, and waits for them.
+    // Cancels all jobs and waits until they end, which is at their next report of progress.
     ~SceneLoader();
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
 
-    // Starts a job; cancels jobs that have delivered no draft yet.
+    // Starts to open a scene. Cancels jobs that have not delivered a draft yet.
     void open(const Request& options);
-    // Returns the next result: a draft, the scene, or a failure. Each is returned once.
+    // Returns the next result: a draft, the final scene, or a failure. Returns each result once; none if there is no
+    // new one.
     std::optional<LoadedScene> take();
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
     struct Opening {
         std::string name;   // name of the scene
-        std::string stage;  // "fish", "pyramids" …
-        double share = 0;   // progress of the stage, 0 … 1
+        std::string stage;  // such as "fish" or "pyramids"
+        double share = 0;   // finished fraction of the stage, 0 … 1
     };
-    // Returns the progress while the loader is busy.
+    // Returns the progress of the current job; none if the loader is idle.
     [[nodiscard]] std::optional<Opening> opening() const;
 
 private:
@@ -47,15 +48,15 @@ private:
         Request options;
         std::atomic<bool> cancelled = false;
         bool draftTaken = false;
-        mutable std::mutex mutex;  // guards the members below
+        mutable std::mutex mutex;  // guards opening, ready and ended
         Opening opening;
-        std::optional<LoadedScene> ready;  // the next result
+        std::optional<LoadedScene> ready;  // next result for take()
         bool ended = false;
         std::jthread thread;
     };
     static void run(Job& job);
 
-    std::vector<std::unique_ptr<Job>> jobs_;  // only the last job is active; the others are cancelled
+    std::vector<std::unique_ptr<Job>> jobs_;  // the last job is the current one; all others are cancelled
 };
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// Brings the world of a document up to date with the request of its state. Panels, keys and undo only edit the request.
+// Updates the world of a document to the request of the window's state. Panels, keys and undo change only the request.
 
 #include <algorithm>
 #include <tuple>
@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The parts of a request that are applied together.
+// Groups of a request's members that are compared, applied and reverted together.
 constexpr auto cameraPart = [](auto& request) { return std::tie(request.camera); };
 constexpr auto aperturePart = [](auto& request) { return std::tie(request.lens.apertureImage); };
 constexpr auto nodeBlurPart = [](auto& request) { return std::tie(request.nodeBlur); };
@@ -27,7 +27,7 @@ constexpr auto surroundingsPart = [](auto& request) {
 };
 constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
 
-// Calls `update` if the part differs. Reverts the part if that fails.
+// Calls `update` if the part differs between the state and the world. Reverts the part of the state if `update` throws.
 template <typename Part, typename Update>
 void apply(const Part& part, Document& document, ViewState& state, const Update& update) {
     if (part(state.options) == part(document.shown)) return;
@@ -40,7 +40,7 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the request that places a camera of the file, without other position, focus or size.
+// Returns the request for a camera of the file, without the request's own camera position and image-dependent focus.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -59,7 +59,8 @@ void updateLights(Document& document, const ViewState& state) {
     ++document.poseVersion;
 }
 
-// Returns the camera that the view follows, at the world's pose; the view's own position if it follows none.
+// Returns the camera that the view follows, in the world's pose; if the view follows none, a camera at the view's
+// position.
 PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
     const PreparedFrame& frame = *document.frame;
@@ -72,7 +73,7 @@ PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     return placed;
 }
 
-// Poses the scene. The selected object stays selected unless it is hidden.
+// Updates the world's pose to the request. The selected object stays selected unless it is now hidden.
 void updatePose(Document& document, ViewState& state) {
     const Scene& scene = *document.frame->scene;
     World& world = document.frame->world;
@@ -96,7 +97,8 @@ void updatePose(Document& document, ViewState& state) {
 
 void updateNodeBlur(Document& document, ViewState& state) {
     Scene& scene = *document.frame->scene;
-    const std::size_t count = std::min(scene.nodes.size(), document.ownBlurs.size());  // fewer nodes without the ground
+    const std::size_t count =
+        std::min(scene.nodes.size(), document.ownBlurs.size());  // the ground's node may be missing
     for (std::size_t i = 0; i < count; ++i) scene.nodes[i].cocScale = document.ownBlurs[i];
     setNodeBlur(state.options, scene);
     updatePose(document, state);

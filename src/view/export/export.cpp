@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double exportSlice = 60;  // ms per frame
+constexpr double exportSlice = 60;  // time per frame for rendering the still, ms
 
-// Returns the view at the size of stills.
+// Returns the view of the window at the size of an exported still.
 View exportView(const Document& document, const ViewState& state) {
     View view = currentView(document, state);
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
@@ -33,7 +33,7 @@ void startStill(std::optional<StillExport>& still, const Document& document, Vie
                                                 writeOptions(state), software, document.shaderFolder});
 }
 
-// Writes the shot. Returns the command that renders it.
+// Writes the recorded shot to a file. Returns the command that renders the shot.
 std::string writeShot(const Document& document, ViewState& state) {
     const PreparedFrame& frame = *document.frame;
     writeFile(state.shotPath, shotJson({state.options, frame.cameraLens, state.shotKeys, state.animationSpeed,

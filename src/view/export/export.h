@@ -1,5 +1,5 @@
 #pragma once
-// Exports stills, shots, and the picture as a command.
+// Exports still images, shots, and the command that renders the picture.
 
 #include <optional>
 
@@ -8,15 +8,15 @@
 
 namespace defocus::engine {
 
-// Returns the `defocus render` command of the picture.
+// Returns the `defocus render` command for the window's picture.
 std::string pictureCommand(const Document& document, const ViewState& state);
 
-// Records key frames, saves shots, and starts or cancels stills as the actions ask. Returns the text for the clipboard,
-// if any. Throws Error.
+// Executes the export actions: records key frames, saves shots, and starts or cancels the export of a still image.
+// Returns a text for the clipboard; none if there is none. Throws Error if an action fails.
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);
 
-// Continues the still for a part of the frame's time.
+// Continues rendering the still image for part of the frame time.
 void stepExport(std::optional<StillExport>& still, ViewState& state);
 
 }  // namespace defocus::engine

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns the value as a JSON boolean, integer or number, according to the field's type.
+// Returns a lens value as a JSON boolean, integer or number, according to the field's type.
 ordered_json valueJson(const LensField& field, double value) {
     if (std::holds_alternative<bool Lens::*>(field.member)) return value != 0;
     if (std::holds_alternative<int Lens::*>(field.member)) return static_cast<int>(value);
@@ -30,8 +30,8 @@ int frameOf(std::size_t key) {
     return static_cast<int>(key) * framesBetweenKeys;
 }
 
-// Returns the roll about the view axis of a camera that looks at `target`, in degrees. Adds the multiple of 360° that
-// brings it closest to `before`, so that no camera spins between two keys.
+// Returns the roll angle in degrees, about the view axis, of a camera that looks at `target`. Of the equivalent angles,
+// returns the one closest to `before`, so that the camera doesn't spin between two keys.
 double rollOf(const glm::dmat4& worldFromCamera, const glm::dvec3& target, double before) {
     const glm::dmat4 upright = lookingAt(glm::dvec3(worldFromCamera[3]), target);
     const double roll =
@@ -55,7 +55,7 @@ ordered_json cameraJson(const Request& options, const std::vector<ShotKey>& keys
     return camera;
 }
 
-// Returns whether the lens sets the exposure. Lens and exposure value exclude each other.
+// Returns whether the lens determines the exposure. A shot cannot also contain an exposure value then.
 bool shotExposedByLens(const std::vector<ShotKey>& keys) {
     return std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
 }
@@ -64,7 +64,7 @@ ordered_json lensJson(const std::vector<ShotKey>& keys, const Lens& cameraLens) 
     ordered_json lens = ordered_json::object();
     for (const LensField& field : lensFields()) {
         const std::string_view name = field.name;
-        if (name == "focusDistance") continue;  // keyframed as the shot's focus
+        if (name == "focusDistance") continue;  // written as keys of the shot's focus
         if ((name == "exposureTime" || name == "iso") && !shotExposedByLens(keys)) continue;
         const auto valueAt = [&](std::size_t key) { return lensFieldValue(keys[key].view.lens, field); };
         bool varies = false;
@@ -87,8 +87,8 @@ ordered_json focusJson(const std::vector<ShotKey>& keys) {
     return focus;
 }
 
-// Adds the settings that have one value in a shot. Samples and levels are written even if they are the defaults, so
-// that the shot stays the same when a default changes.
+// Adds the settings that are constant in a shot. Samples and levels are written even if they have their defaults, so
+// that the shot doesn't change when a default does.
 void addSettings(ordered_json& shot, const Request& request) {
     for (const Setting& setting : settings()) {
         if (setting.shotPlace.empty() || setting.keyed) continue;
@@ -97,7 +97,7 @@ void addSettings(ordered_json& shot, const Request& request) {
         if (text) shot[ordered_json::json_pointer(setting.shotPlace)] = settingJson(setting, *text);
     }
     if (!shot.contains("shutter")) return;
-    shot["shutter"]["seconds"] = request.shutter;  // required by a shutter
+    shot["shutter"]["seconds"] = request.shutter;  // the schema requires this value
     if (shutterSettings(request).exactMotion()) {
         shot["shutter"].erase("segments");
         shot["shutter"]["exact"] = true;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes key frames as a shot file that `defocus capture` renders (docs/shot.schema.json).
+// Writes recorded key frames as a shot file for `defocus capture` (docs/shot.schema.json).
 
 #include <string>
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace defocus::engine {
 
-inline constexpr int framesBetweenKeys = 48;  // 2 s
+inline constexpr int framesBetweenKeys = 48;  // 2 s at 24 frames per second
 
 struct ShotRecording {
     const Request& options;  // scene, clip, samples, levels, method
-    const Lens& cameraLens;  // lens of the camera options.camera; the shot's default
+    const Lens& cameraLens;  // lens of the camera options.camera, the shot's default
     const std::vector<ShotKey>& keys;
     double animationSpeed = 1;
     WriteOptions write;
     double metresPerUnit = 1;  // metres per unit of the scene
 };
 
-// Returns the shot as JSON. Camera, focus and lens values that differ between the keys are keyframed; other values are
-// fixed. The animation starts at the time of the first key. The image has the size of the last key. Needs at least one
-// key.
+// Returns the shot as JSON. Camera and focus, and lens values that differ between the keys, are written as key frames;
+// other lens values are constants. The animation starts at the time of the first key. The image has the size of the
+// last key. Needs at least one key.
 std::string shotJson(const ShotRecording& recording);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request
     checkImageExtension(request.output);
     checkWritable(request.output);
     checkStop(options);
-    // Small waves keep the window awake.
+    // Small waves keep the window responsive.
     const std::uint32_t wave = options.wave.value_or(request.software ? 2 : 8);
     driver_.emplace(
         frame.world,

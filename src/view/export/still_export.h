@@ -1,5 +1,5 @@
 #pragma once
-// Renders a still step by step, so that the window stays responsive, and writes it as `defocus render` does.
+// Renders a still image step by step, so that the window stays responsive, and writes it like `defocus render`.
 
 #include <chrono>
 #include <filesystem>
@@ -14,21 +14,22 @@ namespace defocus::engine {
 struct StillRequest {
     Request options;  // samples, seed, levels, method
     View view;
-    std::filesystem::path output;  // .exr, .png or .jpg
+    std::filesystem::path output;  // path with extension .exr, .png or .jpg
     WriteOptions write;
-    bool software = false;  // the CPU draws
+    bool software = false;  // OpenGL runs on the CPU
     std::filesystem::path shaderFolder;
 };
 
 class StillExport {
 public:
-    // Throws Error if the file can't be written or the view can't be rendered. `frame` must outlive it and keep its
-    // pose.
+    // Throws Error if the file can't be written or the view can't be rendered. `frame` must outlive the export, and its
+    // pose must not change.
     StillExport(const PreparedFrame& frame, const StillRequest& request);
 
-    // Draws one wave of samples, and writes the file after the last one. Returns false once the file is written.
+    // Draws one wave of samples, or writes the file once all samples are drawn. Returns false after the file is
+    // written.
     bool step();
-    [[nodiscard]] double share() const { return driver_->share(); }  // progress, 0 … 1
+    [[nodiscard]] double share() const { return driver_->share(); }  // finished fraction, 0 … 1
     [[nodiscard]] double secondsLeft() const;                        // estimate; infinity before the first wave
     [[nodiscard]] const StillRequest& request() const { return request_; }
 

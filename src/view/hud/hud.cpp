@@ -10,14 +10,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double markerDuration = 2.2;  // s
+constexpr double markerDuration = 2.2;  // s until the focus marker disappears
 
 ImU32 faded(ImU32 color, float alpha) {
     const auto own = static_cast<float>(color >> IM_COL32_A_SHIFT & 0xff);
     return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
 }
 
-// Returns the window position of a world-space point; none behind the camera.
+// Returns the window position of a world-space point; none for a point behind the camera.
 std::optional<ImVec2> onPicture(const Ui& ui, const glm::dvec3& point) {
     const ViewState& state = ui.state;
     const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(point, 1);
@@ -46,7 +46,7 @@ std::string rightLabel(const ViewPicture& picture, const DisplaySettings& displa
     return text;
 }
 
-// Draws the corners of a frame, or a cross if the click hit no surface.
+// Draws the four corners of a square around the focus point, or a cross if the click hit no surface.
 void drawMarkerShape(const ImVec2& at, bool hit, float half, float arm, ImU32 color, float width) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const float x : {-1.0f, 1.0f}) {
@@ -75,7 +75,7 @@ void drawDivider(const Ui& ui) {
     const std::string left = sideLabel(picture.firstSide());
     const float leftWidth = labelWidth(ui, left);
     drawLabel(ui, {std::max(begin, top.x - gap - leftWidth), top.y + gap}, left);
-    // On a narrow side the label crosses the divider; the right one is then a row lower.
+    // If one side of the divider is too narrow, its label crosses the divider. The right label then moves down a row.
     const std::string right = rightLabel(picture, display);
     const float x = std::min(top.x + gap, end - labelWidth(ui, right));
     const bool crosses = x < top.x || begin + leftWidth > top.x;
@@ -130,7 +130,7 @@ std::string samplesLabel(const ViewPicture& picture) {
     return text;
 }
 
-// Draws lens, samples and warnings at the bottom left. Returns the top right corner of the labels.
+// Draws labels for lens, samples and warnings at the bottom left. Returns the top right corner of these labels.
 ImVec2 drawStatus(const Ui& ui) {
     const float gap = 8 * ui.scale;
     const ImVec2 corner = pictureCorner(ui, 0, 1);
@@ -145,7 +145,7 @@ ImVec2 drawStatus(const Ui& ui) {
     };
     if (ui.state.navigation == Navigation::fly) labels.emplace_back("fly", brightColor);
 
-    // Side by side; a label without room starts a new row above.
+    // Place the labels side by side; a label that doesn't fit starts a new row above.
     ImVec2 next(corner.x + gap, corner.y - gap);
     ImVec2 end = next;
     for (const auto& [text, color] : labels) {

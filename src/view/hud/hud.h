@@ -1,5 +1,5 @@
 #pragma once
-// The heads-up display over the picture.
+// Heads-up display: labels, markers and messages drawn over the picture.
 
 #include "view/widgets/ui.h"
 
@@ -13,31 +13,31 @@ inline constexpr ImU32 dimColor = IM_COL32(190, 190, 190, 255);
 inline constexpr ImU32 warningColor = IM_COL32(255, 198, 92, 255);
 inline constexpr ImU32 faultColor = IM_COL32(255, 120, 105, 255);
 
-// Returns the window position of a point of the picture, x and y in [0, 1].
+// Converts a point of the picture, x and y in [0, 1] from the top left, to a window position.
 ImVec2 pictureCorner(const Ui& ui, double x, double y);
 
 struct LabelStyle {
     ImU32 color = brightColor;
-    float anchorX = 0, anchorY = 0;  // the point of the label that lies at its position, 0 … 1
+    float anchorX = 0, anchorY = 0;  // point of the label's box at the given position, 0 … 1
     float alpha = 1;
-    float width = 0;  // wraps the text; 0: no wrapping
+    float width = 0;  // max width of wrapped text; 0: no wrapping
 };
 
-// Draws text on a dark plate. Returns the size of the plate.
+// Draws text on a dark background plate. Returns the size of the plate.
 ImVec2 drawLabel(const Ui& ui, ImVec2 at, const std::string& text, const LabelStyle& style = {});
 
-// Returns the width of a label without wrapping.
+// Returns the width of a label's plate, without wrapping.
 float labelWidth(const Ui& ui, const std::string& text);
 
 std::string distanceText(double metres);
 
-// Draws messages, progress, and the list of keys.
+// Draws messages, progress and the list of keys.
 void drawNotices(const Ui& ui);
 
-// Draws the colour scale of an overlay. `status`: the top right corner of the status labels.
+// Draws the colour scale of the current overlay. `status`: top right corner of the status labels.
 void drawLegend(const Ui& ui, const ImVec2& status);
 
-// Explains how the object under the cursor is drawn.
+// Draws a tooltip that explains how the object under the cursor is drawn.
 void drawHover(const Ui& ui);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// Explains overlays: their colour scale, and how the object under the cursor is drawn.
+// Explains overlays: draws their colour scales, and how the object under the cursor is drawn.
 
 #include <fmt/format.h>
 
@@ -14,16 +14,16 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double hoverDelay = 0.12;  // s
+constexpr double hoverDelay = 0.12;  // s that the mouse rests before picking
 
 struct Legend {
     const char* title;
-    const char* shortTitle;            // for narrow pictures
-    glm::vec3 (*colour)(float);        // linear colour at a position in [0, 1]
-    std::array<const char*, 5> marks;  // evenly spaced
+    const char* shortTitle;            // used in narrow pictures
+    glm::vec3 (*colour)(float);        // maps a position on the scale, 0 … 1, to a linear colour
+    std::array<const char*, 5> marks;  // labels at even spacing
 };
 
-// The colours of shaders/view/display.frag.
+// Colours of the blur overlay; must match shaders/view/display.frag. `t` = 0.5 is in focus.
 glm::vec3 cocColour(float t) {
     const float side = 2 * t - 1;
     const glm::vec3 colour = side < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);
@@ -99,7 +99,7 @@ void drawHover(const Ui& ui) {
     const glm::dvec2 position(mouse.x, mouse.y);
     const bool wanted = state.display.overlay != DisplayOverlay::none || state.display.wireframe;
     if (!wanted || ImGui::GetIO().WantCaptureMouse || !state.area.contains(position)) return;
-    // Picking is slow in large scenes: once per position, after the mouse has rested.
+    // Picking is slow in large scenes: pick once per mouse position, after the mouse has rested.
     static glm::dvec2 pickedAt(-1);
     static std::optional<PickedSurface> picked;
     static double restsSince = 0;

@@ -1,4 +1,4 @@
-// Messages, progress and the list of keys.
+// Draws messages, progress and the list of keys.
 
 #include <fmt/format.h>
 

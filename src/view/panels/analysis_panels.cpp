@@ -1,4 +1,4 @@
-// Sections that explain the picture: overlays, comparisons, performance.
+// Panel sections that analyse the picture: overlays, comparisons, performance.
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -15,7 +15,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Starts a program from $PATH that writes to `output`. Returns −1 if there is none of that name.
+// Starts a program from $PATH with its standard output redirected to `output`. Returns its process id; −1 if it is not
+// installed.
 pid_t startProgram(std::vector<std::string> command, int output) {
     std::vector<char*> words;
     for (std::string& word : command) words.push_back(word.data());
@@ -70,7 +71,7 @@ std::optional<DesktopDialog::Outcome> DesktopDialog::take() {
     if (count != 0 || ::waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
     process_ = -1;
     ::close(output_);
-    constexpr int cancelled = 1;  // exit code of zenity and kdialog
+    constexpr int cancelled = 1;  // exit code of zenity and kdialog for a cancelled dialog
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (!text_.empty() && text_.back() == '\n') text_.pop_back();
     return Outcome{code == 0 ? std::filesystem::path(text_) : std::filesystem::path(), code != 0 && code != cancelled};

@@ -1,4 +1,4 @@
-// Exports stills, commands and shots: the section of the panel, and the dialog for the file of a still.
+// Panel section for exporting stills, commands and shots, and the dialog for a still's file name.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -23,7 +23,7 @@ bool fileExists(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-// Returns the first of "still-2.png", "still-3.png" … that doesn't exist, for "still.png".
+// Returns an unused file name: for "still.png", the first of "still-2.png", "still-3.png" … that doesn't exist.
 std::string freeName(const std::string& path) {
     const fs::path given(path);
     for (int i = 2;; ++i) {
@@ -33,7 +33,7 @@ std::string freeName(const std::string& path) {
     }
 }
 
-// Draws the rows for size and samples of a still.
+// Draws the rows for the size and the samples of a still.
 void stillRows(ViewState& state) {
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
     std::array<int, 2> edited = {size.x, size.y};
@@ -45,7 +45,7 @@ void stillRows(ViewState& state) {
     if (slider("##samples", samples, 1, 4096, ImGuiSliderFlags_Logarithmic)) state.options.samples = samples;
 }
 
-// Asks whether to replace the file. Returns true once a file name is chosen.
+// Asks, inside the dialog, whether to replace the existing file. Returns true once the user has chosen a file name.
 bool replaceRows(const Ui& ui) {
     std::string& path = ui.state.exportPath;
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_PlotHistogramHovered));
@@ -63,7 +63,7 @@ bool replaceRows(const Ui& ui) {
     return chosen;
 }
 
-// Draws the content of the dialog. Returns false once it is done.
+// Draws the contents of the dialog. Returns false once the dialog should close.
 bool dialogRows(const Ui& ui, ExportDialog& dialog) {
     std::string& path = ui.state.exportPath;
     rowLabel("File", ".exr is linear, .png and .jpg are tone-mapped");

@@ -1,4 +1,4 @@
-// Sections for the lens: focus, lens, aperture, and the exposure of the image.
+// Panel sections for the lens: focus, lens, aperture, and the exposure of the image.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -36,7 +36,8 @@ void focusPointsRow(ViewState& state) {
     state.lens.focusTilt = state.lens.focusSwing = 0;
 }
 
-// Scales the blur of the selected object's node, if its name is unique.
+// Draws the slider for the blur of the selected object's node. Draws nothing if the node has no name or isn't the first
+// node of that name.
 void nodeBlurRow(const Ui& ui) {
     if (ui.state.selected < 0) return;
     const std::vector<Node>& nodes = ui.scene().nodes;

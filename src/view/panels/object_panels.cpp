@@ -1,4 +1,4 @@
-// Sections for the objects: the tree of nodes, and the materials of the selected object.
+// Panel sections for the objects: the tree of nodes, and the materials of the selected object.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -19,12 +19,12 @@ namespace {
 struct TreeRow {
     int node = -1;
     int depth = 0;
-    bool shown = true;    // neither it nor a node above it is hidden
-    bool parent = false;  // nodes below it have rows
+    bool shown = true;    // neither the node nor one of its ancestors is hidden
+    bool parent = false;  // the node has descendants with meshes
 };
 
-// Returns the rows of all nodes with meshes below them, except below closed nodes. Not recursive: a file's hierarchy
-// may be deeper than the stack.
+// Returns the rows of all nodes with meshes at or below them; descendants of collapsed nodes are left out. Iterative,
+// because a file's hierarchy may be too deep for recursion.
 std::vector<TreeRow> treeRows(const Scene& scene, const std::vector<bool>& hidden, const std::set<int>& closed) {
     std::vector<bool> leads(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -59,7 +59,7 @@ std::string rowName(const Scene& scene, int index) {
     return fmt::format("node {}", index);
 }
 
-// Returns the index of the first object of a node or of the nodes below it; −1 without any.
+// Returns the index of the first object whose node is `node` or a descendant; −1 if there is none.
 int objectOf(const Scene& scene, const Pose& pose, int node) {
     for (std::size_t i = 0; i < pose.objects.size(); ++i)
         for (int above = pose.objects[i].node; above >= 0; above = scene.nodes[static_cast<std::size_t>(above)].parent)

@@ -44,7 +44,7 @@ void FileBrowser::open(const fs::path& folder) {
     enter(folder);
 }
 
-// Lists a folder. Keeps the current one if it can't be read.
+// Lists a folder. If it can't be read, keeps the current list and sets fault_.
 void FileBrowser::enter(const fs::path& folder) {
     std::error_code fault;
     fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, fault);
@@ -70,14 +70,15 @@ bool FileBrowser::shows(const Entry& entry) const {
     return lower(entry.name).find(lower(text_)) != std::string::npos;
 }
 
-// Enters a folder, or returns the path of a file. Takes a copy, since entering replaces the entries.
+// Enters a folder, or returns the path of a file. `entry` is passed by value, because entering a folder replaces
+// entries_.
 std::optional<fs::path> FileBrowser::enterOrChoose(Entry entry) {
     if (!entry.folder) return entry.path;
     enter(entry.path);
     return std::nullopt;
 }
 
-// Handles Enter in the text field: opens the path, or the first entry that is shown.
+// Handles Enter in the text field: opens the typed path or, if it doesn't exist, the first entry in the list.
 std::optional<fs::path> FileBrowser::typed() {
     const fs::path path = text_.starts_with('~') ? fs::path(homeFolder() + text_.substr(1)) : folder_ / text_;
     std::error_code ignored;

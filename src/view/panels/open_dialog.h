@@ -1,5 +1,6 @@
 #pragma once
-// Asks for a scene to open: by the desktop's dialog, or by the window's own browser where there is none.
+// Asks the user for a scene to open: with the desktop's file dialog or, if there is none, with the window's own
+// browser.
 
 #include <sys/types.h>
 
@@ -7,7 +8,7 @@
 
 namespace defocus::engine {
 
-// The file dialog of the desktop: zenity or kdialog, as a process beside the window.
+// The desktop's file dialog: runs zenity or kdialog as a separate process.
 class DesktopDialog {
 public:
     DesktopDialog() = default;
@@ -15,14 +16,14 @@ public:
     DesktopDialog(const DesktopDialog&) = delete;
     DesktopDialog& operator=(const DesktopDialog&) = delete;
 
-    // Opens a dialog that begins in `folder`. Returns false if neither program can be started.
+    // Opens the dialog in `folder`. Returns false if neither program can be started.
     bool open(const std::filesystem::path& folder);
     [[nodiscard]] bool running() const { return process_ > 0; }
     struct Outcome {
         std::filesystem::path chosen;  // empty: cancelled
-        bool failed = false;           // the program showed no dialog
+        bool failed = false;           // the program failed to show a dialog
     };
-    // Returns the outcome once the dialog is closed; none before.
+    // Returns the outcome once the dialog is closed; none while it is open.
     std::optional<Outcome> take();
 
 private:
@@ -36,7 +37,7 @@ class FileBrowser {
 public:
     void open(const std::filesystem::path& folder);
     [[nodiscard]] bool opened() const { return opened_; }
-    // Draws the dialog while it is open. Returns the scene once one is chosen.
+    // Draws the dialog if it is open. Returns the scene once the user has chosen one.
     std::optional<std::filesystem::path> draw(float scale);
 
 private:
@@ -57,7 +58,7 @@ private:
     std::filesystem::path folder_;
     std::vector<Entry> entries_;
     std::string fault_;  // why the latest input had no effect
-    std::string text_;   // a path, or a part of the shown names
+    std::string text_;   // typed path, or part of a name that filters the list
 };
 
 struct OpenDialog {
@@ -65,10 +66,10 @@ struct OpenDialog {
     FileBrowser browser;
 };
 
-// Opens a dialog, in the folder of the current scene.
+// Opens a dialog in the folder of the current scene.
 void openSceneDialog(OpenDialog& dialog, const ViewState& state);
 
-// Draws the browser. Returns the scene once one is chosen.
+// Draws the window's own browser if it is open. Returns the scene once the user has chosen one.
 std::optional<std::filesystem::path> drawOpenDialog(OpenDialog& dialog, const ViewState& state, float scale);
 
 }  // namespace defocus::engine

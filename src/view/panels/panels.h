@@ -1,12 +1,13 @@
 #pragma once
-// The panel beside the picture, a list of sections, and the dialog for stills. Each section is a function over Ui.
+// The panel beside the picture, which is a list of sections, and the dialog for stills. Each section is a function of
+// Ui.
 
 #include "view/widgets/ui.h"
 
 namespace defocus::engine {
 
-// The sections from top to bottom: function, title, initially open, condition for being shown. A new section needs a
-// function and a line here.
+// The sections from top to bottom: function, title, whether initially open, condition for being shown. A new section
+// needs a function and a line here.
 #define DEFOCUS_PANELS(PANEL)                                    \
     PANEL(scenePanel, "Scene", true, always)                     \
     PANEL(objectsPanel, "Objects", false, withScene)             \
@@ -29,12 +30,12 @@ namespace defocus::engine {
 DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 #undef DEFOCUS_DECLARE_PANEL
 
-inline constexpr double panelWidth = 364;  // units of the interface
+inline constexpr double panelWidth = 364;  // in interface units; see interfaceScale
 
 // Draws the panel to the right of the picture.
 void drawPanels(const Ui& ui);
 
-// Draws the dialog for a still while ViewState::exportDialog is set. It asks before a file is replaced.
+// Draws the dialog for exporting a still if ViewState::exportDialog is set. The dialog asks before it replaces a file.
 void drawExportDialog(const Ui& ui);
 
 }  // namespace defocus::engine

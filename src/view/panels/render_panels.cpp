@@ -1,4 +1,4 @@
-// Sections for what is rendered: surroundings, level of detail, method.
+// Panel sections for rendering: surroundings, level of detail, method.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Chooses the scene's own environment, a built-in one, or a file.
+// Draws the choice of environment: the scene's own, a built-in one, or a file.
 void environmentRows(ViewState& state) {
     std::filesystem::path& environment = state.options.environment;
     std::vector<std::string> names = {"the scene's own"};
@@ -38,7 +38,9 @@ void environmentRows(ViewState& state) {
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
 }
 
-// Returns whether the settings panel lists the setting.
+// Returns whether the settings section lists a setting: it is in the group samples, method or developer, affects the
+// pixels and has a widget.
+// the pixels and has a widget.
 bool hasPlainRow(const Setting& setting) {
     const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                        setting.group == SettingGroup::developer;
@@ -78,7 +80,7 @@ void surroundingsPanel(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// Draws all settings of samples, levels and methods that a widget can edit.
+// Draws rows for all settings of samples, levels and methods that have a widget.
 void settingsPanel(const Ui& ui) {
     Request& request = ui.state.options;
     for (const Setting& setting : settings()) {

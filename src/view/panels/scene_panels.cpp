@@ -1,4 +1,4 @@
-// Sections for the scene: opening, cameras, undo; saved views; animation.
+// Panel sections for the scene: opening, cameras, undo; saved views; animation.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Draws a field for the path, a button for the dialog and a menu of recent scenes.
+// Draws a field for the scene's path, a button for the file dialog, and a menu of recent scenes.
 void openRow(const Ui& ui) {
     ViewState& state = ui.state;
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -63,7 +63,7 @@ void undoRow(const Ui& ui) {
     ImGui::NewLine();
 }
 
-// Lists the parts of the file that the program doesn't draw.
+// Draws a list of the file's features that the program ignores.
 void ignoredRows(const Scene& scene) {
     std::vector<std::string> lines = ignoredWarnings(scene);
     const std::vector<std::string> damage = damageWarnings(scene);

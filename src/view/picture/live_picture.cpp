@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t minClippingSamples = 16;  // min samples of an image that shows clipping
+constexpr std::uint32_t minClippingSamples = 16;  // min lens samples before the image is checked for clipping
 
 std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSide& first) {
     switch (state.comparison) {
@@ -34,7 +34,7 @@ std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSid
     return std::nullopt;
 }
 
-// Returns the focus distance of the popping test: from the nearest to the farthest object and back, evenly in
+// Returns the focus distance (m) during the popping test: from the nearest to the farthest object and back, evenly in
 // 1/distance.
 double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     double nearest = 1e6;
@@ -47,7 +47,7 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that the picture depends on. It has its own number of samples, and its sides have their methods.
+// Returns the settings that affect the picture as text, without the number of samples, the level mode and the method.
 std::string pictureSettings(Request request) {
     const Request defaults;
     request.samples = defaults.samples;
@@ -57,7 +57,8 @@ std::string pictureSettings(Request request) {
     return pixelSettings(request);
 }
 
-// Returns the request for the state's picture. `plan`: the previous frame's plan, for the depths of the popping test.
+// Returns the picture's request for the state. `plan`: plan of the previous frame; provides depths for the popping
+// test.
 PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
     PictureRequest result;
     result.view = currentView(document, state);
@@ -86,12 +87,13 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     options.layerFormat = state.options.layerFormat;
     options.shaderFolder = document.shaderFolder;
     options.wave = state.options.wave.value_or(software ? 1 : 8);
-    picture.image.reset();  // frees memory before the next allocation
+    picture.image.reset();  // free memory before the next allocation
     picture.image.emplace(document.frame->world, options, software);
     picture.worldVersion = document.worldVersion;
 }
 
-// Switches off comparison and popping test, or else the selected method. Returns false if none is in use.
+// Turns off comparison and popping test; if neither is on, replaces the method by accumulation. Returns false if
+// nothing could be simplified.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;
@@ -104,7 +106,7 @@ bool simplifyRequest(ViewState& state) {
     return true;
 }
 
-// Meters the exposure when the view comes to rest.
+// Meters the exposure once the view has come to rest.
 void meter(LivePicture& picture, Document& document, ViewState& state, bool exporting) {
     const bool moving = picture.image->moving();
     const bool meters = state.meters && !(state.lens.exposureTime > 0);
@@ -115,7 +117,8 @@ void meter(LivePicture& picture, Document& document, ViewState& state, bool expo
     state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
 }
 
-// Collects the warnings about a picture at rest. Clipping needs a read-back and is checked once per exposure.
+// Updates the warnings about a still picture. Clipping needs a read-back from the GPU, so it is checked once per
+// exposure.
 void updateWarnings(LivePicture& picture, const ViewState& state) {
     picture.warnings.clear();
     if (picture.image->moving()) {

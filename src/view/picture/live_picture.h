@@ -1,5 +1,5 @@
 #pragma once
-// Keeps the picture of the document up to date: renderer, exposure meter, warnings.
+// Keeps the window's picture up to date: renderer, exposure meter, warnings.
 
 #include "view/document/document.h"
 #include "view/picture/view_picture.h"
@@ -7,23 +7,23 @@
 namespace defocus::engine {
 
 struct LivePicture {
-    std::optional<ViewPicture> image;   // none: no scene yet
-    std::uint64_t worldVersion = 0;     // Document::worldVersion that `image` was made for
-    std::vector<std::string> warnings;  // about the picture, once the view is still
+    std::optional<ViewPicture> image;   // none: no scene is open
+    std::uint64_t worldVersion = 0;     // Document::worldVersion for which `image` was created
+    std::vector<std::string> warnings;  // about the picture; empty while the view moves
 
-    bool meterDue = false;                                       // the view has moved since the last metering
-    std::vector<std::string> clipping;                           // clipping warnings
-    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure and tone map that `clipping` is about
+    bool meterDue = false;                                       // whether the view has moved since the last metering
+    std::vector<std::string> clipping;                           // warnings about clipping
+    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map of `clipping`
 };
 
-// Returns the label of a side of the divider.
+// Returns the label of one side of the divider.
 std::string sideLabel(const PictureSide& side);
 
-// Adds samples to a still picture; see ViewPicture::grow.
+// Adds samples to the picture of a still view; see ViewPicture::grow.
 void growPicture(LivePicture& picture, const Document& document, const ViewState& state);
 
-// Brings the picture up to date with document and state. A method or comparison that fails is switched off with a
-// message. `restOfFrame`: see PictureRequest. `exporting`: the exposure must not change.
+// Updates the picture to document and state. Turns off a method or comparison that fails, with a message.
+// `restOfFrame`: see PictureRequest. `exporting`: the exposure must not change.
 void updatePicture(LivePicture& picture, Document& document, ViewState& state, bool software, double restOfFrame,
                    bool exporting);
 

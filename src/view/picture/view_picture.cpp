@@ -14,14 +14,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without change before the image starts to grow
-constexpr std::uint32_t minShownSamples = 4;  // in a growing image; fewer look worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // min relative growth of the sample count for an update
-constexpr double softwareGrowthTime = 60;     // ms per frame, the minimum on a CPU
+constexpr auto settleTime = 120ms;            // time without change before the image starts to accumulate samples
+constexpr std::uint32_t minShownSamples = 4;  // fewer samples look worse than the last moving frame
+constexpr double visibleGrowth = 1.08;        // relative growth of the sample count at which the window is updated
+constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numbers that the images depend on, in addition to settings, sides and aperture image. Exposure time and
-// ISO only affect the display.
+// Returns the numbers of a request that affect its images, in addition to settings, sides and aperture image. Exposure
+// time and ISO only affect the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -47,7 +47,7 @@ std::vector<double> displayKey(const DisplaySettings& display) {
             display.differenceGain};
 }
 
-// Returns the view at another resolution. Limits of the blur are scaled too, since their unit is px of the image.
+// Returns the view at another resolution. The lens's blur limits, in px, are scaled too.
 View resized(const View& view, double resolution) {
     View result = view;
     result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));
@@ -65,7 +65,7 @@ RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& sid
     return result;
 }
 
-// Appends the passes of one image. Returns its set-up time in ms.
+// Appends the pass times of one image. Returns the image's set-up time, ms.
 double addPasses(std::vector<PassTime>& passes, const RenderStats& stats, const std::string& side) {
     for (const PassTime& pass : stats.passes) passes.push_back({pass.name + side, pass.milliseconds});
     if (stats.passes.empty()) passes.push_back({"waves" + side, stats.gpuMilliseconds});
@@ -119,7 +119,7 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
 }
 
 double ViewPicture::growthTime(const FrameBudget& budget) const {
-    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // the image and its work
+    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // image and work overlay
     return std::max(budget.milliseconds, software_ ? softwareGrowthTime : 0.0) * (shares ? 0.5 : 1);
 }
 
@@ -127,7 +127,7 @@ std::uint32_t ViewPicture::minSamples() const {
     return std::min(first().samples(), sides_.back()->image.samples());
 }
 
-// Makes renderers for new methods. Returns whether the sides have changed.
+// Creates renderers for sides with a new method. Returns whether any side has changed.
 bool ViewPicture::prepareSides(const PictureRequest& request) {
     const auto same = [](const std::unique_ptr<Side>& side, const PictureSide& wanted) {
         return side->shows == wanted;
@@ -140,7 +140,7 @@ bool ViewPicture::prepareSides(const PictureRequest& request) {
             sides_[i]->shows = wanted;
             continue;
         }
-        sides_[i].reset();  // frees memory before the next allocation
+        sides_[i].reset();  // free memory before the next allocation
         sides_[i] = std::make_unique<Side>(Side{wanted, {*world_, parseMethodUse(wanted.method), options_}});
         fresh_ = true;
     }
@@ -156,8 +156,8 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     settings.sampleCount = quality.samples;
     fixThresholds(settings, quality.samples, quality.thresholdBias);
     FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.sides[0]));
-    const double blur = plan.largestBlur / quality.resolution;  // px of the window
-    // Without visible blur, one sample at full resolution looks better than many samples at half of it.
+    const double blur = plan.largestBlur / quality.resolution;  // blur in window pixels
+    // Without visible blur, one sample at full resolution looks better than many samples at half the resolution.
     const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < minBlur);
     if (sharp) view = request.view;
     if (sharp || quality.samples == 1) {
@@ -170,7 +170,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
     if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    // Reserve at least half of the budget for the picture, so that a slow interface does not lower its quality further.
+    // Reserve at least half of the budget for the picture, so that a slow interface doesn't lower its quality further.
     const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
     if (!fresh_ && !request.fixedQuality && !sharp) budget = adapted(budget, milliseconds + rest);
     fresh_ = false;
@@ -195,7 +195,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
 void ViewPicture::grow(const FrameBudget& budget) {
     if (!growing_ || !grows_) return;
     grown_ = true;
-    // The side with fewer samples goes first, so that both stay comparable.
+    // Add samples to the side with fewer samples, so that both sides stay comparable.
     ProgressiveImage& left = sides_.front()->image;
     ProgressiveImage& right = sides_.back()->image;
     const bool rightIsBehind = !right.finished() && (left.finished() || right.samples() < left.samples());
@@ -204,7 +204,8 @@ void ViewPicture::grow(const FrameBudget& budget) {
     notePasses();
 }
 
-// A renderer's times are sums since its frame began; a growing image spreads them over many frames of the window.
+// Updates the pass times of the latest frame. A renderer sums its times since the image was begun, so the previous sums
+// are subtracted.
 void ViewPicture::notePasses() {
     std::vector<PassTime> totals;
     double setup = 0;
@@ -216,7 +217,7 @@ void ViewPicture::notePasses() {
     passTotals_ = std::move(totals);
     const bool setUp = std::exchange(setupTotal_, setup) != setup;
     passes_.push_back({"set-up", setUp ? setup : 0});
-    // Times of overlays and display are those of the previous frame, so that the CPU does not wait for the GPU.
+    // Use the previous frame's times of overlays and display, so that the CPU doesn't wait for the GPU.
     if (const double overlays = overlayTimer_.milliseconds(); overlays > 0) passes_.push_back({"overlays", overlays});
     overlayTimer_.reset();
     passes_.push_back({"display", displayTimer_.milliseconds()});
@@ -263,7 +264,8 @@ void ViewPicture::present(const PictureRequest& request) {
     }
     displayTimer_.reset();
     displayTimer_.begin();
-    // The window enlarges frames of a moving view, because each pixel of this pass is expensive on a CPU.
+    // Draw frames of a moving view at their own resolution, because this pass is slow on a CPU; the window enlarges the
+    // result.
     const TextureInfo& image = inputs.first->info();
     const bool fullSize = growing_ || display.wireframe;
     display_.draw(inputs, display, fullSize ? request.view.width : image.width,

@@ -1,7 +1,7 @@
 #pragma once
-// Renders the picture of the window on the GPU. While the view changes, it draws each frame at once in a quality that
-// the budget allows; while the view is still, the image gathers samples. It shows one image, or two to compare, and
-// overlays.
+// Renders the picture of the window on the GPU. While the view changes, each frame is drawn completely, in a quality
+// that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
+// comparison, and overlays.
 
 #include <chrono>
 #include <memory>
@@ -20,58 +20,59 @@
 namespace defocus::engine {
 
 struct PictureSide {
-    std::string method;  // MethodUse::text
+    std::string method;  // in the format of MethodUse::text
     LodMode lod = LodMode::fractional;
     std::uint32_t firstSample = 0;
     bool operator==(const PictureSide&) const = default;
 };
 
 struct PictureRequest {
-    View view;                       // at the window's resolution
-    RenderSettings settings;         // its thresholds, if set, replace those for the number of samples
-    std::string settingsKey;         // the image starts again when it changes
-    std::uint64_t poseVersion = 0;   // Document::poseVersion
-    std::vector<PictureSide> sides;  // one, or two to compare
+    View view;                       // view at the window's resolution
+    RenderSettings settings;         // thresholds, if set, replace those for the number of samples
+    std::string settingsKey;         // the image is restarted when this text changes
+    std::uint64_t poseVersion = 0;   // value of Document::poseVersion
+    std::vector<PictureSide> sides;  // one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
-    std::optional<double> targetError;         // ends a still image once its estimated error is below
-    std::optional<FrameQuality> fixedQuality;  // replaces the budget's quality; the image does not grow then
-    double restOfFrame = 0;                    // measured ms of the frame's budget that the interface takes
+    std::optional<double> targetError;         // stops accumulating once the estimated error is below
+    std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
+    double restOfFrame = 0;                    // part of the frame's budget that the interface takes, ms
 };
 
 class ViewPicture {
 public:
-    // `world` must outlive it. Needs a current GL context.
+    // `world` must outlive the picture. Needs a current GL context.
     ViewPicture(const World& world, RendererOptions options, bool software);
 
-    // Adds samples to a still image for about the budget's time, at least 60 ms on a CPU. Called before the events of a
-    // frame are fetched, so that the frame answers events that arrive meanwhile.
+    // Adds samples to a still image for about the budget's time, at least 60 ms if OpenGL runs on the CPU. Call this
+    // before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
     void grow(const FrameBudget& budget);
-    // Brings the picture up to date. While the view changes, this takes about the budget's time, and adapts its rung.
+    // Updates the picture to the request. While the view changes, draws a frame in about the budget's time and adapts
+    // the budget's quality.
     void update(const PictureRequest& request, FrameBudget& budget);
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
     [[nodiscard]] bool moving() const { return !growing_; }
-    // Returns whether nothing is left to do until the request changes.
+    // Returns whether the picture is complete until the request changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     [[nodiscard]] std::uint32_t samples() const { return sides_.empty() ? 0 : first().samples(); }
-    // Returns whether the first image of a still view has reached the target error.
+    // Returns whether the first image of a still view has reached its target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ ? first().estimatedError() : std::nullopt;
     }
-    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // the first image, linear
-    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; may be empty
-    // Returns the second side; null if nothing is compared.
+    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // first image, linear RGBA
+    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; empty without an image
+    // Returns the second side; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR between the sides, dB
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
-    // Times of the latest frame: timer queries of passes, wall clock of the set-up.
+    // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
-    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // counts changes of the view or the scene
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // counts the still images begun
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -81,7 +82,7 @@ private:
     };
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
-    [[nodiscard]] std::uint32_t minSamples() const;                    // min over both sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller sample count of both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
@@ -98,10 +99,10 @@ private:
     DisplayPass display_;
     std::optional<AovPass> aovs_;
     std::optional<WorkPass> work_;
-    bool aovsCurrent_ = false;  // true: drawn for the current view (also the next two)
+    bool aovsCurrent_ = false;  // the AOVs of the current view are drawn
     bool wireframeCurrent_ = false;
     bool workCurrent_ = false;
-    bool workGrows_ = false;  // samples of the work are still to come
+    bool workGrows_ = false;  // the work overlay needs more samples
     std::vector<std::unique_ptr<Side>> sides_;
     std::vector<double> lastKey_, lastDisplayKey_;
     std::string lastSettings_;
@@ -110,10 +111,10 @@ private:
     Clock::time_point nextPsnr_;
     std::uint32_t presentedSamples_ = 0;
     bool showsWork_ = false;
-    bool growing_ = false;  // the view is still
-    bool grows_ = false;    // samples are still to come
-    bool grown_ = false;    // since the latest update
-    bool fresh_ = true;     // the next frame uploads the scene: its time does not count
+    bool growing_ = false;  // the view is still and the image accumulates
+    bool grows_ = false;    // more samples are needed
+    bool grown_ = false;    // samples were added since the latest update
+    bool fresh_ = true;     // the next frame uploads the scene, so its time is ignored
     std::optional<double> psnr_;
     GpuTimer overlayTimer_, displayTimer_;
     std::vector<PassTime> passes_, passTotals_;

@@ -18,7 +18,7 @@ constexpr double maxElevation = glm::radians(89.0);
 constexpr double minPivotDistance = 1e-4;  // m
 constexpr double maxPivotDistance = 1e7;
 
-// Orthonormalizes the axes, so that rounding errors of many small turns do not add up.
+// Orthonormalizes the axes, so that rounding errors of many small rotations don't accumulate.
 glm::dmat4 rigid(const glm::dmat4& matrix) {
     const glm::dvec3 z = glm::normalize(glm::dvec3(matrix[2]));
     const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(matrix[1]), z));
@@ -31,7 +31,8 @@ ViewCamera turnedAbout(const ViewCamera& camera, const glm::dvec3& centre, doubl
     const double highest = std::max(maxElevation, elevation);
     const double pitch = std::clamp(elevation + up, lowest, highest) - elevation;
 
-    // Pitch about the horizontal axis across the view; the x axis of a rolled camera is not horizontal.
+    // Pitch about the horizontal axis perpendicular to the view direction; the x axis of a rolled camera isn't
+    // horizontal.
     const glm::dvec3 across = glm::cross(camera.forward(), worldUp);
     const glm::dvec3 axis = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(camera.worldFromCamera[0]);
     const glm::dquat rotation = glm::angleAxis(right, worldUp) * glm::angleAxis(pitch, axis);

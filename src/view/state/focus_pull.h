@@ -1,5 +1,5 @@
 #pragma once
-// Moves the focus smoothly from one distance to another, slowly at both ends. The path is linear in dioptres (1/m),
+// Moves the focus smoothly from one distance to another, slowly at both ends. The motion is computed in dioptres (1/m),
 // because the circle of confusion is linear in them.
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Returns 3t² − 2t³ for t clamped to [0, 1]: it has no slope at either end.
+// Returns 3t² − 2t³ for t clamped to [0, 1]; its slope at both ends is 0.
 inline double eased(double t) {
     const double x = std::clamp(t, 0.0, 1.0);
     return x * x * (3 - 2 * x);
@@ -18,18 +18,18 @@ inline double eased(double t) {
 struct FocusPull {
     double from = 1;  // m, > 0; may be infinite
     double to = 1;
-    double begin = 0;       // s, of any clock
+    double begin = 0;       // start time, s, of any clock
     double duration = 0.4;  // s
 
     [[nodiscard]] bool over(double now) const { return now >= begin + duration; }
-    // Returns the distance in m; exactly `to` once the pull is over.
+    // Returns the focus distance (m) at the time `now` (s); exactly `to` after the end of the pull.
     [[nodiscard]] double distanceAt(double now) const {
         return over(now) ? to : focusBetween(from, to, eased((now - begin) / duration));
     }
 };
 
-// Moves the focus distance by mouse-wheel notches: farther for positive ones. Each notch multiplies the distance by
-// the same factor.
+// Returns the focus distance after `notches` of the mouse wheel; positive notches focus farther. Each notch multiplies
+// the distance by the same factor.
 inline double rackedFocus(double focusDistance, double notches) {
     constexpr double step = 0.03;         // relative change per notch
     constexpr double minDistance = 1e-3;  // m

@@ -1,9 +1,9 @@
 #pragma once
-// Measures the time from an input event to the end of the frame that shows its effect, including the swap of buffers
-// but not the delay of a compositor or a screen.
+// Measures the time from an input event to the end of the frame that shows its effect. Includes the buffer swap, but
+// not the delay of the compositor and the screen.
 //
-// The system reports when an event is fetched, not when it arrives. An event that arrives while a frame is drawn counts
-// from the previous fetch, so that the measured times are upper bounds.
+// The system reports when an event is fetched, not when it arrives. An event that arrives while a frame is drawn is
+// dated to the previous fetch, so the measured times are upper bounds.
 
 #include <algorithm>
 #include <chrono>
@@ -17,22 +17,22 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Records fetched events that arrived after `since`. Their effect may start some frames later; the earliest
-    // unanswered event counts.
+    // Records that events were fetched which arrived after `since`. Their effect may appear some frames later; the
+    // earliest event without a visible effect is timed.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }
-    // Records the end of a frame that shows a different picture.
+    // Records the end of a frame whose picture differs from the previous one.
     void shown(Time at) {
         if (!waiting_) return;
         answers_.push_back(std::chrono::duration<double, std::milli>(at - *waiting_).count());
         if (answers_.size() > maxAnswers) answers_.pop_front();
         waiting_.reset();
     }
-    // Drops the waiting events: they do not change the picture.
+    // Drops the waiting events, because they don't change the picture.
     void forget() { waiting_.reset(); }
 
-    struct Summary {  // latencies of the latest answered events, ms
+    struct Summary {  // latencies of the latest events with a visible effect, ms
         std::size_t count = 0;
         double latest = 0, median = 0, worst = 0;
     };
@@ -47,7 +47,7 @@ private:
     static constexpr std::size_t maxAnswers = 256;
 
     std::optional<Time> waiting_;
-    std::deque<double> answers_;  // ms
+    std::deque<double> answers_;  // latencies, ms
 };
 
 }  // namespace defocus::engine

@@ -12,8 +12,8 @@ namespace {
 using K = KeyContext;
 using Overlay = DisplayOverlay;
 
-constexpr double frameTime = 1.0 / 24;  // s
-constexpr double minScale = 0.5;        // min scale of the interface
+constexpr double frameTime = 1.0 / 24;  // s; step of the animation
+constexpr double minScale = 0.5;        // limits of the interface's scale
 constexpr double maxScale = 3;
 constexpr double scaleStep = 1.1;
 

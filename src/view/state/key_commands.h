@@ -1,5 +1,5 @@
 #pragma once
-// The keys of the window: one table for their commands and for the list of keys in the window.
+// The keys of the window: one table for the commands and for the displayed list of keys.
 
 #include <span>
 
@@ -8,30 +8,30 @@
 namespace defocus::engine {
 
 struct KeyContext {
-    const PreparedFrame* frame = nullptr;  // null: no scene yet
+    const PreparedFrame* frame = nullptr;  // null: no scene is open
     ViewState& state;
     ViewActions& actions;
     bool shift = false;
 };
 
 struct KeyCommand {
-    const char* keys = nullptr;     // name in the list; null: the row above includes this key
-    const char* meaning = nullptr;  // explanation in the list
-    int key = 0;                    // WindowEvent::key, see withControl; 0: not a key command
+    const char* keys = nullptr;     // text in the list of keys; null: the preceding row includes this key
+    const char* meaning = nullptr;  // explanation in the list of keys
+    int key = 0;                    // WindowEvent::key, or withControl; 0: row without a command
     void (*run)(KeyContext) = nullptr;
 };
 
-// Returns the code of a key that is pressed with Ctrl.
+// Returns the code of a key pressed together with Ctrl.
 constexpr int withControl(int key) {
     return key + 1000;
 }
 
 std::span<const KeyCommand> keyCommands();
 
-// Runs the command of a key, if it has one.
+// Runs the command of a key; does nothing if the key has none.
 void runKeyCommand(int key, const KeyContext& context);
 
-// Returns the names of the file's cameras, in its order. Keys 1 … 9 choose them.
+// Returns the names of the file's cameras in file order. Keys 1 … 9 select them.
 std::vector<std::string> cameraNames(const Scene& scene);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// The f-numbers that lenses and cameras show: thirds of a stop from f/0.7 to f/64.
+// Standard f-numbers of lenses and cameras: thirds of a stop from f/0.7 to f/64.
 
 #include <algorithm>
 #include <iterator>
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Returns the stops, rounded as on cameras; full stops are a factor of √2 apart.
+// Returns the standard f-numbers, rounded as on cameras; full stops differ by a factor of √2.
 inline std::span<const double> standardStops() {
     static constexpr double stops[] = {0.7, 0.8, 0.95, 1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8, 3.2,
                                        3.5, 4.0, 4.5,  5.0, 5.6, 6.3, 7.1, 8.0, 9.0, 10,  11,  13,  14,  16,
@@ -15,8 +15,9 @@ inline std::span<const double> standardStops() {
     return stops;
 }
 
-// Returns the standard stop `steps` beyond `fStop`; positive steps close the aperture. If `fStop` lies between two
-// stops, the first step goes to the neighbouring stop. The result is clamped to the first and last stop.
+// Returns the standard f-number `steps` entries beyond `fStop`; positive steps close the aperture. If `fStop` lies
+// between two entries, the first step goes to the neighbouring entry. The result is clamped to the first and last
+// entry.
 inline double steppedStop(double fStop, int steps) {
     constexpr double tolerance = 1e-9;
     if (steps == 0) return fStop;

@@ -1,5 +1,5 @@
 #pragma once
-// All state that the window shows and the user can change, as plain data.
+// The complete state that the window shows and the user can change, as plain data.
 
 #include <deque>
 #include <filesystem>
@@ -16,147 +16,148 @@
 
 namespace defocus::engine {
 
-// Area of the picture, from the window's top left corner; sizes and positions are in window units.
+// Area of the picture, which begins at the window's top left corner. Sizes and positions are in window units.
 struct PictureArea {
     glm::dvec2 size{1.0};
-    // Maps a position to [−1, 1], y up.
+    // Maps a window position to [−1, 1], y up.
     [[nodiscard]] glm::dvec2 normalized(const glm::dvec2& position) const;
     [[nodiscard]] bool contains(const glm::dvec2& position) const;
 };
 
-// Returns the tangents of half the horizontal and the vertical field of view.
+// Returns the tangents of half the horizontal and half the vertical field of view.
 glm::dvec2 tanHalfFov(const Lens& lens, const PictureArea& area);
 
 struct PickedSurface {
     int object = -1;        // index into Pose::objects
-    double depth = 0;       // m along the view axis
-    glm::dvec3 point{0.0};  // world space
+    double depth = 0;       // m, along the view axis
+    glm::dvec3 point{0.0};  // in world space
 };
 
-// Returns the surface under a position; none where the picture shows none.
+// Returns the surface under a window position; none if the picture shows no surface there.
 std::optional<PickedSurface> pickedSurface(const PreparedFrame& frame, const ViewCamera& camera, const Lens& lens,
                                            const PictureArea& area, const glm::dvec2& position);
 
 enum class Navigation { orbit, fly };
 
-// The image on the right side of the divider.
+// What the right side of the divider shows.
 enum class Comparison {
     none,
-    fullDetail,  // the same lens samples, full detail
-    nearest,     // one integer level per object
-    reference,   // full detail, other lens samples
-    method,      // ViewState::comparedMethod
+    fullDetail,  // full detail with the same lens samples
+    nearest,     // one level per object, not blended
+    reference,   // full detail with other lens samples
+    method,      // method ViewState::comparedMethod
 };
 
 struct Message {
     std::string text;
     bool fault = false;
-    double until = 0;  // s, as ViewState::now
+    double until = 0;  // time when it disappears, s, as ViewState::now
 };
 
-// Mark of the latest click to focus; it fades out.
+// Marker of the latest click to focus; fades out.
 struct FocusMarker {
     bool shown = false;
-    std::uint64_t number = 0;  // number of the click, from 1
-    glm::dvec3 point{0.0};     // world space
-    double since = 0;          // s, as ViewState::now
-    std::string name;          // name of the object; empty: the click hit none
-    double distance = 0;       // m, focus distance
+    std::uint64_t number = 0;  // number of the click, counted from 1
+    glm::dvec3 point{0.0};     // in world space
+    double since = 0;          // time of the click, s, as ViewState::now
+    std::string name;          // name of the object; empty: no surface was hit
+    double distance = 0;       // focus distance, m
 };
 
-// Dialog for the file of a still.
+// State of the dialog for exporting a still.
 struct ExportDialog {
-    bool fresh = true;           // opened in this frame
-    bool asksToReplace = false;  // the file exists
+    bool fresh = true;           // whether it was opened in this frame
+    bool asksToReplace = false;  // whether it asks to replace an existing file
 };
 
 struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // without the aperture image, which a view doesn't store
+    Lens lens;                // without aperture image, which saved views don't store
 };
 
 struct ShotKey {
     View view;
-    double pivotDistance = 1;  // m ahead of the camera: its target
-    double time = 0;           // s into the animation
+    double pivotDistance = 1;  // distance from the camera to its target, m
+    double time = 0;           // time of the animation, s
 };
 
-// State that undo and redo cover.
+// State that undo and redo restore.
 struct ViewEdit {
     Request options;
     ViewCamera camera;
     Lens lens;
     double nearPlane = 0.01;     // m
-    bool followsCamera = false;  // the camera is the file's, as its animation moves it
-    double exposure = 0;         // EV; the meter's latest reading where `meters` is set
-    bool meters = false;         // the exposure is metered whenever the view comes to rest
+    bool followsCamera = false;  // the view follows the file's camera, which may be animated
+    double exposure = 0;         // EV; with `meters`, the latest metered value
+    bool meters = false;         // meter the exposure whenever the view comes to rest
 };
 
-// State that is reset with each scene.
+// State that is reset when another scene is opened.
 struct SceneState {
-    int selected = -1;  // index into Pose::objects of the object last focused on
+    int selected = -1;  // index into Pose::objects of the object focused on last; −1: none
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
-    std::vector<glm::dvec3> focusPoints;  // world space; the focus plane goes through them once there are three
-    std::optional<double> poppingSince;   // s; start of the popping test, none while it does not run
+    std::vector<glm::dvec3> focusPoints;  // in world space; three points determine the plane of focus
+    std::optional<double> poppingSince;   // start of the popping test, s; none: not running
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;
 };
 
 struct ViewState : ViewEdit, SceneState {
-    // The current frame, set by the window loop.
-    double now = 0;             // s since the window opened
+    // State of the current frame, set by the window loop.
+    double now = 0;             // s since the window was opened
     PictureArea area;           // window units
-    glm::ivec2 pictureSize{1};  // px
+    glm::ivec2 pictureSize{1};  // size of the picture, px
 
-    // Camera and scene.
+    // State of camera and scene.
     Navigation navigation = Navigation::orbit;
     double animationSpeed = 1;
 
-    // Picture.
-    DisplaySettings display;  // exposure and tone map are set from `exposure` and `options`
+    // State of the picture.
+    DisplaySettings display;  // exposure and tone map are overwritten from `exposure` and `options`
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
-    std::uint32_t maxSamples = 4096;  // max samples of a still view
+    std::uint32_t maxSamples = 4096;  // max lens samples of a still view
 
-    // Window.
+    // State of the window.
     bool panel = true;
     bool help = false;
     bool dark = true;
-    double interfaceScale = 1;                  // multiplies the screen's own scale
+    double interfaceScale = 1;                  // multiplies the scale of the screen
     std::vector<std::filesystem::path> recent;  // recent scenes, latest first
     std::deque<Message> messages;
-    std::string fault;          // text of the latest failure
-    bool printsFaults = false;  // also prints faults on stderr
+    std::string fault;          // latest error message
+    bool printsFaults = false;  // also print error messages on stderr
 
-    // Text fields.
+    // Contents of text fields, and state of their dialogs.
     std::string openPath, viewName, environmentPath, aperturePath;
-    bool environmentIsFile = false;  // the field for the environment's file is shown
+    bool environmentIsFile = false;  // whether the field for an environment file is shown
     std::string exportPath = "still.png";
-    std::optional<glm::ivec2> exportSize;  // px; none: pictureSize
+    std::optional<glm::ivec2> exportSize;  // size of a still, px; none: pictureSize
     std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
 };
 
-// Requests from panels and keys that need files, the GPU or the window. They are executed at the end of the frame.
+// Actions requested by panels and keys that need files, the GPU or the window. They are executed at the end of the
+// frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
-    std::optional<std::string> chooseCamera;  // by name; "auto" frames the scene
+    std::optional<std::string> chooseCamera;  // name of the camera; "auto" frames the scene
     bool undo = false;
     bool redo = false;
     bool resetAll = false;
-    std::optional<std::string> saveView;  // name of the view to save
+    std::optional<std::string> saveView;  // name for the view
     std::optional<std::size_t> goToView;  // index into ViewState::savedViews
     std::optional<std::size_t> deleteView;
     bool copyCommand = false;
     bool recordKey = false;
     bool saveShot = false;
-    bool askExport = false;    // opens the export dialog
-    bool exportStill = false;  // to ViewState::exportPath, replacing the file
+    bool askExport = false;    // open the export dialog
+    bool exportStill = false;  // write the still to ViewState::exportPath, replacing an existing file
     bool cancelExport = false;
     bool openDialog = false;
     bool screenshot = false;
@@ -164,38 +165,38 @@ struct ViewActions {
     bool quit = false;
 };
 
-// Returns the exposure of the picture in EV: the lens's if it has an exposure time, else ViewState::exposure.
+// Returns the exposure of the picture in EV: from the lens if it has an exposure time, else ViewState::exposure.
 double shownExposure(const ViewState& state);
 
-// Returns exposure and tone map of 8-bit images.
+// Returns the settings for encoding 8-bit images: exposure and tone map.
 WriteOptions writeOptions(const ViewState& state);
 
-// Shows a message over the picture for some seconds.
+// Show a message over the picture for some seconds.
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Sets the image on the right side of the divider, and moves the divider into view.
+// Sets what the right side of the divider shows, and moves the divider into the picture.
 void compare(ViewState& state, Comparison comparison);
 
-// Starts to pull the focus to `distance` m.
+// Starts a focus pull to `distance` m that takes `seconds`.
 void pullFocus(ViewState& state, double distance, double seconds = FocusPull{}.duration);
 
-// Tilts the focus plane through the three focus points and clears them.
+// Sets the plane of focus to contain the three focus points, then clears the points.
 void tiltFocus(ViewState& state);
 
-// Frames the selected object, or the scene, and pulls the focus to its centre.
+// Move the camera so that the selected object, or the scene, fills the image, and pull the focus to its centre.
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
-// Starts or stops the popping test: a focus pull from near to far and back, with fractional levels on the left and
-// nearest levels on the right.
+// Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
+// side and nearest levels on the right.
 inline constexpr double poppingDuration = 8;  // s
 void togglePoppingTest(ViewState& state);
 
-// Advances the focus pull and the animation by `seconds`; ends a finished popping test.
+// Advances focus pull and animation by `seconds`, and ends the popping test when its time is over.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
-// Returns the value of --clip for a clip of the scene: its name, or its number if the name is ambiguous.
+// Returns the --clip value of a clip of the scene: its name, or its index if the name is ambiguous.
 std::string clipText(const Scene& scene, int clip);
 
 }  // namespace defocus::engine

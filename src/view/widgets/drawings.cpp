@@ -1,4 +1,4 @@
-// Drawings of the panel: aperture ring, aperture, blur over depth, frame times.
+// Drawings in the panel: aperture ring, aperture, blur over depth, frame times.
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -26,7 +26,7 @@ struct Canvas {
     [[nodiscard]] float height() const { return end.y - origin.y; }
 };
 
-// Reserves an area over the width of the panel and fills it. With an `id` it is a button.
+// Reserves an area as wide as the panel and fills it with a colour. The area is a button if `id` is given.
 Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill = color(ImGuiCol_FrameBg)) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, height);
@@ -39,7 +39,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
     return result;
 }
 
-// Returns the fractional index of an f-number in the table of stops.
+// Returns the fractional index of an f-number in standardStops().
 float stopPosition(double fStop) {
     const std::span<const double> stops = standardStops();
     if (fStop <= stops.front()) return 0;
@@ -50,9 +50,10 @@ float stopPosition(double fStop) {
     return static_cast<float>(stops.size() - 1);
 }
 
-// Applies mouse wheel, drag and click on the ring, the previous widget. `spacing`: px per stop of the table.
+// Applies mouse wheel, drag and click to the aperture ring, which must be the previous widget. `spacing`: px per
+// standard stop.
 void turnRing(double& fStop, float centre, float spacing) {
-    ImGui::SetItemUsingMouseWheel();  // keeps the panel from scrolling
+    ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
     if (const float wheel = ImGui::GetIO().MouseWheel; ImGui::IsItemHovered() && wheel != 0)
         fStop = steppedStop(fStop, wheel > 0 ? -1 : 1);
     static float dragged = 0;  // px
@@ -72,7 +73,7 @@ void turnRing(double& fStop, float centre, float spacing) {
     }
 }
 
-// The depths that the diagram shows, on a logarithmic axis.
+// Range of depths that the diagram shows, on a logarithmic axis.
 struct DepthAxis {
     double nearest = 0;  // m
     double farthest = 0;
@@ -97,8 +98,8 @@ double cocAt(const FramePlan& plan, double depth) {
     return std::abs(circleOfConfusion(plan.coc, depth, plan.view.width));
 }
 
-// Returns the depth (m) at the image's centre where the blur reaches a pixel, between the focus and `endDioptre` (1/m);
-// the depth of `endDioptre` if the blur stays below a pixel.
+// Returns the depth (m), at the image's centre, where the blur reaches one pixel. Searches from the focus to
+// `endDioptre` (1/m); if the blur stays below a pixel, returns the depth of `endDioptre`.
 double limitOfFocus(const FramePlan& plan, double endDioptre) {
     const auto sharp = [&](double dioptre) {
         return cocAt(plan, dioptre > 0 ? 1 / dioptre : std::numeric_limits<double>::infinity()) < 1;
@@ -113,7 +114,8 @@ double limitOfFocus(const FramePlan& plan, double endDioptre) {
     return 1 / inside;
 }
 
-// Draws the circle of confusion over depth, to both sides of `middle`; logarithmic, 64 px at `reach`.
+// Draws the circle of confusion over depth as a symmetric pair of curves around `middle`. The height is logarithmic; 63
+// px or more reach `reach`.
 void drawCocCurve(const Canvas& box, const FramePlan& plan, const DepthAxis& axis, float middle, float reach,
                   float scale) {
     constexpr int steps = 96;
@@ -156,7 +158,7 @@ void stopRing(double& fStop, float scale) {
     for (std::size_t i = 0; i < stops.size(); ++i) {
         const float x = centre + (static_cast<float>(i) - position) * spacing;
         const double halfStops = 2 * std::log2(stops[i]);
-        const bool fullStop = std::abs(halfStops - std::round(halfStops)) < 0.08;  // a power of √2
+        const bool fullStop = std::abs(halfStops - std::round(halfStops)) < 0.08;  // whole stops are powers of √2
         const float fade = std::clamp(1 - std::abs(x - centre) / (0.5f * box.width()), 0.0f, 1.0f);
         box.list.AddLine({x, box.end.y - 4 * scale}, {x, box.end.y - (fullStop ? 14 : 9) * scale},
                          color(fullStop ? ImGuiCol_Text : ImGuiCol_TextDisabled, fade), scale);
@@ -201,7 +203,7 @@ void depthDiagram(const FramePlan& plan, float scale) {
     const float focus = x(plan.view.lens.focusDistance);
     box.list.AddLine({focus, box.origin.y}, {focus, bottom}, color(ImGuiCol_CheckMark), 1.5f * scale);
 
-    // One line per object, over its depths.
+    // Draw one line per object over the object's depth range.
     const std::size_t shown = std::min<std::size_t>(plan.objects.size(), 24);
     for (std::size_t i = 0; i < shown; ++i) {
         const ObjectPlan& object = plan.objects[i];

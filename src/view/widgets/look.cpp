@@ -9,14 +9,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double fontSize = 15;            // units
-constexpr double bitmapShare = 13.0 / 15;  // of the font size; the bitmap font then looks as large as others
+constexpr double fontSize = 15;            // in interface units
+constexpr double bitmapShare = 13.0 / 15;  // of fontSize; makes the bitmap font look as large as others
 
-// Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
+// Ranges of glyphs: Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
 constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044, 0x2190,
                               0x21ff, 0x2212, 0x2265, 0x25a0, 0x25ff, 0x2713, 0x2713, 0};
 
-// Sets neutral greys, so that nothing beside the picture tints it, and one accent.
+// Sets neutral greys, which don't influence how the picture's colours look, and one accent colour.
 void setColors(ImGuiStyle& style, bool dark) {
     (dark ? ImGui::StyleColorsDark : ImGui::StyleColorsLight)(&style);
     const auto grey = [&](ImGuiCol color, float inDark, float inLight) {
@@ -45,14 +45,14 @@ void setColors(ImGuiStyle& style, bool dark) {
     grey(ImGuiCol_ScrollbarBg, 0.135f, 0.945f);
     accent(ImGuiCol_ButtonActive, 1);
     accent(ImGuiCol_CheckMark, 1);
-    accent(ImGuiCol_SliderGrab, 0.45f);  // the value is drawn over the grab
+    accent(ImGuiCol_SliderGrab, 0.45f);  // translucent, because the value is drawn over the grab
     accent(ImGuiCol_SliderGrabActive, 0.65f);
     accent(ImGuiCol_PlotHistogram, 1);
     accent(ImGuiCol_NavHighlight, 1);
     accent(ImGuiCol_TextSelectedBg, 0.4f);
     style.Colors[ImGuiCol_PlotHistogramHovered] =
         dark ? ImVec4(0.94f, 0.63f, 0.24f, 1) : ImVec4(0.80f, 0.44f, 0.05f, 1);
-    style.Colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.3f};  // a dialog leaves the picture visible
+    style.Colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.3f};  // leave the picture visible behind a dialog
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The light and the dark look of the interface: colours, sizes and font.
+// The light and the dark theme of the interface: colours, sizes and font.
 
 #include <imgui.h>
 
@@ -7,14 +7,14 @@
 
 namespace defocus::engine {
 
-// Sets ImGui's style; `scale`: px per unit of the interface. ImGuiCol_CheckMark is the accent colour, and
-// ImGuiCol_PlotHistogramHovered warns.
+// Sets ImGui's style. `scale`: px per interface unit. ImGuiCol_CheckMark becomes the accent colour,
+// ImGuiCol_PlotHistogramHovered the warning colour.
 void setStyle(bool dark, double scale);
 
-// Returns the display values behind picture and panel.
+// Returns the background colour of the window, in display values.
 glm::vec3 windowColor(bool dark);
 
-// Adds the system's sans serif font, or ImGui's bitmap font where there is none.
+// Adds the system's sans-serif font or, if there is none, ImGui's bitmap font. `scale`: px per interface unit.
 void addFont(ImFontAtlas& atlas, double scale);
 
 }  // namespace defocus::engine

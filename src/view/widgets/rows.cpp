@@ -16,9 +16,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSliderRange = 64;  // max range of integers for a slider; a larger range makes it too coarse
+constexpr double maxSliderRange = 64;  // integers with a larger range get no slider, which would be too coarse
 
-// Returns ImGui's format for a number of the setting.
+// Returns ImGui's format string for a value of the setting.
 std::string numberFormat(const Setting& setting, double value) {
     if (setting.unit == "s") return secondsFormat(value);
     const std::string digits = std::abs(value) >= 1e4 ? "%.0f" : std::abs(value) >= 100 ? "%.4g" : "%.3g";
@@ -26,7 +26,7 @@ std::string numberFormat(const Setting& setting, double value) {
     return setting.unit.empty() ? digits : digits + " " + setting.unit;
 }
 
-// The functions below draw a widget and return the edited text; none if it was not edited.
+// Each function below draws a widget and returns the edited text; none if the user didn't edit it.
 
 std::optional<std::string> numberText(const Setting& setting, const std::string& text) {
     double value = parseNumber(text, {setting.min, setting.max});
@@ -80,7 +80,7 @@ std::optional<std::string> editedText(const Setting& setting, const std::string&
     return {};
 }
 
-// Draws a checkbox that sets and unsets a value. Returns whether it is set.
+// Draws a checkbox that sets `text` to `first` or clears it. Returns whether `text` is set.
 bool valueIsSet(const std::string& name, std::string& text, const std::string& first) {
     bool set = !text.empty();
     if (ImGui::Checkbox("##set", &set)) text = set ? first : "";
@@ -97,7 +97,7 @@ bool settingRow(Request& request, const std::string& name, const std::string& fi
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());
     rowLabel(fieldLabel(name), fmt::format("{} ({})", setting.help, setting.option));
-    // A setting with a number or a word, such as "auto", counts as unset while it holds the word.
+    // For a setting whose value is a number or a word such as "auto", the word counts as unset.
     const bool words = setting.kind != SettingKind::choice && !setting.choices.empty();
     const auto unset = [&](const std::string& text) { return words && text == setting.choices.front() ? "" : text; };
     const std::string before = unset(setting.text(request).value_or(""));

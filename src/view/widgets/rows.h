@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the panel for settings (frame/settings.h) and fields of a lens (lens/lens_fields.h).
+// Panel rows for settings (frame/settings/settings.h) and lens fields (lens/lens_fields.h).
 
 #include <string>
 #include <string_view>
@@ -9,23 +9,23 @@
 
 namespace defocus::engine {
 
-// Draws the row of the setting with this name. Returns whether the request changed. Values that the setting refuses are
-// ignored. `first`: for a setting that may be unset, its value when it is switched on.
+// Draws the row of the setting `name`. Returns whether the request changed. Values that the setting rejects are
+// ignored. `first`: for a setting that may be unset, the value that it gets when it is turned on.
 bool settingRow(Request& request, const std::string& name, const std::string& first = "");
 
-// Draws the row of a lens field. Returns whether the lens changed. Values that checkLens refuses are ignored.
+// Draws the row of a lens field. Returns whether the lens changed. Values that checkLens rejects are ignored.
 bool lensFieldRow(Lens& lens, const LensField& field);
 
-// Draws a combo box over the names of all methods. Returns whether one was chosen.
+// Draws a combo box with the names of all methods. Returns whether the user chose one.
 bool methodCombo(std::string& name);
 
 // Draws the row of a method's setting.
 void methodSettingRow(const MethodSetting& setting, std::string& value);
 
-// Returns ImGui's format for seconds, with the photographic fraction in front: "1/125   %.3g s".
+// Returns ImGui's format string for seconds that begins with the photographic fraction: "1/125   %.3g s".
 std::string secondsFormat(double seconds);
 
-// Returns the label of a setting's name: "Blade rotation" for "bladeRotation".
+// Returns the label for a setting's name: "Blade rotation" for "bladeRotation".
 std::string fieldLabel(std::string_view name);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// The data that panels, dialogs and the heads-up display read and change in a frame.
+// The data that panels, dialogs and the heads-up display read and change during a frame.
 
 #include "view/export/still_export.h"
 #include "view/picture/live_picture.h"
@@ -9,9 +9,9 @@
 namespace defocus::engine {
 
 struct FrameTimes {
-    double frame = 0;           // ms, time of the latest frame
-    double interface = 0;       // ms, time of widgets and buffer swap
-    std::vector<float> recent;  // ms, times of the latest frames
+    double frame = 0;           // latest frame time, ms
+    double interface = 0;       // time of widgets and buffer swap, ms
+    std::vector<float> recent;  // latest frame times, ms
     InputLatency latency;
 };
 
@@ -23,7 +23,7 @@ struct Ui {
     const std::optional<StillExport>& still;
     const FrameTimes& times;
     const std::string& device;  // name of the GPU
-    float scale = 1;            // px per unit of the interface
+    float scale = 1;            // px per interface unit
 
     [[nodiscard]] const Scene& scene() const { return *document.frame->scene; }
     [[nodiscard]] const Pose& pose() const { return document.frame->world.pose; }

@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 Places& places() {
-    static Places noted;  // global, like ImGui's own state
+    static Places noted;  // global, as ImGui's own state is
     return noted;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Widgets of the panel that ImGui lacks.
+// Panel widgets that ImGui lacks.
 
 #include <array>
 #include <map>
@@ -13,20 +13,20 @@
 
 namespace defocus::engine {
 
-// Draws a header that opens and closes a section. Returns whether it is open.
+// Draws a header that expands and collapses a section. Returns whether the section is expanded.
 bool section(const char* title, bool openAtFirst);
 
-// Starts a row: the label on the left, the next widget in the rest of the row.
+// Begins a row: draws the label on the left; the next widget fills the rest of the row.
 void rowLabel(const std::string& label, const std::string& tooltip = {});
-// Draws a row of text.
+// Draws a row with a label and a text.
 void textRow(const char* label, const std::string& text, const char* tooltip = "");
-// Draws the tooltip of the previous widget.
+// Draws a tooltip while the mouse is over the previous widget.
 void tooltip(const std::string& text);
 
-// Draws a combo box. Returns whether a name was chosen.
+// Draws a combo box. Returns whether the user chose a name.
 bool combo(const char* id, const std::vector<std::string>& names, std::string& chosen);
 
-// Draws a combo box over the values of an enum. `names`: in order, each ended by a null character.
+// Draws a combo box for an enum. `names`: names of the values in order, each ended by a null character.
 template <typename Enum>
 bool enumCombo(const char* id, Enum& value, const char* names) {
     int index = static_cast<int>(value);
@@ -38,31 +38,31 @@ bool enumCombo(const char* id, Enum& value, const char* names) {
 bool slider(const char* id, double& value, double min, double max, const char* format, ImGuiSliderFlags flags = 0);
 bool slider(const char* id, std::uint32_t& value, std::uint32_t min, std::uint32_t max, ImGuiSliderFlags flags = 0);
 
-// Draws a text field with a button on its right. Returns true if the button is pressed, or Enter in the field.
+// Draws a text field with a button on its right. Returns true if the user presses the button, or Enter in the field.
 bool pathRow(const char* id, const char* hint, const char* button, std::string& path);
 
-// Opens the next modal dialog in the middle of the window, no larger than it; height 0: fits the content.
+// Centres the next modal dialog in the window and limits it to the window's size. `height` 0: fit the contents.
 void centreDialog(float width, float height = 0);
 
-// Window positions of widgets by name.
+// Window positions of widgets, by name.
 using Places = std::map<std::string, std::array<long, 2>>;
 
-// Notes the centre of the previous widget under a name, unless it is scrolled out of sight. Scripts read the positions
-// from the state (docs/window.md).
+// Records the centre of the previous widget under a name, unless the widget is scrolled out of sight. Scripts read the
+// positions from the state file (docs/window.md).
 void notePlace(const std::string& name);
-// Returns the positions noted since the last call.
+// Returns the positions recorded since the last call.
 Places takePlaces();
 
-// Draws a ring of standard stops: drag, wheel and click change `fStop`.
+// Draws a ring of standard f-numbers; drag, wheel and click change `fStop`.
 void stopRing(double& fStop, float scale);
 
-// Draws the first lens samples as points in the aperture.
+// Draws the aperture's shape with the first lens samples as points.
 void aperturePreview(const Lens& lens, float scale);
 
-// Draws a side view: blur over depth, the depths in focus, and the depths of the objects.
+// Draws a side view of the scene: blur over depth, the range of depths in focus, and the depth ranges of objects.
 void depthDiagram(const FramePlan& plan, float scale);
 
-// Draws a stacked bar with its legend and a mark at `budget` ms.
+// Draws a stacked bar with a legend, and a mark at `budget` ms.
 void timeBar(std::span<const PassTime> parts, double budget, float scale);
 
 }  // namespace defocus::engine

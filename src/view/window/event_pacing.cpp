@@ -12,23 +12,23 @@ bool isModifier(int code) {
     return code >= key::leftShift && code <= key::lastModifier;
 }
 
-// Returns whether the effect of a key depends on the text typed before: Return, Backspace, Tab, arrows …
+// Returns whether the effect of a key depends on preceding text input: Return, Backspace, Tab, arrows …
 bool edits(int code) {
     return code >= key::escape && !isModifier(code);
 }
 
-// The events that a frame has taken so far.
+// Summary of the events that the frame has taken so far.
 struct Taken {
     bool button = false;
     bool editingKey = false;
     bool text = false;
-    std::optional<bool> control;  // state of Ctrl for the keys taken so far
+    std::optional<bool> control;  // whether Ctrl was down for the keys taken so far
     std::set<int> pressed;
 };
 
 bool mustWait(const WindowEvent& event, const Taken& taken) {
     using Type = WindowEvent::Type;
-    if (taken.button) return true;  // a click changes the keyboard focus one frame later
+    if (taken.button) return true;  // a click changes the keyboard focus only in the next frame
     if (event.type == Type::text) return taken.editingKey;
     if (event.type != Type::key || !event.pressed || event.repeated || isModifier(event.key)) return false;
     const bool otherControl = taken.control && *taken.control != event.control;

@@ -1,6 +1,6 @@
 #pragma once
-// Limits the events of a frame. ImGui reads keys and buttons once per frame. If a slow frame took all waiting events,
-// some would be lost, such as text after Ctrl A or after a click into a field. The picture's own commands need no
+// Limits the number of events per frame. ImGui reads keys and buttons once per frame; if a slow frame took all waiting
+// events, it would lose some, such as text after Ctrl A or after a click into a field. Commands of the picture need no
 // limit.
 
 #include <deque>
@@ -11,12 +11,12 @@
 namespace defocus::engine {
 
 struct EventPace {
-    bool interfaceHasHand = false;  // a widget has the mouse or takes text, or a dialog is open
-    glm::dvec2 pictureEnd{0.0};     // window units; the interface lies beyond
+    bool interfaceHasHand = false;  // a widget uses the mouse or takes text, or a dialog is open
+    glm::dvec2 pictureEnd{0.0};     // window units; beyond it is the interface
 };
 
-// Takes the events of one frame from the front of the queue, at least one if there are any. The others wait for the
-// next frame.
+// Removes the events of one frame from the front of the queue, at least one if there are any. The other events wait for
+// the next frame.
 std::vector<WindowEvent> takeEvents(std::deque<WindowEvent>& queue, const EventPace& pace);
 
 }  // namespace defocus::engine

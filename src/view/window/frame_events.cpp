@@ -1,4 +1,4 @@
-// Layout and events of a frame.
+// Layout and input events of a frame.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ void poll(Session& session, double seconds) {
     for (WindowEvent& event : session.window.poll(seconds)) session.events.push_back(std::move(event));
 }
 
-// Returns the max seconds to sleep until the next event; 0 while anything moves or grows.
+// Returns the max time (s) to wait for an event; 0 while the picture moves or accumulates samples.
 double idleTime(const Session& session) {
     const ViewState& state = session.state;
     const bool loading = session.document.loader.busy();
@@ -30,7 +30,7 @@ double idleTime(const Session& session) {
 }  // namespace
 
 double interfaceScale(const Session& session) {
-    // Rounded to steps of 1/8, because each scale needs its own font texture.
+    // Round to steps of 1/8, because each scale needs a font texture of its own.
     return std::clamp(std::round(session.window.contentScale() * session.state.interfaceScale * 8) / 8, 0.5, 4.0);
 }
 
@@ -55,7 +55,7 @@ void layOut(Session& session) {
 }
 
 std::vector<WindowEvent> fetchEvents(Session& session) {
-    // New events may have arrived right after the previous fetch.
+    // Events fetched now may have arrived right after the previous fetch.
     Clock::time_point earliest = session.events.empty() ? session.fetchedAt : session.queuedSince;
     poll(session, 0);
     session.growthTime = 0;

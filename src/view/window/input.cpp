@@ -13,14 +13,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double clickRadius = 4;     // window units; max movement of the mouse during a click
-constexpr double doubleClick = 0.35;  // s
-constexpr double dividerReach = 7;    // window units; distance from the divider at which it can be dragged
-constexpr double zoomNotch = 0.88;    // factor on the pivot distance per wheel notch
-constexpr double rackTime = 0.15;     // s per notch
+constexpr double clickRadius = 4;     // max mouse movement of a click, window units
+constexpr double doubleClick = 0.35;  // max time between the clicks of a double click, s
+constexpr double dividerReach = 7;    // distance at which the divider can be dragged, window units
+constexpr double zoomNotch = 0.88;    // factor on the pivot distance per notch of the wheel
+constexpr double rackTime = 0.15;     // duration of the focus pull per notch, s
 
-// Returns focus distance divided by depth in focus at a position of the picture: 1 unless the focus surface is tilted
-// or curved (q of lens/circle_of_confusion.h).
+// Returns the focus distance divided by the depth in focus at a position of the picture: 1 unless the surface of focus
+// is tilted or curved (q in lens/circle_of_confusion.h).
 double focusTerm(const ViewState& state, const glm::dvec2& position) {
     const glm::ivec2 size(glm::max(state.area.size, glm::dvec2(1)));
     const ClipCircleOfConfusion coc = clipCircleOfConfusion(state.lens, size.x, size.y);
@@ -33,7 +33,7 @@ void scroll(const WindowEvent& event, ViewState& state) {
     if (event.control) {
         const double focus = state.pull ? state.pull->to : state.lens.focusDistance;
         pullFocus(state, rackedFocus(focus, event.scroll.y), rackTime);
-    } else if (event.shift) {  // some systems turn a Shift wheel sideways
+    } else if (event.shift) {  // some systems turn Shift + wheel into horizontal scrolling
         state.lens.fStop = steppedStop(state.lens.fStop, event.scroll.y + event.scroll.x > 0 ? -1 : 1);
     } else {
         state.followsCamera = false;
@@ -45,7 +45,7 @@ void placeMarker(ViewState& state, const glm::dvec3& point, const std::string& n
     state.marker = {true, state.marker.number + 1, point, state.now, name, distance};
 }
 
-// Selects the object of a surface and focuses on it.
+// Selects the object of the surface, makes its depth the pivot distance, and pulls the focus to the surface.
 void focusOn(const PickedSurface& surface, const Pose& pose, const glm::dvec2& position, ViewState& state) {
     const double distance = surface.depth * focusTerm(state, position);
     const std::string& name = pose.objects[static_cast<std::size_t>(surface.object)].name;
@@ -74,7 +74,7 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
         case WindowEvent::Type::key:
             pressKey(event, context, state, actions);
             break;
-        case WindowEvent::Type::text:  // text fields handle it
+        case WindowEvent::Type::text:  // text fields handle this event
             break;
         case WindowEvent::Type::drop:
             if (!event.paths.empty()) actions.open = event.paths.front();
@@ -134,7 +134,7 @@ void ViewInput::drag(const WindowEvent& event, ViewState& state) {
         state.camera = panned(state.camera, -step.x * metres, step.y * metres);
         return;
     }
-    // A drag across the picture is half a turn.
+    // A drag across the picture's shorter side orbits by half a turn.
     const glm::dvec2 angle = step / std::min(size.x, size.y) * std::numbers::pi;
     state.camera = state.navigation == Navigation::orbit ? orbited(state.camera, -angle.x, -angle.y)
                                                          : turned(state.camera, -0.5 * angle.x, -0.5 * angle.y);

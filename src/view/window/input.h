@@ -1,5 +1,5 @@
 #pragma once
-// Turns mouse and keys over the picture into changes of the state.
+// Converts mouse and key events over the picture to changes of the state.
 
 #include <set>
 
@@ -10,19 +10,19 @@
 namespace defocus::engine {
 
 struct InputContext {
-    const PreparedFrame* frame = nullptr;  // null: no scene yet
-    bool mouseOnInterface = false;         // a widget takes the mouse
-    bool typing = false;                   // a text field or a dialog takes the keys
-    bool navigating = false;               // the keyboard moves between widgets
+    const PreparedFrame* frame = nullptr;  // null: no scene is open
+    bool mouseOnInterface = false;         // a widget uses the mouse
+    bool typing = false;                   // a text field or a dialog receives the keys
+    bool navigating = false;               // keys move between widgets
 };
 
 class ViewInput {
 public:
     void handle(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
-    // Moves the camera by the keys that are held down.
+    // Moves the camera by the flying keys that are held down.
     void fly(const InputContext& context, double seconds, ViewState& state) const;
 
-    // Returns whether a button over the picture or a key for flying is held down.
+    // Returns whether a mouse button over the picture, or a key pressed without Ctrl, is held down.
     [[nodiscard]] bool holds() const { return drag_ != Drag::none || !held_.empty(); }
 
 private:
@@ -39,7 +39,7 @@ private:
     bool moved_ = false;
     double lastClick_ = -1;
     glm::dvec2 lastClickAt_{0.0};
-    // Keys pressed without Ctrl; a key pressed with Ctrl is a command, even if Ctrl is released first.
+    // Keys that were pressed without Ctrl. A key pressed with Ctrl is a command, even if Ctrl is released first.
     std::set<int> held_;
 };
 

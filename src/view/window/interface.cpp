@@ -18,7 +18,7 @@ namespace {
 
 void loadFont(double scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    const bool hadTexture = atlas.IsBuilt();  // false: the backend makes the texture in its first frame
+    const bool hadTexture = atlas.IsBuilt();  // false: the backend creates the texture in its first frame
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     atlas.Clear();
     addFont(atlas, scale);
@@ -33,7 +33,7 @@ ViewInterface::ViewInterface(Window& window) : window_(&window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    // No callbacks: they would feed events before the frame that takes them.
+    // Install no callbacks: they would pass events to ImGui before the frame that takes these events.
     ImGui_ImplGlfw_InitForOpenGL(window.native(), false);
     ImGui_ImplOpenGL3_Init("#version 450");
 }
@@ -55,19 +55,19 @@ void ViewInterface::beginFrame(bool dark, double scale, const std::vector<Window
     ImGui::NewFrame();
 }
 
-// Sets ImGui's input from the events, because GLFW's own state may be ahead of them.
+// Sets ImGui's input from the frame's events, because GLFW's own state may be ahead of these events.
 void ViewInterface::feed(const std::vector<WindowEvent>& events) {
     ImGuiIO& io = ImGui::GetIO();
     GLFWwindow* const window = window_->native();
-    const auto tell = [&](const WindowEvent& event) {  // maps the key to a letter by the keyboard's layout
+    const auto tell = [&](const WindowEvent& event) {  // lets ImGui's GLFW backend map the key by keyboard layout
         ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
     };
     if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)
-        std::ranges::fill(io.KeysDown, false);  // another window receives the releases
+        std::ranges::fill(io.KeysDown, false);  // the releases go to another window
     for (const WindowEvent& event : std::exchange(tappedKeys_, {})) tell(event);
     std::array<bool, 3> pressed{};
     std::set<int> down;
-    std::optional<WindowEvent> chord;  // the latest key that isn't a modifier
+    std::optional<WindowEvent> chord;  // latest pressed key that isn't a modifier
     for (const WindowEvent& event : events) {
         mouse_ = event.position;
         const auto button = static_cast<std::size_t>(event.button);
@@ -87,11 +87,11 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                 if (event.key < 0 || event.repeated) break;
                 if (event.pressed) {
                     tell(event);
-                    io.KeysDownDuration[event.key] = -1;  // counts as a new press, even without a release in between
+                    io.KeysDownDuration[event.key] = -1;  // counts as a new press even without a release before
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {
-                    tappedKeys_.push_back(event);  // released in the next frame, so that this frame sees the press
+                    tappedKeys_.push_back(event);  // release it next frame, so that ImGui sees the press
                 } else {
                     tell(event);
                 }
@@ -104,7 +104,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
     io.MousePos =
         away ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(static_cast<float>(mouse_.x), static_cast<float>(mouse_.y));
     for (std::size_t i = 0; i < buttons_.size(); ++i) io.MouseDown[i] = buttons_[i] || pressed[i];
-    // A chord counts even if it was released within the frame.
+    // The modifiers of a key count even if they were released within the frame.
     io.KeyCtrl = io.KeysDown[key::leftControl] || io.KeysDown[key::rightControl] || (chord && chord->control);
     io.KeyShift = io.KeysDown[key::leftShift] || io.KeysDown[key::rightShift] || (chord && chord->shift);
     io.KeyAlt = chord && chord->alt;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs ImGui in a Window: feeds it events and draws its frames.
+// Runs ImGui in a Window: passes events to ImGui and draws its widgets.
 
 #include <array>
 #include <vector>
@@ -10,15 +10,15 @@ namespace defocus::engine {
 
 class ViewInterface {
 public:
-    // The window must outlive it.
+    // `window` must outlive the interface.
     explicit ViewInterface(Window& window);
     ~ViewInterface();
     ViewInterface(const ViewInterface&) = delete;
     ViewInterface& operator=(const ViewInterface&) = delete;
 
-    // Begins a frame. `scale`: px per unit of the interface. `events`: the events of this frame (event_pacing.h).
+    // Begins a frame. `scale`: px per interface unit. `events`: events of this frame (event_pacing.h).
     void beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events);
-    // Draws the widgets to the window's framebuffer.
+    // Draws the widgets of the frame to the window's framebuffer.
     void endFrame();
 
 private:
@@ -26,9 +26,9 @@ private:
 
     Window* window_;
 
-    std::vector<WindowEvent> tappedKeys_;  // pressed and released in one frame; ImGui gets the release in the next
-    std::array<bool, 3> buttons_{};        // held buttons, according to the events so far
-    glm::dvec2 mouse_{0.0};                // window units
+    std::vector<WindowEvent> tappedKeys_;  // keys pressed and released in one frame; ImGui gets the release in the next
+    std::array<bool, 3> buttons_{};        // whether each mouse button is down after the events so far
+    glm::dvec2 mouse_{0.0};                // position, window units
     bool focused_ = false;
     double scale_ = 0;
     bool dark_ = true;

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double softwareBudget = 50;  // ms, frame budget if the CPU draws
+constexpr double softwareBudget = 50;  // default frame budget if OpenGL runs on the CPU, ms
 constexpr std::size_t softwareRung = 2;
 constexpr std::size_t shownFrameTimes = 120;
 
@@ -64,11 +64,11 @@ void rememberSettings(Session& session) {
 
 void takeScene(Session& session) {
     if (!takeLoadedScene(session.document, session.state)) return;
-    session.still.reset();  // the still refers to the old scene
+    session.still.reset();  // the export refers to the old scene
     session.window.setTitle(session.document.frame->sceneName + " – defocus");
 }
 
-// Applies the events and the passing of time to state, document and picture.
+// Applies events and elapsed time to state, document and picture.
 void updateFrame(Session& session, const std::vector<WindowEvent>& events, double elapsed) {
     ViewState& state = session.state;
     Document& document = session.document;
@@ -89,7 +89,7 @@ void updateFrame(Session& session, const std::vector<WindowEvent>& events, doubl
 
 void drawPicture(const Session& session) {
     if (!session.picture.image) return;
-    // Row 0 of the texture is the bottom row. ImGui identifies textures by pointers.
+    // The image is flipped, because row 0 of the texture is the bottom row. ImGui identifies textures by pointers.
     const auto texture = static_cast<std::uintptr_t>(session.picture.image->texture().name());
     const ImVec2 end(static_cast<float>(session.state.area.size.x), static_cast<float>(session.state.area.size.y));
     ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(texture), {0, 0}, end, {0, 1}, {1, 0});
@@ -134,11 +134,11 @@ void act(Session& session) {
     }
 }
 
-// Notes whether the frame answers the waiting events with another picture.
+// Records whether the frame shows an effect of the waiting input events.
 void noteLatency(Session& session, bool pictureChanged) {
     if (pictureChanged)
         session.times.latency.shown(Clock::now());
-    else if (!session.state.pull)  // the pull's first step is in the next frame
+    else if (!session.state.pull)  // a focus pull shows its first step in the next frame
         session.times.latency.forget();
 }
 
@@ -153,7 +153,7 @@ void drawFrame(Session& session) {
     session.places = takePlaces();
     const std::vector<WindowEvent> events = fetchEvents(session);
     const SessionOptions& options = session.options;
-    if (session.window.framebufferSize().x < 1 || session.window.framebufferSize().y < 1) {  // minimized
+    if (session.window.framebufferSize().x < 1 || session.window.framebufferSize().y < 1) {  // the window is minimized
         takeScene(session);
         session.window.poll(0.05);
         return;

@@ -15,19 +15,19 @@
 namespace defocus::engine {
 
 struct SessionOptions {
-    Request request;                     // request; its size is the size of the picture
-    std::filesystem::path screenshot;    // file for a screenshot of the window at the end; empty: none
-    int frames = 0;                      // number of frames with the scene before the window closes; 0: no limit
-    std::filesystem::path shaderFolder;  // empty: the embedded shaders
-    bool quiet = false;                  // no warnings on stderr
-    std::filesystem::path stats;         // file for the state as JSON, updated continuously; empty: none
+    Request request;                     // Request::size is the size of the picture
+    std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
+    int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
+    std::filesystem::path shaderFolder;  // empty: use the embedded shaders
+    bool quiet = false;                  // print no warnings on stderr
+    std::filesystem::path stats;         // JSON file for the state, updated continuously; empty: none
 };
 
-// Opens a window and the scene; returns once the window is closed. Throws Error without a display, and, with `frames`,
-// for a scene that can't be opened.
+// Opens a window and the scene; returns once the window is closed. Throws Error if there is no display or, with
+// SessionOptions::frames, if the scene can't be opened.
 void runSession(const SessionOptions& options);
 
-// The parts of a running session.
+// All parts of a running session.
 struct Session {
     explicit Session(const SessionOptions& options);
 
@@ -37,38 +37,38 @@ struct Session {
     ViewInterface interface;
     ViewInput input;
     ViewState state;
-    ViewActions actions;  // actions of this frame
+    ViewActions actions;  // actions requested in this frame
     Document document;
     LivePicture picture;
     std::optional<StillExport> still;
     OpenDialog openDialog;
     FrameTimes times;
 
-    std::deque<WindowEvent> events;                // not yet taken by a frame
-    Clock::time_point queuedSince = Clock::now();  // arrival of the earliest of `events`
+    std::deque<WindowEvent> events;                // fetched events that no frame has taken yet
+    Clock::time_point queuedSince = Clock::now();  // time when the earliest of `events` arrived
     Clock::time_point fetchedAt = Clock::now();
-    double growthTime = 0;  // ms that the frame spent on the still image
+    double growthTime = 0;  // time spent on the still image in this frame, ms
 
     const Clock::time_point begin = Clock::now();
-    int framesWithScene = 0;  // frames of the complete scene, not of a draft
+    int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // s, as ViewState::now
-    Places places;               // widget positions in the latest frame
+    double statsWrittenAt = -1;  // time of the latest writing, s, as ViewState::now
+    Places places;               // positions of the widgets in the latest frame
 };
 
-// Returns the px per unit of the interface.
+// Returns the scale of the interface: px per interface unit.
 double interfaceScale(const Session& session);
 
 [[nodiscard]] bool dialogOpen(const Session& session);
 InputContext inputContext(const Session& session);
 
-// Sets ViewState::area and pictureSize from the window's size.
+// Sets ViewState::area and pictureSize from the size of the window.
 void layOut(Session& session);
 
-// Returns the events of the next frame. Adds samples to a still picture first; sleeps if there is nothing to do.
+// Returns the events of the next frame. First adds samples to a still picture; waits if nothing else is to be done.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
-// Writes the state to SessionOptions::stats, several times a second; `now`: immediately.
+// Writes the state to SessionOptions::stats several times a second. `now`: writes immediately.
 void writeStats(Session& session, bool now = false);
 
 }  // namespace defocus::engine

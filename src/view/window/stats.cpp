@@ -1,4 +1,4 @@
-// Writes the state as JSON, for scripts (docs/window.md). Numbers that are not finite become null.
+// Writes the state of the window as JSON, for scripts (docs/window.md). NaN and infinity become null.
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double statsInterval = 0.2;  // s
+constexpr double statsInterval = 0.2;  // s between two writings
 
 std::string dialogName(const Session& session) {
     if (session.openDialog.browser.opened()) return "open";
@@ -76,7 +76,7 @@ ordered_json windowJson(const Session& session) {
     const InputLatency::Summary latency = session.times.latency.summary();
     return {
         {"fault", state.fault},
-        {"frames", session.framesDrawn},  // includes all events before the second to last frame
+        {"frames", session.framesDrawn},  // the state includes all events before the second to last frame
         {"typing", inputContext(session).typing},
         {"openPath", state.openPath},
         {"frameMilliseconds", session.times.frame},
