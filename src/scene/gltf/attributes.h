@@ -16,8 +16,4 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
 std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
                            std::span<std::vector<std::uint32_t>* const> indices);
 
-// Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and weights sum to 1.
-// Non-finite and near-zero vectors are replaced.
-void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
-
 }  // namespace defocus::engine::gltf

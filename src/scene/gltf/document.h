@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/message.h"
 
 namespace defocus::engine::gltf {
 
@@ -41,14 +42,10 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
 // percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
-// a file stays one short line.
-std::string oneLine(std::string text);
-
 // Throws Error "FILE: message" as one line.
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));
+    throw Error(document.file + ": " + shortLine(fmt::format(format, std::forward<Args>(args)...)));
 }
 
 }  // namespace defocus::engine::gltf
