@@ -83,7 +83,7 @@ Request requestOf(const RenderCommandText& text) {
     // The lens's exposure time and an exposure value exclude each other.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
-    const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
+    const bool meters = !text.frame.scene->school && !text.frame.scene->lights.empty();
     if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0 || meters))
         request.exposure = ExposureValue{text.write.exposure};
     return request;

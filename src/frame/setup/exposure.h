@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered. The request can ask for that. It is also the default for the lights of a
-// file, which may be as bright as the sun, if the lens has no exposure time.
+// Returns whether the exposure is metered. The request can ask for that. It is also the default for a scene
+// with lights, which may be as bright as the sun, if the lens has no exposure time. The school of fish is not metered.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) for a linear image whose alpha is the coverage by metered surfaces. The exposure maps the

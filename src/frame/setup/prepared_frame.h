@@ -19,7 +19,7 @@ struct PreparedFrame {
     std::vector<PlacedLight> ownLights;  // lights before the request changes their sizes
     View view;
     RenderSettings settings;
-    std::string sceneName;                 // file name, or "fish school"
+    std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
     std::optional<std::string> scaleNote;  // names the guessed unit of the scene; none: no guess
     std::string cameraName;
     Lens cameraLens;                             // lens without the request's values
