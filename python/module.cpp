@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -61,11 +63,20 @@ Array arrayOf(defocus::Image&& image) {
     return Array(shape, pixels, keeper);
 }
 
-// Returns a view of the array's pixels, valid as long as the array. The Python code passes only arrays with 2 or 3
-// axes, positive strides and contiguous channels.
+// Returns whether an ImageView can read the array in place.
+bool isViewable(const Array& array) {
+    constexpr py::ssize_t step = sizeof(float);
+    for (py::ssize_t axis = 0; axis < 2; ++axis)
+        if (array.strides(axis) <= 0 || array.strides(axis) % step != 0) return false;
+    return array.ndim() == 2 || array.shape(2) == 1 || array.strides(2) == step;
+}
+
+// Returns a view of the array's pixels without a copy; it is valid as long as the array. The package passes arrays with
+// 2 or 3 axes whose strides are positive and whose channels are neighbours.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
     if (array.size() == 0) return {};
+    if (!isViewable(array)) throw py::type_error("an image needs positive strides and contiguous channels");
     const auto height = static_cast<std::size_t>(array.shape(0));
     const auto width = static_cast<std::size_t>(array.shape(1));
     const std::size_t channels = array.ndim() == 3 ? static_cast<std::size_t>(array.shape(2)) : 1;
@@ -256,6 +267,161 @@ void defineScenes(py::module_& package) {
         .attr("__module__") = "defocus";
 }
 
+using PackedArray = py::array_t<float, py::array::c_style>;
+
+// Arrays of a mesh, which stay alive until the scene has copied them.
+struct MeshArrays {
+    std::string name;
+    int material = -1;
+    PackedArray positions, normals, uvs, colors;
+    py::array_t<std::uint32_t, py::array::c_style> indices;
+};
+
+struct TextureArray {
+    defocus::TextureData data;
+    Array image;
+};
+
+// Returns the rows of an N × count array; empty if the array has another number of columns.
+template <std::size_t count>
+std::span<const std::array<float, count>> rowsOf(const PackedArray& array) {
+    if (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(count)) return {};
+    return {reinterpret_cast<const std::array<float, count>*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+OpenScene createScene(const std::vector<MeshArrays>& meshArrays, const std::vector<defocus::MaterialData>& materials,
+                      const std::vector<TextureArray>& textureArrays,
+                      const std::vector<defocus::InstanceData>& instances,
+                      const std::vector<defocus::CameraData>& cameras, const std::vector<defocus::LightData>& lights,
+                      const std::string& name, double metresPerUnit) {
+    std::vector<defocus::MeshData> meshes;
+    for (const MeshArrays& mesh : meshArrays)
+        meshes.push_back(
+            {mesh.name, rowsOf<3>(mesh.positions), rowsOf<3>(mesh.normals), rowsOf<2>(mesh.uvs), rowsOf<4>(mesh.colors),
+             std::span(mesh.indices.data(), static_cast<std::size_t>(mesh.indices.size())), mesh.material});
+    std::vector<defocus::TextureData> textures;
+    for (const TextureArray& texture : textureArrays) {
+        textures.push_back(texture.data);
+        textures.back().image = viewOf(texture.image);
+    }
+    const py::gil_scoped_release unlocked;
+    return OpenScene{
+        defocus::Scene::create({name, meshes, materials, textures, instances, cameras, lights, metresPerUnit})};
+}
+
+// Binds the structs of a SceneData. Python fills them from the classes of defocus/_scene_data.py.
+void defineSceneData(py::module_& package) {
+    using defocus::AlphaMode;
+    using defocus::CameraData;
+    using defocus::InstanceData;
+    using defocus::LightData;
+    using defocus::LightType;
+    using defocus::MaterialData;
+    using defocus::TextureContent;
+    using defocus::TextureData;
+    using defocus::TextureFilter;
+    using defocus::TextureWrap;
+    py::enum_<TextureContent>(package, "TextureContent")
+        .value("color", TextureContent::color)
+        .value("data", TextureContent::data);
+    py::enum_<TextureWrap>(package, "TextureWrap")
+        .value("repeat", TextureWrap::repeat)
+        .value("clamp_to_edge", TextureWrap::clampToEdge)
+        .value("mirrored_repeat", TextureWrap::mirroredRepeat);
+    py::enum_<TextureFilter>(package, "TextureFilter")
+        .value("nearest", TextureFilter::nearest)
+        .value("linear", TextureFilter::linear);
+    py::enum_<AlphaMode>(package, "AlphaMode")
+        .value("opaque", AlphaMode::opaque)
+        .value("mask", AlphaMode::mask)
+        .value("blend", AlphaMode::blend);
+    py::enum_<LightType>(package, "LightType")
+        .value("directional", LightType::directional)
+        .value("point", LightType::point)
+        .value("spot", LightType::spot);
+    py::class_<MeshArrays>(package, "MeshData")
+        .def(py::init<>())
+        .def_readwrite("name", &MeshArrays::name)
+        .def_readwrite("material", &MeshArrays::material)
+        .def_readwrite("positions", &MeshArrays::positions)
+        .def_readwrite("normals", &MeshArrays::normals)
+        .def_readwrite("uvs", &MeshArrays::uvs)
+        .def_readwrite("colors", &MeshArrays::colors)
+        .def_readwrite("indices", &MeshArrays::indices);
+    const auto ofTexture = [](auto TextureData::*member) {
+        using Value = std::decay_t<decltype(std::declval<TextureData>().*member)>;
+        return [member](TextureArray& texture, Value value) { texture.data.*member = std::move(value); };
+    };
+    py::class_<TextureArray>(package, "TextureData")
+        .def(py::init<>())
+        .def_readwrite("image", &TextureArray::image)
+        .def_property("name", nullptr, ofTexture(&TextureData::name))
+        .def_property("content", nullptr, ofTexture(&TextureData::content))
+        .def_property("straight_alpha", nullptr, ofTexture(&TextureData::straightAlpha))
+        .def_property("wrap_u", nullptr, ofTexture(&TextureData::wrapU))
+        .def_property("wrap_v", nullptr, ofTexture(&TextureData::wrapV))
+        .def_property("magnification", nullptr, ofTexture(&TextureData::magnification))
+        .def_property("minification", nullptr, ofTexture(&TextureData::minification))
+        .def_property("mipmaps", nullptr, ofTexture(&TextureData::mipmaps));
+    py::class_<MaterialData>(package, "MaterialData")
+        .def(py::init<>())
+        .def_readwrite("name", &MaterialData::name)
+        .def_readwrite("base_color", &MaterialData::baseColor)
+        .def_readwrite("base_color_texture", &MaterialData::baseColorTexture)
+        .def_readwrite("metallic", &MaterialData::metallic)
+        .def_readwrite("roughness", &MaterialData::roughness)
+        .def_readwrite("metallic_roughness_texture", &MaterialData::metallicRoughnessTexture)
+        .def_readwrite("normal_texture", &MaterialData::normalTexture)
+        .def_readwrite("normal_scale", &MaterialData::normalScale)
+        .def_readwrite("occlusion_texture", &MaterialData::occlusionTexture)
+        .def_readwrite("occlusion_strength", &MaterialData::occlusionStrength)
+        .def_readwrite("emission", &MaterialData::emission)
+        .def_readwrite("emission_texture", &MaterialData::emissionTexture)
+        .def_readwrite("alpha_mode", &MaterialData::alphaMode)
+        .def_readwrite("alpha_cutoff", &MaterialData::alphaCutoff)
+        .def_readwrite("double_sided", &MaterialData::doubleSided)
+        .def_readwrite("unlit", &MaterialData::unlit)
+        .def_readwrite("ior", &MaterialData::ior)
+        .def_readwrite("transmission", &MaterialData::transmission)
+        .def_readwrite("transmission_texture", &MaterialData::transmissionTexture)
+        .def_readwrite("thickness", &MaterialData::thickness)
+        .def_readwrite("attenuation_distance", &MaterialData::attenuationDistance)
+        .def_readwrite("attenuation_color", &MaterialData::attenuationColor);
+    py::class_<InstanceData>(package, "InstanceData")
+        .def(py::init<>())
+        .def_readwrite("name", &InstanceData::name)
+        .def_readwrite("mesh", &InstanceData::mesh)
+        .def_readwrite("transform", &InstanceData::transform);
+    py::class_<CameraData>(package, "CameraData")
+        .def(py::init<>())
+        .def_readwrite("name", &CameraData::name)
+        .def_readwrite("transform", &CameraData::transform)
+        .def_readwrite("yfov", &CameraData::yfov)
+        .def_readwrite("znear", &CameraData::znear)
+        .def_readwrite("focus_distance", &CameraData::focusDistance)
+        .def(
+            "set_lens",
+            [](CameraData& camera, const defocus::Request& request) {
+                camera.lens = request.lens;
+                return request.lens != defocus::LensSettings();
+            },
+            "Takes the lens of a request; returns whether the request changes the default lens.");
+    py::class_<LightData>(package, "LightData")
+        .def(py::init<>())
+        .def_readwrite("name", &LightData::name)
+        .def_readwrite("type", &LightData::type)
+        .def_readwrite("transform", &LightData::transform)
+        .def_readwrite("color", &LightData::color)
+        .def_readwrite("intensity", &LightData::intensity)
+        .def_readwrite("range", &LightData::range)
+        .def_readwrite("inner_cone_angle", &LightData::innerConeAngle)
+        .def_readwrite("outer_cone_angle", &LightData::outerConeAngle)
+        .def_readwrite("angular_diameter", &LightData::angularDiameter)
+        .def_readwrite("radius", &LightData::radius);
+    package.def("create_scene", &createScene);
+    package.def("look_at", &defocus::lookAt);
+}
+
 void defineRenderer(py::module_& package) {
     using defocus::RenderStatistics;
     using defocus::SceneRenderer;
@@ -361,5 +527,6 @@ PYBIND11_MODULE(_defocus, package) {
     defineRequest(package);
     defineImages(package);
     defineScenes(package);
+    defineSceneData(package);
     defineRenderer(package);
 }

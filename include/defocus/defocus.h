@@ -14,6 +14,7 @@
 #include "defocus/renderer.h"      // IWYU pragma: export
 #include "defocus/request.h"       // IWYU pragma: export
 #include "defocus/scene.h"         // IWYU pragma: export
+#include "defocus/scene_data.h"    // IWYU pragma: export
 #include "defocus/setting_info.h"  // IWYU pragma: export
 #include "defocus/settings.h"      // IWYU pragma: export
 #include "defocus/version.h"       // IWYU pragma: export

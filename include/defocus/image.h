@@ -77,7 +77,8 @@ struct ImageView {
 
 private:
     static ImageStrides packedStrides(int width, int channels) {
-        return {static_cast<std::size_t>(channels), static_cast<std::size_t>(width) * static_cast<std::size_t>(channels)};
+        return {static_cast<std::size_t>(channels),
+                static_cast<std::size_t>(width) * static_cast<std::size_t>(channels)};
     }
 };
 

@@ -33,13 +33,13 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;          // px, mean edge length of level 0, projected at the nearest depth
-    double lambda = 0;                 // fractional level of detail λ
-    double pixelRate = 1;              // fraction of the resolution per axis needed with blurred lens cells
-    bool blended = false;              // true if it has alpha-blended materials
-    bool transmits = false;            // true if it has transmitting materials
-    bool moves = false;                // true if it moves during the exposure
-    std::vector<PlannedDraw> draws;    // 1 or 2, the coarser level first
+    double projectedEdge = 0;        // px, mean edge length of level 0, projected at the nearest depth
+    double lambda = 0;               // fractional level of detail λ
+    double pixelRate = 1;            // fraction of the resolution per axis needed with blurred lens cells
+    bool blended = false;            // true if it has alpha-blended materials
+    bool transmits = false;          // true if it has transmitting materials
+    bool moves = false;              // true if it moves during the exposure
+    std::vector<PlannedDraw> draws;  // 1 or 2, the coarser level first
     // With LodMode::continuous, one sample may draw both levels: fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
@@ -63,7 +63,7 @@ struct Plan {
     Vector3 cameraRight{};
     Vector3 cameraUp{};
     Vector3 cameraBack{};
-    // Lens. All its numbers have a value, which comes from the request, the scene file or the defaults.
+    // Lens, with the values of the request, the file and the defaults. Limits of the blur without a value are infinite.
     LensSettings lens;
     bool hasApertureImage = false;
     double focusDistance = 0;     // m; +∞ for focus at infinity

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that are read once and rendered many times.
+// Scenes that are opened or created once and rendered many times.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "defocus/export.h"
 #include "defocus/progress.h"
+#include "defocus/scene_data.h"
 
 namespace defocus {
 
@@ -35,6 +36,10 @@ public:
     // Returns the built-in school of `fishCount` fish (1 … 10,000) with approximately `trianglesPerFish` triangles each
     // (200 … 10,000,000).
     static Scene schoolOfFish(int fishCount = 20, int trianglesPerFish = 90'000, const Progress& progress = {});
+
+    // Creates a scene from data in memory, which is copied. Throws UsageError that names the faulty part: sizes that
+    // don't match, indices and values out of range, NaN or infinity, or a scene without instances.
+    static Scene create(const SceneData& data);
 
     [[nodiscard]] SceneInfo info() const;
 

@@ -29,15 +29,22 @@ import numpy
 
 from . import _defocus
 from ._defocus import Error, Scene, UsageError
+from ._scene_data import Camera, Instance, Light, Material, Mesh, Texture, look_at
+from ._scene_data import create as _create_scene
 from ._settings import INFOS as _INFOS
 from ._settings import request_of as _request_of
 from ._settings import takes_settings as _takes_settings
 
 __version__: str = _defocus.version
 __all__ = [
-    "Aovs", "Difference", "Error", "Renderer", "Scene", "Setting", "Statistics", "UsageError", "compare", "plan",
-    "progressive", "pyramid", "read_image", "render", "settings", "write_image",
+    "Aovs", "Camera", "Difference", "Error", "Instance", "Light", "Material", "Mesh", "Renderer", "Scene", "Setting",
+    "Statistics", "Texture", "UsageError", "compare", "look_at", "plan", "progressive", "pyramid", "read_image", "render",
+    "settings", "write_image",
 ]
+
+for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
+    _part.__module__ = __name__
+Scene.create = staticmethod(_create_scene)  # type: ignore[method-assign]
 
 Error.__doc__ = """An error of a file, a name or the driver. The message says in one line what failed and what to do."""
 UsageError.__doc__ = """An invalid request: an unknown keyword (also a TypeError), or a value out of range (also a

@@ -1,7 +1,8 @@
 # Types of the package `defocus`. scripts/python_stubs.py writes the class Keywords from the settings table.
 
 import os
-from typing import Any, Callable, ContextManager, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from dataclasses import dataclass
+from typing import Any, Callable, ContextManager, Dict, Iterable, Iterator, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 import numpy.typing
@@ -191,6 +192,95 @@ class Scene:
     def triangles(self) -> int: ...
     @property
     def ignored(self) -> List[str]: ...
+
+    @staticmethod
+    def create(
+        instances: Iterable[Union[Instance, Mesh]],
+        *,
+        cameras: Iterable[Camera] = (),
+        lights: Iterable[Light] = (),
+        name: str = "",
+        metres_per_unit: float = 1,
+    ) -> Scene: ...
+
+@dataclass(eq=False)
+class Texture:
+    image: numpy.typing.ArrayLike
+    content: Literal["color", "data"] = "color"
+    straight_alpha: bool = False
+    wrap_u: Literal["repeat", "clamp_to_edge", "mirrored_repeat"] = "repeat"
+    wrap_v: Literal["repeat", "clamp_to_edge", "mirrored_repeat"] = "repeat"
+    magnification: Literal["nearest", "linear"] = "linear"
+    minification: Literal["nearest", "linear"] = "linear"
+    mipmaps: bool = True
+    name: str = ""
+
+@dataclass(eq=False)
+class Material:
+    base_color: Sequence[float] = (1, 1, 1, 1)
+    base_color_texture: Optional[Texture] = None
+    metallic: float = 1
+    roughness: float = 1
+    metallic_roughness_texture: Optional[Texture] = None
+    normal_texture: Optional[Texture] = None
+    normal_scale: float = 1
+    occlusion_texture: Optional[Texture] = None
+    occlusion_strength: float = 1
+    emission: Sequence[float] = (0, 0, 0)
+    emission_texture: Optional[Texture] = None
+    alpha_mode: Literal["opaque", "mask", "blend"] = "opaque"
+    alpha_cutoff: float = 0.5
+    double_sided: bool = False
+    unlit: bool = False
+    ior: float = 1.5
+    transmission: float = 0
+    transmission_texture: Optional[Texture] = None
+    thickness: float = 0
+    attenuation_distance: float = ...
+    attenuation_color: Sequence[float] = (1, 1, 1)
+    name: str = ""
+
+@dataclass(eq=False)
+class Mesh:
+    positions: numpy.typing.ArrayLike
+    indices: Optional[numpy.typing.ArrayLike] = None
+    normals: Optional[numpy.typing.ArrayLike] = None
+    uvs: Optional[numpy.typing.ArrayLike] = None
+    colors: Optional[numpy.typing.ArrayLike] = None
+    material: Optional[Material] = None
+    name: str = ""
+
+@dataclass(eq=False)
+class Instance:
+    mesh: Mesh
+    transform: Optional[numpy.typing.ArrayLike] = None
+    name: str = ""
+
+@dataclass(eq=False)
+class Camera:
+    transform: Optional[numpy.typing.ArrayLike] = None
+    yfov: float = 0.6911112
+    znear: float = 0.01
+    focus_distance: Optional[float] = None
+    lens: Mapping[str, Any] = ...
+    name: str = ""
+
+@dataclass(eq=False)
+class Light:
+    type: Literal["directional", "point", "spot"] = "directional"
+    transform: Optional[numpy.typing.ArrayLike] = None
+    color: Sequence[float] = (1, 1, 1)
+    intensity: float = 1
+    range: float = 0
+    inner_cone_angle: float = 0
+    outer_cone_angle: float = ...
+    angular_diameter: float = 0.00925
+    radius: float = 0.03
+    name: str = ""
+
+def look_at(
+    position: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0)
+) -> numpy.typing.NDArray[numpy.float64]: ...
 
 class Renderer(ContextManager["Renderer"]):
     def __init__(

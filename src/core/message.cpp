@@ -7,6 +7,12 @@
 
 namespace defocus::engine {
 
+namespace {
+
+constexpr std::size_t longestMessage = 400;  // bytes
+
+}  // namespace
+
 void writeMessage(std::string_view text) noexcept {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -24,6 +30,15 @@ std::string printable(std::string_view text) {
         if (c1) ++i;
     }
     return result;
+}
+
+std::string shortLine(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    if (text.size() <= longestMessage) return text;
+    std::size_t end = longestMessage;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // keeps UTF-8 characters intact
+    return text.substr(0, end) + "…";
 }
 
 void claimClosedOutputs() {

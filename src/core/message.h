@@ -15,6 +15,10 @@ void writeMessage(std::string_view text) noexcept;
 // stay.
 std::string printable(std::string_view text);
 
+// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
+// a file stays one short line.
+std::string shortLine(std::string text);
+
 template <typename... Args>
 void printMessage(fmt::format_string<Args...> format, Args&&... args) {
     writeMessage(printable(fmt::format(format, std::forward<Args>(args)...)));

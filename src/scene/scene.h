@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "defocus/scene_data.h"
 #include "image/image.h"
 #include "scene/camera.h"
 #include "scene/mesh.h"
@@ -25,8 +26,8 @@ namespace defocus::engine {
 
 // ---- materials ----------------------------------------------------------------------------------
 
-enum class Wrap { repeat, clampToEdge, mirroredRepeat };
-enum class Filter { nearest, linear };
+using Wrap = TextureWrap;
+using Filter = TextureFilter;
 
 struct Texture {
     int image = -1;  // index into Scene::images
@@ -43,8 +44,6 @@ struct TextureUse {
     glm::mat3 uvTransform{1.0f};  // KHR_texture_transform: uv' = (uvTransform · (u, v, 1)).xy
     [[nodiscard]] bool used() const { return texture >= 0; }
 };
-
-enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
     std::string name;
@@ -114,8 +113,6 @@ inline std::array<const TextureUse*, materialTextureCount> textureUses(const Mat
 }
 
 // ---- lights and environment ---------------------------------------------------------------------
-
-enum class LightType { directional, point, spot };
 
 struct Light {  // KHR_lights_punctual
     std::string name;
@@ -214,7 +211,8 @@ struct Ignored {
 
 struct Scene {
     std::string name;
-    std::filesystem::path file;  // path of the scene's file; empty for a generated scene
+    std::filesystem::path file;  // source file; empty: none
+    bool school = false;         // the built-in school of fish, whose lights suit an exposure of 0 EV
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // without glTF's default material, Primitive::material −1
     std::vector<Texture> textures;

@@ -198,6 +198,7 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     // Create one mesh per fish.
     Scene scene;
     scene.name = "Fish school";
+    scene.school = true;
     addMaterials(scene);
     scene.meshes.resize(count);
     std::mutex reporting;

@@ -49,7 +49,6 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     EXPECT_EQ(request.lod, LodMode::continuous);
     EXPECT_EQ(request.levelVertices, LevelVertices::surviving);
     EXPECT_EQ(request.method, "multirate");
-    EXPECT_EQ(request.exposure, Exposure(MeteredExposure{}));
     for (const char* name : {"shots/fish-pull.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
 }
 

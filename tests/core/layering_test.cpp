@@ -71,6 +71,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
+        rooms["stability"] = {};  // bench/stability, which only a command includes
         addOver("capture", "frame", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
@@ -80,7 +81,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/panels", "view/widgets", {});
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
-        addOver("cli", "view/window", {"eval"});
+        addOver("cli", "view/window", {"eval", "stability"});
         rooms["frame"].emplace_back("school");  // only frame makes the built-in scene
         return rooms;
     }();

@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-EXAMPLES = ["render", "progressive", "animation"]
+EXAMPLES = ["render", "progressive", "animation", "scene_data"]
 
 
 def run(*words, **options):
@@ -98,7 +98,16 @@ def render_all(programs, output, scene, environment):
     for name, result in arguments.items():
         if (programs / name).exists():
             run(programs / name, scene, output / result, env=environment, cwd=output)
+    if (programs / "scene_data").exists():
+        run(programs / "scene_data", output / "floor.png", env=environment, cwd=output)
     return output
+
+
+def check_documentation(source):
+    """Checks that docs/library.md shows the example of a scene from memory as it is."""
+    example = (source / "examples" / "scene_data.cpp").read_text()
+    check(example[example.index("#include"):] in (source / "docs" / "library.md").read_text(),
+          "docs/library.md shows another program than examples/scene_data.cpp")
 
 
 def png_data(path):
@@ -114,6 +123,7 @@ def png_data(path):
 
 def main():
     build, source, cmake, compiler = (Path(word) for word in sys.argv[1:5])
+    check_documentation(source)
     with tempfile.TemporaryDirectory(prefix="defocus-package-") as name:
         root = Path(name)
         scene = root / "scene.glb"  # the scene is animated
@@ -146,6 +156,7 @@ def main():
         same((1024, 768, 4), "render.exr")
         same((480, 270, 4), "progressive.png")
         same((480, 270, 1), "progressive.depth.exr")
+        same((480, 320, 4), "floor.png")
         for frame in range(12):
             same((320, 180, 4), f"frames/{frame:04}.png")
         moving = {png_data(outputs[0] / f"frames/{frame:04}.png") for frame in range(12)}

@@ -43,14 +43,17 @@ def test_float32_arrays_are_read_where_they_lie(gradient):
     read_only = gradient.view()
     read_only.flags.writeable = False
     assert defocus._pixels(read_only) is read_only
+    assert defocus._pixels(gradient[2:, ::2]).base is gradient
+    assert defocus._pixels(gradient[..., :3]).base is gradient
     # C++ rejects other types and layouts, so that no array is converted implicitly.
-    for other in (gradient.astype(numpy.float64), gradient[:, ::2], numpy.asfortranarray(gradient)):
+    for other in (gradient.astype(numpy.float64), gradient[::-1], numpy.asfortranarray(gradient)):
         with pytest.raises(TypeError):
             defocus._defocus.compare(other, other)
         assert defocus._pixels(other).flags.c_contiguous
         assert defocus.compare(other, other.copy()).mae == 0
     assert defocus.compare(gradient.astype(numpy.float64), gradient).mae == 0
-    assert defocus.compare(gradient[:, ::2], numpy.ascontiguousarray(gradient[:, ::2])).mae == 0
+    for part in (gradient[:, ::2], gradient[2:9, 3:], gradient[..., :3], gradient[..., 0]):
+        assert defocus.compare(part, numpy.ascontiguousarray(part)).mae == 0
 
 
 def test_what_is_no_image_is_refused(gradient):

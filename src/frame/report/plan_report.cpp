@@ -72,12 +72,14 @@ Vector3 columnOf(const glm::dmat4& matrix, int column) {
 LensSettings completeLens(const engine::Lens& lens) {
     LensSettings settings;
     for (const LensField& field : engine::lensFields())
-        if (!std::holds_alternative<std::monostate>(field.given))
-            engine::giveLensValue(settings, field, engine::lensFieldValue(lens, field));
+        if (const double value = engine::lensFieldValue(lens, field);
+            std::isfinite(value) && !std::holds_alternative<std::monostate>(field.given))
+            engine::giveLensValue(settings, field, value);
     return settings;
 }
 
-// ---- JSON -------------------------------------------------------------------------------------------------------------
+// ---- JSON
+// -------------------------------------------------------------------------------------------------------------
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json();
@@ -108,10 +110,15 @@ Json jsonOf(const PlannedObject& object) {
     return json;
 }
 
+Json lensNumber(const Plan& plan, const LensField& field) {
+    if (std::holds_alternative<std::monostate>(field.given)) return number(plan.focusDistance);
+    const std::optional<double> value = engine::givenLensValue(plan.lens, field);
+    return value ? Json(*value) : Json();
+}
+
 Json lensJson(const Plan& plan) {
     Json json;
-    for (const LensField& field : engine::lensFields())
-        json[field.name] = number(engine::givenLensValue(plan.lens, field).value_or(plan.focusDistance));
+    for (const LensField& field : engine::lensFields()) json[field.name] = lensNumber(plan, field);
     json["apertureImage"] = plan.hasApertureImage;
     json["apertureDiameter"] = plan.apertureDiameter;
     json["used"] = plan.usesLens;
@@ -182,16 +189,17 @@ Plan engine::reportedPlan(const FramePlan& plan) {
 }
 
 Pyramid engine::reportedPyramid(const engine::Pyramid& pyramid, const std::string& name, std::size_t mesh) {
-    defocus::Pyramid reported{name, mesh, glm::length(pyramid.bounds.size()), pyramid.repairedFaces,
-                              textOf(pyramid.end).name, {}};
+    defocus::Pyramid reported{
+        name, mesh, glm::length(pyramid.bounds.size()), pyramid.repairedFaces, textOf(pyramid.end).name, {}};
     for (const engine::PyramidLevel& level : pyramid.levels)
         reported.levels.push_back({level.triangleCount, level.vertexCount, level.meanEdge, level.error});
     return reported;
 }
 
 Json engine::jsonOf(const defocus::Pyramid& pyramid) {
-    Json json = {{"name", pyramid.name},       {"index", pyramid.mesh}, {"diagonal", pyramid.diagonal},
-                 {"repairedFaces", pyramid.repairs}, {"end", pyramid.end},    {"levels", Json::array()}};
+    Json json = {{"name", pyramid.name},         {"index", pyramid.mesh},
+                 {"diagonal", pyramid.diagonal}, {"repairedFaces", pyramid.repairs},
+                 {"end", pyramid.end},           {"levels", Json::array()}};
     for (const defocus::PyramidLevel& level : pyramid.levels)
         json["levels"].push_back({{"triangles", level.triangles},
                                   {"vertices", level.vertices},
@@ -213,30 +221,29 @@ std::string toJson(const Plan& plan) {
     for (const PlannedObject& object : plan.objects) objects.push_back(jsonOf(object));
     Json leftOut = Json::array();
     for (const LeftOutPart& part : plan.leftOut) leftOut.push_back({{"what", part.what}, {"reason", part.reason}});
-    return engine::documentText(
-        {{"image", {{"width", plan.size.width}, {"height", plan.size.height}}},
-         {"transparent", plan.transparent},
-         {"camera",
-          {{"position", plan.cameraPosition},
-           {"right", plan.cameraRight},
-           {"up", plan.cameraUp},
-           {"back", plan.cameraBack}}},
-         {"lens", lensJson(plan)},
-         {"samples", plan.samples},
-         {"sequence", engine::sequenceName(plan.sequence)},
-         {"seed", plan.seed},
-         {"cocTolerance", plan.cocTolerance},
-         {"shutter", {{"moments", plan.moments}, {"movingObjects", plan.movingObjects}}},
-         {"lod", lodJson(plan)},
-         {"shadows", shadowsJson(plan)},
-         {"lensCells", {{"blur", plan.lensCellBlur}, {"reason", plan.lensCellReason}}},
-         {"objects", std::move(objects)},
-         {"leftOut", std::move(leftOut)},
-         {"triangles",
-          {{"drawn", plan.trianglesDrawn},
-           {"facingAway", plan.trianglesFacingAway},
-           {"outside", plan.trianglesOutside},
-           {"fullDetail", plan.trianglesAtFullDetail}}}});
+    return engine::documentText({{"image", {{"width", plan.size.width}, {"height", plan.size.height}}},
+                                 {"transparent", plan.transparent},
+                                 {"camera",
+                                  {{"position", plan.cameraPosition},
+                                   {"right", plan.cameraRight},
+                                   {"up", plan.cameraUp},
+                                   {"back", plan.cameraBack}}},
+                                 {"lens", lensJson(plan)},
+                                 {"samples", plan.samples},
+                                 {"sequence", engine::sequenceName(plan.sequence)},
+                                 {"seed", plan.seed},
+                                 {"cocTolerance", plan.cocTolerance},
+                                 {"shutter", {{"moments", plan.moments}, {"movingObjects", plan.movingObjects}}},
+                                 {"lod", lodJson(plan)},
+                                 {"shadows", shadowsJson(plan)},
+                                 {"lensCells", {{"blur", plan.lensCellBlur}, {"reason", plan.lensCellReason}}},
+                                 {"objects", std::move(objects)},
+                                 {"leftOut", std::move(leftOut)},
+                                 {"triangles",
+                                  {{"drawn", plan.trianglesDrawn},
+                                   {"facingAway", plan.trianglesFacingAway},
+                                   {"outside", plan.trianglesOutside},
+                                   {"fullDetail", plan.trianglesAtFullDetail}}}});
 }
 
 std::string toJson(const std::vector<Pyramid>& pyramids) {

@@ -84,7 +84,7 @@ Request requestOf(const RenderCommandText& text) {
     // The exposure options exclude each other: use the lens's exposure time, or an exposure value.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
-    const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
+    const bool meters = !text.frame.scene->school && !text.frame.scene->lights.empty();
     if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0 || meters))
         request.exposure = ExposureValue{text.write.exposure};
     return request;

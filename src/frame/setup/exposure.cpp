@@ -35,7 +35,7 @@ struct HiddenSurroundings {
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens) {
     if (std::holds_alternative<MeteredExposure>(request.exposure)) return true;
     const bool open = std::holds_alternative<DefaultExposure>(request.exposure);
-    return open && lens.exposureTime == 0 && !scene.file.empty() && !scene.lights.empty();
+    return open && lens.exposureTime == 0 && !scene.school && !scene.lights.empty();
 }
 
 double meteredExposure(const ImageView& image) {

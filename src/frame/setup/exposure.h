@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered: if the request asks for it, or by default if the file has lights, which may
-// be as bright as the sun, and the lens has no exposure time.
+// Returns whether the exposure is metered. The request can ask for that. It is also the default for a scene
+// with lights, which may be as bright as the sun, if the lens has no exposure time. The school of fish is not metered.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) that maps the log-average luminance of a linear image to middle grey, 18 % (Reinhard et al.

@@ -210,7 +210,8 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     PreparedFrame frame;
     frame.scene = scene;
     frame.scaleNote = guessedScaleNote(request, *scene);
-    frame.sceneName = scene->file.empty() ? "fish school" : scene->file.filename().string();
+    frame.sceneName = scene->file.empty() ? scene->name : scene->file.filename().string();
+    if (scene->school) frame.sceneName = "fish school";
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 

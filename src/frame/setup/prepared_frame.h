@@ -19,8 +19,8 @@ struct PreparedFrame {
     std::vector<PlacedLight> ownLights;  // lights before the request's sizes are applied
     View view;
     RenderSettings settings;
-    std::string sceneName;                 // name of the file, or "fish school"
-    std::optional<std::string> scaleNote;  // note about the guessed unit of the scene; none: unit not guessed
+    std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
+    std::optional<std::string> scaleNote;  // names the guessed unit of the scene; none: no guess
     std::string cameraName;
     Lens cameraLens;                             // lens of the scene's camera, without the request's values
     std::vector<std::string> refusedLensValues;  // messages about invalid values in the camera's extras

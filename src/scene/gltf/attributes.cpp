@@ -161,66 +161,6 @@ std::vector<glm::vec2> readTextureCoordinates(const AttributeReader& reader, con
     return result;
 }
 
-bool normalise(glm::vec3& vector) {
-    const glm::dvec3 wide = vector;
-    const double length = glm::length(wide);
-    if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // Do not change vectors that have unit length within single precision.
-    if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
-    return true;
-}
-
-void repairNormals(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
-    std::vector<std::size_t> broken;
-    for (std::size_t i = 0; i < block.vertices.normals.size(); ++i)
-        if (!normalise(block.vertices.normals[i])) broken.push_back(i);
-    if (broken.empty()) return;
-    std::vector<std::uint32_t> all;
-    for (const std::vector<std::uint32_t>* list : indices) all.insert(all.end(), list->begin(), list->end());
-    const std::vector<glm::vec3> smooth = smoothNormals(block.vertices.positions, all);
-    for (const std::size_t i : broken) block.vertices.normals[i] = smooth[i];
-    ignore(source, "vertex normals", "of no length or not finite; replaced by the faces' average", broken.size());
-}
-
-void repairTangents(VertexBlock& block) {
-    for (std::size_t i = 0; i < block.vertices.tangents.size(); ++i) {
-        glm::vec4& tangent = block.vertices.tangents[i];
-        glm::vec3 direction(tangent);
-        if (!normalise(direction)) direction = perpendicular(block.vertices.normals[i]);
-        tangent = glm::vec4(direction, tangent.w < 0 ? -1.0f : 1.0f);
-    }
-}
-
-// Sets negative and non-finite weights to 0. Returns the sum of the remaining weights.
-double usableSum(glm::vec4& weight) {
-    double sum = 0;
-    for (int i = 0; i < 4; ++i) {
-        if (!(weight[i] > 0) || !std::isfinite(weight[i])) weight[i] = 0;
-        sum += static_cast<double>(weight[i]);
-    }
-    return sum;
-}
-
-// Normalises each vertex's joint weights to sum 1. A vertex without a positive weight follows its first joint.
-void repairWeights(VertexBlock& block) {
-    Vertices& vertices = block.vertices;
-    bool furtherCount = false;
-    for (std::size_t i = 0; i < vertices.weights.size(); ++i) {
-        glm::vec4 none(0);
-        glm::vec4& first = vertices.weights[i];
-        glm::vec4& further = vertices.weights1.empty() ? none : vertices.weights1[i];
-        const double firstSum = usableSum(first);
-        const double furtherSum = usableSum(further);
-        const double sum = firstSum + furtherSum;
-        first = sum > 0 ? glm::vec4(glm::dvec4(first) / sum) : glm::vec4(1, 0, 0, 0);
-        if (sum > 0) further = glm::vec4(glm::dvec4(further) / sum);
-        furtherCount |= furtherSum > 0;
-    }
-    if (furtherCount) return;
-    vertices.joints1.clear();
-    vertices.weights1.clear();
-}
-
 }  // namespace
 
 VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
@@ -265,12 +205,6 @@ std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positio
     }
     if (dropped > 0) ignoreDamaged(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
     return dropped;
-}
-
-void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
-    repairNormals(source, block, indices);
-    repairTangents(block);
-    repairWeights(block);
 }
 
 }  // namespace defocus::engine::gltf

@@ -17,8 +17,4 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
 std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
                            std::span<std::vector<std::uint32_t>* const> indices);
 
-// Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and joint weights sum to
-// 1. Non-finite and near-zero normals and tangents are replaced.
-void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
-
 }  // namespace defocus::engine::gltf

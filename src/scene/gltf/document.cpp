@@ -23,7 +23,6 @@ constexpr std::uint32_t jsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
-constexpr std::size_t longestMessage = 400;  // max bytes of an error message
 
 using Bytes = std::span<const std::byte>;
 
@@ -184,15 +183,6 @@ bool hasScheme(std::string_view uri) {
 }
 
 }  // namespace
-
-std::string oneLine(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    if (text.size() <= longestMessage) return text;
-    std::size_t end = longestMessage;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // cut between UTF-8 characters
-    return text.substr(0, end) + "…";
-}
 
 std::size_t entryCount(const Document& document, std::string_view name) {
     const auto found = document.json.find(name);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/message.h"
 
 namespace defocus::engine::gltf {
 
@@ -41,14 +42,10 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
 // (also with line breaks) or percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// Returns `text` as one short line for error messages, which may contain names from a file: control characters become
-// spaces, and text beyond 400 bytes is cut.
-std::string oneLine(std::string text);
-
-// Throws Error with the one-line message "FILE: …", where FILE is the document's path.
+// Throws Error "FILE: message" as one line.
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));
+    throw Error(document.file + ": " + shortLine(fmt::format(format, std::forward<Args>(args)...)));
 }
 
 }  // namespace defocus::engine::gltf

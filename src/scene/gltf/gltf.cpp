@@ -1,41 +1,22 @@
 #include "scene/gltf/gltf.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "core/message.h"
+#include "scene/finish_mesh.h"
 #include "scene/gltf/animation.h"
 #include "scene/gltf/material.h"
 #include "scene/gltf/mesh.h"
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
-#include "scene/pose.h"
 #include "scene/units.h"
 
 namespace defocus::engine {
 
 namespace {
 
-// Throws Error if a node's world matrix is not finite: products of finite local matrices can overflow.
-void checkPlacement(const gltf::Source& source, const Scene& scene) {
-    const Pose pose = unmeasuredPoseAt(scene, 0, -1);
-    const auto finite = [](const glm::dmat4& matrix) {
-        for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 4; ++row)
-                if (!std::isfinite(matrix[column][row])) return false;
-        return true;
-    };
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (!finite(pose.worldFromNode[i]))
-            gltf::fault(source.document, "node '{}' is placed at infinity", scene.nodes[i].name);
-    for (const Object& object : pose.objects)
-        if (!finite(object.worldFromObject) ||
-            !std::all_of(object.worldFromJoint.begin(), object.worldFromJoint.end(), finite))
-            gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
-}
-
-// Takes each object's memory from the source's budget. Instances share a mesh but need memory of their own.
+// Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;                   // measured per object, for its pose and its rendering
     constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // per joint, in the pose and in the frame's plan
@@ -106,8 +87,9 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.nodes = std::move(hierarchy.nodes);
     scene.roots = std::move(hierarchy.roots);
 
-    // Check the world matrices, and read the unit and the extensions.
-    checkPlacement(source, scene);
+    // 4. Checks, unit, extensions and notes.
+    if (const std::string placed = placedAtInfinity(scene); !placed.empty())
+        gltf::fault(source.document, "{} is placed at infinity", placed);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
     scene.ignored = std::move(source.ignored);

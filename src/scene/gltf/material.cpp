@@ -280,7 +280,7 @@ Images readImages(Source& source, const Progress& progress) {
     std::vector<std::string> labels;
     for (std::size_t i = 0; i < count; ++i) {
         const nlohmann::json& json = source.document.json["images"][i];
-        result.names.push_back(oneLine(imageName(json, i)));
+        result.names.push_back(shortLine(imageName(json, i)));
         labels.push_back(fmt::format("image {} '{}'", i, result.names[i]));
         if (json.contains("uri")) grantFile(source, json["uri"].get<std::string>(), labels[i]);
     }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/finish_mesh.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/attributes.h"
-#include "scene/tangents.h"
 
 namespace defocus::engine::gltf {
 
@@ -105,18 +105,6 @@ std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, c
     return groups;
 }
 
-// Returns the texture coordinate set (0 or 1) of the first normal map among the primitives' materials; −1 without
-// normal maps.
-int normalMapUvSet(const std::vector<Primitive>& primitives, const std::vector<Material>& materials) {
-    for (const Primitive& primitive : primitives) {
-        if (primitive.material < 0) continue;
-        const Material& material = materials[static_cast<std::size_t>(primitive.material)];
-        for (const TextureUse* use : {&material.normal, &material.clearcoatNormal})
-            if (use->used()) return use->uvSet;
-    }
-    return -1;
-}
-
 class MeshReader {
 public:
     MeshReader(Source& source, const std::vector<Material>& materials) : source_(source), materials_(materials) {}
@@ -185,15 +173,17 @@ private:
     // Repairs the attributes, and adds normals if they are missing, and tangents if they are missing and needed.
     VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
                        const std::string& what) {
-        repair(source_, block, lists);
+        const std::size_t replaced = repairAttributes(block, lists);
+        if (replaced > 0) {
+            const Ignored note = replacedNormalsNote(replaced);
+            ignore(source_, note.what, note.reason, note.count);
+        }
         if (block.vertices.normals.empty()) {
             std::size_t corners = 0;
             for (const std::vector<std::uint32_t>* list : lists) corners += list->size();
             takeBudget(source_, corners, sizeof(glm::vec3) * 2, what);
-            block = flatShaded(block, lists);
         }
-        if (normalMapUv >= 0 && block.vertices.tangents.empty()) block = withTangents(block, lists, normalMapUv);
-        return block;
+        return withMissingAttributes(std::move(block), lists, normalMapUv);
     }
 
     void readMorphWeights(Mesh& mesh, const tinygltf::Mesh& from, const std::string& label) {

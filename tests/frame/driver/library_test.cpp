@@ -10,6 +10,7 @@
 
 #include "cli/two_quads.h"
 #include "defocus/defocus.h"
+#include "scene/scene.h"
 #include "scratch_folder.h"
 
 namespace defocus::engine {
@@ -48,6 +49,41 @@ TEST_F(Library, scenesThatCannotBeOpened) {
     EXPECT_THROW((void)defocus::Scene::load(""), UsageError);
     EXPECT_THROW((void)defocus::Scene::schoolOfFish(0), UsageError);
     EXPECT_THROW((void)defocus::Scene::schoolOfFish(1, 3), UsageError);
+}
+
+TEST_F(Library, camerasInMemoryHaveALens) {
+    const std::array<float, 3> corners[] = {{-1, -1, -3}, {1, -1, -3}, {0, 1, -3}};
+    const MeshData meshes[] = {{.name = "Sail", .positions = corners}};
+    const InstanceData instances[] = {{.mesh = 0}};
+    CameraData camera{.name = "Main", .transform = lookAt({0, 0, 4}, {0, 0, 0}), .focusDistance = 300};
+    camera.lens.fStop = 1.4;
+    camera.lens.focalLength = 85;
+    camera.lens.focusRangeFront = 0.5;
+    const auto create = [&] {
+        return defocus::Scene::create(
+            {.meshes = meshes, .instances = instances, .cameras = std::span(&camera, 1), .metresPerUnit = 0.01});
+    };
+    const auto& lens = create().engineScene()->cameras.at(0).lens;
+    EXPECT_EQ(lens.at("fStop"), 1.4);
+    EXPECT_EQ(lens.at("focalLength"), 85);
+    EXPECT_EQ(lens.at("focusDistance"), 300);
+    EXPECT_EQ(lens.at("focusRangeFront"), 50) << "metres become scene units";
+    camera.lens.fStop = 0;
+    const std::string refused = messageOf<UsageError>([&] { static_cast<void>(create()); });
+    EXPECT_TRUE(refused.starts_with("camera 'Main' (0): fStop must be")) << refused;
+    camera.lens = {};
+    camera.lens.apertureImage = "heart.png";
+    EXPECT_THROW(static_cast<void>(create()), UsageError);
+}
+
+TEST(LookAt, placesACameraInFrontOfItsTarget) {
+    const Matrix4 matrix = lookAt({1, 2, 3}, {1, 2, -5});
+    EXPECT_EQ(matrix, (Matrix4{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}));
+    const Matrix4 down = lookAt({0, 4, 0}, {0, 0, 0}, {0, 0, -1});
+    EXPECT_EQ(down, (Matrix4{1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 4, 0, 1}));
+    EXPECT_THROW(lookAt({0, 0, 0}, {0, 0, 0}), UsageError);
+    EXPECT_THROW(lookAt({0, 4, 0}, {0, 0, 0}), UsageError);
+    EXPECT_THROW(lookAt({0, nan, 0}, {0, 0, 0}), UsageError);
 }
 
 TEST_F(Library, settingsByNameAreThoseOfTheStruct) {

@@ -52,14 +52,15 @@ TEST(Meter, surroundingsAndDarknessDoNotCount) {
     EXPECT_EQ(meteredExposure(stripes({1, 1}, 2)), 0);
 }
 
-TEST(Meter, isReadForTheLightsOfFilesAlone) {
+TEST(Meter, isReadForAllLightsButTheSchools) {
     Scene scene;
     Lens lens;
     Request request;
     EXPECT_FALSE(metersExposure(request, scene, lens));
     scene.lights.emplace_back();
-    EXPECT_FALSE(metersExposure(request, scene, lens)) << "no file";
-    scene.file = "scene.glb";
+    scene.school = true;
+    EXPECT_FALSE(metersExposure(request, scene, lens)) << "the school's lights suit 0 EV";
+    scene.school = false;
     EXPECT_TRUE(metersExposure(request, scene, lens));
     lens.exposureTime = 0.01;
     EXPECT_FALSE(metersExposure(request, scene, lens));

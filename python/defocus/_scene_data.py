@@ -1,0 +1,344 @@
+"""Scenes made of NumPy arrays: the parts that Scene.create takes, and their conversion to C++."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import numbers
+import re
+from typing import Any, Callable, Dict, Iterable, Mapping, Optional, Sequence, Tuple, TypeVar, Union
+
+import numpy
+
+from . import _defocus
+from ._settings import request_of as _request_of
+
+Part = TypeVar("Part")
+Color = Sequence[float]
+
+
+@dataclasses.dataclass(eq=False)
+class Texture:
+    """An image of linear floats in [0, 1]: H×W, H×W×3 or H×W×4, with the top row first. It is stored with 8 bits per
+    channel."""
+
+    image: Any
+    content: str = "color"  # "color": linear Rec.709 with premultiplied alpha; "data": numbers, such as normals
+    straight_alpha: bool = False  # True: the alpha of the colours is straight, not premultiplied
+    wrap_u: str = "repeat"  # or "clamp_to_edge", "mirrored_repeat"
+    wrap_v: str = "repeat"
+    magnification: str = "linear"  # or "nearest"
+    minification: str = "linear"
+    mipmaps: bool = True
+    name: str = ""
+
+
+@dataclasses.dataclass(eq=False)
+class Material:
+    """A metallic-roughness material of glTF. A texture multiplies the values beside it."""
+
+    base_color: Color = (1, 1, 1, 1)  # RGB or RGBA in [0, 1], linear
+    base_color_texture: Optional[Texture] = None
+    metallic: float = 1
+    roughness: float = 1
+    metallic_roughness_texture: Optional[Texture] = None  # data: roughness in G, metalness in B
+    normal_texture: Optional[Texture] = None  # data: (n + 1)/2 in tangent space, +y up
+    normal_scale: float = 1
+    occlusion_texture: Optional[Texture] = None  # data: occlusion in R
+    occlusion_strength: float = 1
+    emission: Color = (0, 0, 0)  # emitted radiance, ≥ 0
+    emission_texture: Optional[Texture] = None
+    alpha_mode: str = "opaque"  # or "mask", "blend"
+    alpha_cutoff: float = 0.5
+    double_sided: bool = False
+    unlit: bool = False  # True: the base colour is shown without lighting
+    ior: float = 1.5
+    transmission: float = 0
+    transmission_texture: Optional[Texture] = None  # data: transmission in R
+    thickness: float = 0  # in mesh units; 0: thin wall without refraction
+    attenuation_distance: float = math.inf
+    attenuation_color: Color = (1, 1, 1)
+    name: str = ""
+
+
+@dataclasses.dataclass(eq=False)
+class Mesh:
+    """Triangles with one material, as arrays with a row per vertex."""
+
+    positions: Any  # N×3
+    indices: Any = None  # integers, M×3; front faces are counter-clockwise. Default: each three positions
+    normals: Any = None  # N×3, of any length. Default: flat shading
+    uvs: Any = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
+    colors: Any = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
+    material: Optional[Material] = None  # None: glTF's default material
+    name: str = ""
+
+
+@dataclasses.dataclass(eq=False)
+class Instance:
+    """A mesh at a place in the scene."""
+
+    mesh: Mesh
+    transform: Any = None  # 4×4, with the translation in the last column. Default: the identity
+    name: str = ""  # of the node. Default: the mesh's name
+
+
+@dataclasses.dataclass(eq=False)
+class Camera:
+    """A camera that looks along the −z axis of its transform; see look_at."""
+
+    transform: Any = None  # 4×4. Default: the identity
+    yfov: float = 0.6911112  # radians, full vertical angle; replaced by a focal length
+    znear: float = 0.01  # scene units; nearer surfaces are invisible
+    focus_distance: Optional[float] = None  # scene units along the view axis. Default: as with focus_auto
+    lens: Mapping[str, Any] = dataclasses.field(default_factory=dict)  # settings of the lens, such as {"f_stop": 1.4}
+    name: str = ""
+
+
+@dataclasses.dataclass(eq=False)
+class Light:
+    """A light of KHR_lights_punctual that shines along the −z axis of its transform; see look_at."""
+
+    type: str = "directional"  # or "point", "spot"
+    transform: Any = None  # 4×4. Default: the identity
+    color: Color = (1, 1, 1)
+    intensity: float = 1  # lux (directional) or candela (point, spot)
+    range: float = 0  # scene units; 0: unlimited
+    inner_cone_angle: float = 0  # radians from the axis of a spot light
+    outer_cone_angle: float = math.pi / 4
+    angular_diameter: float = 0.00925  # radians, of a directional light; softens shadows
+    radius: float = 0.03  # m, of a point or spot light; softens shadows
+    name: str = ""
+
+
+def look_at(position: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0)) -> numpy.ndarray:
+    """Returns the 4×4 transform of a camera or light at `position` that looks at `target`."""
+    points = [_numbers("look_at", name, value, 3) for name, value in
+              (("position", position), ("target", target), ("up", up))]
+    return numpy.array(_native(_defocus.look_at, *points)).reshape(4, 4).T.copy()
+
+
+def create(instances: Iterable[Union[Instance, Mesh]], *, cameras: Iterable[Camera] = (), lights: Iterable[Light] = (),
+           name: str = "", metres_per_unit: float = 1) -> _defocus.Scene:
+    """Creates a scene from arrays, which are copied. A Mesh among the instances stands at the origin. Without cameras,
+    a camera frames the scene; without lights, it has studio lights."""
+    instances = [Instance(item) if isinstance(item, Mesh) else _checked(item, Instance) for item in _items(instances)]
+    meshes = _distinct((_checked(instance.mesh, Mesh) for instance in instances), Mesh)
+    materials = _distinct((mesh.material for mesh in meshes), Material)
+    textures = _distinct((getattr(material, key) for material in materials for key in _texture_fields), Texture)
+    return _native(
+        _defocus.create_scene, [_mesh(mesh, index, materials) for index, mesh in enumerate(meshes)],
+        [_plain(_defocus.MaterialData(), material, index, textures) for index, material in enumerate(materials)],
+        [_texture(texture, index) for index, texture in enumerate(textures)],
+        [_plain(_defocus.InstanceData(), instance, index, meshes) for index, instance in enumerate(instances)],
+        [_camera(_checked(camera, Camera), index) for index, camera in enumerate(_items(cameras))],
+        [_plain(_defocus.LightData(), _checked(light, Light), index) for index, light in enumerate(_items(lights))],
+        str(name), _number("Scene.create", "metres_per_unit", metres_per_unit))
+
+
+# ---- parts ----------------------------------------------------------------------------------------------------------
+
+_texture_fields = [field.name for field in dataclasses.fields(Material) if field.name.endswith("_texture")]
+_choices = {"content": _defocus.TextureContent, "wrap_u": _defocus.TextureWrap, "wrap_v": _defocus.TextureWrap,
+            "magnification": _defocus.TextureFilter, "minification": _defocus.TextureFilter,
+            "alpha_mode": _defocus.AlphaMode, "type": _defocus.LightType}
+
+
+def _items(parts: Any) -> list:
+    """The parts as a list; a single part is a list of one."""
+    single = (Instance, Mesh, Camera, Light)
+    try:
+        return [parts] if isinstance(parts, single) else list(parts)
+    except TypeError:
+        raise _defocus.UsageError(f"Scene.create: {parts!r} is not a list of parts") from None
+
+
+def _checked(part: Any, kind: type) -> Any:
+    if not isinstance(part, kind):
+        raise _defocus.UsageError(f"Scene.create: {part!r} is not a defocus.{kind.__name__}")
+    return part
+
+
+def _distinct(parts: Iterable[Optional[Part]], kind: type) -> Dict[Part, int]:
+    """The parts without repetition, in order of first use, with their indices."""
+    return {part: index for index, part in
+            enumerate(dict.fromkeys(_checked(part, kind) for part in parts if part is not None))}
+
+
+def _label(part: Any, index: int) -> str:
+    kind = type(part).__name__.lower()
+    return f"{kind} '{part.name}' ({index})" if part.name else f"{kind} {index}"
+
+
+def _plain(native: Any, part: Any, index: int, indices: Optional[Mapping[Any, int]] = None,
+           skip: Sequence[str] = ()) -> Any:
+    """Copies the fields of a part to the C++ struct with the same members. `indices` numbers the parts it refers to."""
+    label = _label(part, index)
+    for field in dataclasses.fields(part):
+        key, value = field.name, getattr(part, field.name)
+        if key in skip:
+            continue
+        if key in _choices:
+            value = _choice(label, key, value)
+        elif key == "transform":
+            value = _transform(label, value)
+        elif key.endswith("_texture") or key == "mesh":
+            value = -1 if value is None or indices is None else indices[value]
+        elif key in ("color", "emission", "attenuation_color"):
+            value = _numbers(label, key, value, 3)
+        elif key == "base_color":
+            value = (*_numbers(label, key, value, 3, 4), 1.0)[:4]
+        elif isinstance(field.default, bool):
+            value = bool(value)
+        elif isinstance(field.default, numbers.Real):
+            value = _number(label, key, value)
+        elif key == "name":
+            value = str(value)
+        setattr(native, key, value)
+    return native
+
+
+def _mesh(mesh: Mesh, index: int, materials: Mapping[Material, int]) -> Any:
+    label = _label(mesh, index)
+    native = _defocus.MeshData()
+    native.name = str(mesh.name)
+    native.material = -1 if mesh.material is None else materials[mesh.material]
+    native.positions = _rows(label, "positions", mesh.positions, 3)
+    if mesh.normals is not None:
+        native.normals = _rows(label, "normals", mesh.normals, 3)
+    if mesh.uvs is not None:
+        native.uvs = _rows(label, "uvs", mesh.uvs, 2)
+    if mesh.colors is not None:
+        native.colors = _colors(label, mesh.colors)
+    if mesh.indices is not None:
+        native.indices = _indices(label, mesh.indices)
+    return native
+
+
+def _texture(texture: Texture, index: int) -> Any:
+    native = _plain(_defocus.TextureData(), texture, index, skip=["image"])
+    image = numpy.asarray(texture.image)
+    label = _label(texture, index)
+    if image.dtype.kind != "f":
+        raise _defocus.UsageError(f"{label}: an image holds linear floats, not {image.dtype}; divide by the range and "
+                                  "decode first")
+    if image.ndim not in (2, 3):
+        raise _defocus.UsageError(f"{label}: an image is H×W or H×W×channels, not {_shape(image)}")
+    native.image = _float32(image)
+    return native
+
+
+def _camera(camera: Camera, index: int) -> Any:
+    native = _plain(_defocus.CameraData(), camera, index, skip=["focus_distance", "lens"])
+    label = _label(camera, index)
+    if camera.focus_distance is not None:
+        native.focus_distance = _number(label, "focus_distance", camera.focus_distance)
+    if not isinstance(camera.lens, Mapping):
+        raise _defocus.UsageError(f"{label}: lens is not a dictionary of settings")
+    given = {keyword: value for keyword, value in camera.lens.items() if value is not None}
+    try:
+        for keyword, value in given.items():
+            if not native.set_lens(_request_of(None, {keyword: value})):
+                raise _defocus.UsageError(f"'{keyword}' is no setting of the lens")
+        native.set_lens(_request_of(None, given))
+    except _defocus.UsageError as error:
+        raise _defocus.UsageError(f"{label}: {error}") from None
+    return native
+
+
+_fields = {field.name for kind in (Texture, Material, Mesh, Instance, Camera, Light)
+           for field in dataclasses.fields(kind)}
+_snake_case = {re.sub("_(.)", lambda match: match[1].upper(), name): name
+               for name in (*_fields, "metres_per_unit", "look_at") if "_" in name}
+
+
+def _native(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Calls a C++ function. Its errors name members in snake_case."""
+    try:
+        return function(*arguments)
+    except _defocus.UsageError as error:
+        pattern = rf"\b({'|'.join(_snake_case)})\b"
+        raise _defocus.UsageError(re.sub(pattern, lambda match: _snake_case[match[1]], str(error))) from None
+
+
+# ---- values ---------------------------------------------------------------------------------------------------------
+
+
+def _shape(array: numpy.ndarray) -> str:
+    if array.ndim == 1:
+        return f"{array.size} values"
+    return "×".join(map(str, array.shape)) or "a single value"
+
+
+def _float32(array: numpy.ndarray) -> numpy.ndarray:
+    with numpy.errstate(over="ignore"):  # C++ reports values that become infinite
+        return numpy.ascontiguousarray(array, dtype=numpy.float32)
+
+
+def _rows(label: str, name: str, value: Any, *columns: int) -> numpy.ndarray:
+    """An N×columns array of float32."""
+    array = numpy.asarray(value)
+    if array.ndim != 2 or array.shape[1] not in columns:
+        wanted = " or ".join(f"N×{count}" for count in columns)
+        raise _defocus.UsageError(f"{label}: {name} is {_shape(array)}, not {wanted}")
+    if array.dtype.kind not in "fiu":
+        raise _defocus.UsageError(f"{label}: {name} holds {array.dtype}, not numbers")
+    if len(array) == 0:
+        raise _defocus.UsageError(f"{label}: {name} is empty")
+    return _float32(array)
+
+
+def _colors(label: str, value: Any) -> numpy.ndarray:
+    colors = _rows(label, "colors", value, 3, 4)
+    if numpy.asarray(value).dtype.kind != "f":
+        raise _defocus.UsageError(f"{label}: colors are linear floats; divide integers by the range and decode first")
+    return colors if colors.shape[1] == 4 else numpy.hstack([colors, numpy.ones((len(colors), 1), numpy.float32)])
+
+
+def _indices(label: str, value: Any) -> numpy.ndarray:
+    array = numpy.asarray(value)
+    if array.size == 0:
+        raise _defocus.UsageError(f"{label}: indices is empty, so the mesh has no triangles")
+    if array.dtype.kind not in "iu":
+        raise _defocus.UsageError(f"{label}: indices are integers, not {array.dtype}")
+    if array.ndim != 1 and (array.ndim != 2 or array.shape[1] != 3):
+        raise _defocus.UsageError(f"{label}: indices is {_shape(array)}, not M×3")
+    limit = numpy.iinfo(numpy.uint32).max
+    if array.min() < 0 or array.max() > limit:
+        raise _defocus.UsageError(f"{label}: index {array.min() if array.min() < 0 else array.max()} is not from 0 to "
+                                  f"{limit}")
+    return numpy.ascontiguousarray(array, dtype=numpy.uint32).reshape(-1)
+
+
+def _transform(label: str, value: Any) -> list:
+    """The matrix in column-major order."""
+    array = numpy.eye(4) if value is None else numpy.asarray(value)
+    if array.shape != (4, 4) or array.dtype.kind not in "fiu":
+        raise _defocus.UsageError(f"{label}: transform is {_shape(array)} of {array.dtype}, not 4×4 numbers")
+    if not (array[3] == (0, 0, 0, 1)).all():
+        raise _defocus.UsageError(f"{label}: the last row of transform is {array[3].tolist()}, not 0, 0, 0, 1; the "
+                                  "translation stands in the last column")
+    return array.T.ravel().tolist()
+
+
+def _choice(label: str, name: str, value: Any) -> Any:
+    members = _choices[name].__members__
+    if value not in members:
+        raise _defocus.UsageError(f"{label}: {name} is {value!r}; it must be one of {', '.join(members)}")
+    return members[value]
+
+
+def _number(label: str, name: str, value: Any) -> float:
+    if isinstance(value, (numbers.Real, numpy.bool_)):
+        return float(value)
+    raise _defocus.UsageError(f"{label}: {name} is {value!r}, not a number")
+
+
+def _numbers(label: str, name: str, value: Any, *counts: int) -> Tuple[float, ...]:
+    try:
+        values = tuple(value)
+    except TypeError:
+        values = ()
+    if len(values) not in counts:
+        raise _defocus.UsageError(f"{label}: {name} is {value!r}, not {' or '.join(map(str, counts))} numbers")
+    return tuple(_number(label, name, part) for part in values)

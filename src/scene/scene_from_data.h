@@ -1,0 +1,19 @@
+#pragma once
+// Builds a Scene from data in memory (defocus/scene_data.h), as the glTF loader builds it from a file.
+
+#include <string>
+#include <string_view>
+
+#include "defocus/scene_data.h"
+#include "scene/scene.h"
+
+namespace defocus::engine {
+
+// Returns the scene with Scene::ownMetresPerUnit set. CameraData::lens is ignored. Throws UsageError that names the
+// faulty part: sizes that don't match, indices and values out of range, NaN or infinity, or a scene without instances.
+Scene sceneFromData(const SceneData& data);
+
+// Returns a label for messages, such as "mesh 'Body' (0)", or "mesh 0" without a name.
+std::string partLabel(std::string_view kind, std::size_t index, const std::string& name);
+
+}  // namespace defocus::engine

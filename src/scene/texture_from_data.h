@@ -1,0 +1,16 @@
+#pragma once
+// Conversion of float images to the 8-bit textures that a Scene stores.
+
+#include <string>
+
+#include "defocus/scene_data.h"
+#include "image/image.h"
+
+namespace defocus::engine {
+
+// Returns the texture's image: colours are encoded in sRGB with straight alpha, data is stored as it is. Values are
+// rounded to 8 bits. Throws UsageError that begins with `label` for an image without pixels, a wrong number of pixels
+// or channels, and values outside [0, 1].
+TextureImage textureImage(const TextureData& texture, const std::string& label);
+
+}  // namespace defocus::engine
