@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 // Text about standard output for --help, after the formats.
-inline constexpr const char* standardOutputHelp = "- is standard output, as PNG or as in exr:- and jpg:-";
+inline constexpr const char* standardOutputHelp = "-, exr:- or jpg:- writes PNG, EXR or JPEG to standard output";
 
 bool isStandardOutput(const std::filesystem::path& output);
 
