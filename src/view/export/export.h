@@ -11,7 +11,7 @@ namespace defocus::engine {
 // Returns the `defocus render` command of the picture.
 std::string pictureCommand(const Document& document, const ViewState& state);
 
-// Records key frames, saves shots, and starts or cancels stills as the actions ask. Returns the text for the clipboard,
+// Records keyframes, saves shots, and starts or cancels stills as the actions ask. Returns the text for the clipboard,
 // if any. Throws Error.
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);

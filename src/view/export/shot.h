@@ -1,5 +1,5 @@
 #pragma once
-// Writes key frames as a shot file that `defocus capture` renders (docs/shot.schema.json).
+// Writes keyframes as a shot file that `defocus capture` renders (docs/shot.schema.json).
 
 #include <string>
 #include <vector>
