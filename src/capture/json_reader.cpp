@@ -104,7 +104,7 @@ bool JsonReader::boolean() const {
 }
 
 std::string JsonReader::text() const {
-    if (!value_->is_string() || value_->get_ref<const std::string&>().empty()) failExpecting("a text");
+    if (!value_->is_string() || value_->get_ref<const std::string&>().empty()) failExpecting("a string");
     return value_->get<std::string>();
 }
 

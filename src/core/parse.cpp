@@ -73,7 +73,7 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
         numbers.push_back(*number);
     }
     if (numbers.size() != count || splitAt(text, ',').size() != count)
-        fail("'{}' is not {} numbers parted by commas, each {}", text, count, inWords(range));
+        fail("'{}' is not a list of {} numbers separated by commas, each {}", text, count, inWords(range));
     return numbers;
 }
 
@@ -82,7 +82,7 @@ std::size_t parseChoice(const std::string& text, const std::vector<std::string>&
         if (choices[i] == text) return i;
     if (choices.size() == 1) fail("'{}' is not '{}'", text, choices.front());
     const std::string nearest = nearestWord(text, choices);
-    fail("'{}' is none of {}{}", text, fmt::join(choices, ", "),
+    fail("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 

@@ -28,11 +28,11 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
     };
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (!finite(pose.worldFromNode[i]))
-            gltf::fault(source.document, "node '{}' is placed at infinity", scene.nodes[i].name);
+            gltf::fault(source.document, "the transform of node '{}' is not finite", scene.nodes[i].name);
     for (const Object& object : pose.objects)
         if (!finite(object.worldFromObject) ||
             !std::all_of(object.worldFromJoint.begin(), object.worldFromJoint.end(), finite))
-            gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
+            gltf::fault(source.document, "the transform of object '{}' is not finite", object.name);
 }
 
 // Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
@@ -75,7 +75,7 @@ std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
         try {
             return metresOfUnit(units.is_string() ? units.get<std::string>() : units.dump());
         } catch (const Error& error) {
-            gltf::fault(source.document, "the extras' units: {}", error.what());
+            gltf::fault(source.document, "extras.units: {}", error.what());
         }
     }
     return {};
@@ -124,7 +124,7 @@ Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
         // Safety net: checkSchema should already have rejected such a file.
         gltf::fault(source.document, "not valid glTF: {}", exception.what());
     } catch (const std::bad_alloc&) {
-        gltf::fault(source.document, "it does not fit into memory");
+        gltf::fault(source.document, "the scene does not fit into memory");
     }
 }
 
