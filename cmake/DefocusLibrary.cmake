@@ -1,4 +1,4 @@
-# The library, one file made of the rooms' objects, and cmake --install with find_package(defocus), defocus::defocus and
+# The library, one file made of the modules' objects, and cmake --install with find_package(defocus), defocus::defocus and
 # pkg-config.
 #
 # BUILD_SHARED_LIBS chooses between static and shared. With the tests the other one is linked too, from the same objects:
@@ -8,8 +8,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(LIBRARY_OBJECTS "")
-foreach(ROOM IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
-    list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${ROOM}>")
+foreach(MODULE IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
+    list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${MODULE}>")
 endforeach()
 
 function(defocus_library TARGET KIND)

@@ -26,8 +26,8 @@ if(DEFOCUS_FUZZ)
     target_compile_options(defocus_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# Whole builds read the headers that most sources include once. The first room makes them, the others share them: all
-# rooms are compiled with the same options. Builds of single sources do without, and so find an include that is missing.
+# Whole builds read the headers that most sources include once. The first module makes them, the others share them: all
+# modules are compiled with the same options. Builds of single sources do without, and so find an include that is missing.
 function(defocus_precompiled TARGET)
     if(NOT CMAKE_UNITY_BUILD)
         return()
