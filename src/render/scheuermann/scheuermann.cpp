@@ -108,8 +108,8 @@ private:
             valueAt(view, settings_, "far-blur-depth"), valueAt(view, settings_, "blurriness-cutoff")};
         if (thinLens_ && (planes.near > 0 || planes.focus > 0 || planes.far > 0 || planes.cutoff > 0))
             fail(
-                "method scheuermann: coc=thin-lens takes the blur from the lens; leave out the depths of blur and "
-                "blurriness-cutoff");
+                "method scheuermann: coc=thin-lens takes the blur from the lens; leave out near-blur-depth, "
+                "focal-plane-depth, far-blur-depth and blurriness-cutoff");
         return planes;
     }
 
