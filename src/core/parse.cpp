@@ -80,7 +80,7 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices) {
     for (std::size_t i = 0; i < choices.size(); ++i)
         if (choices[i] == text) return i;
-    if (choices.size() == 1) fail("'{}' is not '{}'", text, choices.front());
+    if (choices.size() == 1) fail("'{}' is not valid; the only choice is '{}'", text, choices.front());
     const std::string nearest = nearestWord(text, choices);
     fail("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));

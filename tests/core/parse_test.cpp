@@ -54,7 +54,7 @@ TEST(ParseChoice, listsTheChoicesAndSuggestsTheNearest) {
     EXPECT_EQ(faultOf([&] { parseChoice("aecs", choices); }),
               "'aecs' is not one of none, aces, agx; did you mean 'aces'?");
     EXPECT_EQ(faultOf([&] { parseChoice("filmic", choices); }), "'filmic' is not one of none, aces, agx");
-    EXPECT_EQ(faultOf([&] { parseChoice("jeong", {"jeong2011"}); }), "'jeong' is not 'jeong2011'");
+    EXPECT_EQ(faultOf([&] { parseChoice("jeong", {"jeong2011"}); }), "'jeong' is not valid; the only choice is 'jeong2011'");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         next = part.range.end;
     }
     if (next < first.frameSamples)
-        fail("samples {}:{} are missing: the frame has {}", next, first.frameSamples, first.frameSamples);
+        fail("samples {}:{} are missing; the frame has {} samples", next, first.frameSamples, first.frameSamples);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ std::vector<float> readTimes(Source& source, int accessor, const std::string& wh
     if (times.empty()) fault(source.document, "{}: it has no keys", what);
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
-            fault(source.document, "{}: its times do not increase", what);
+            fault(source.document, "{}: the key times do not increase", what);
     return times;
 }
 
