@@ -294,8 +294,8 @@ std::vector<MethodSetting> circularSettings() {
          .whole = false},
         {.name = "bias-by",
          .standard = "constant",
-         .description = "Where --blend-bias applies: everywhere (constant), or where the near field fills much of its "
-                        "disk and is brighter than its background (luminance): less ghosting without wider edges",
+         .description = "Variation of --blend-bias: constant, or proportional to the near field's coverage and "
+                        "relative brightness (luminance), which reduces ghosting without widening edges",
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .standard = "separable",
