@@ -9,8 +9,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(LIBRARY_OBJECTS "")
-foreach(ROOM IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
-    list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${ROOM}>")
+foreach(MODULE IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
+    list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${MODULE}>")
 endforeach()
 
 function(defocus_library TARGET KIND)

@@ -289,7 +289,7 @@ def write_image(path: Path, image: Any, *, tone_map: Optional[str] = None, expos
 
 def _listener(progress: Optional[Progress]) -> Optional[Progress]:
     if progress is not None and not callable(progress):
-        raise UsageError(f"progress: {progress!r} is not a function of stage, done and total")
+        raise UsageError(f"progress: {progress!r} is not a callable that takes stage, done and total")
     return progress
 
 
@@ -299,9 +299,10 @@ def _pixels(image: Any) -> numpy.ndarray:
         return read_image(image)
     array = numpy.asarray(image)
     if array.dtype.kind != "f":
-        raise UsageError(f"an image holds linear floats, not {array.dtype}; divide by the range and decode first")
+        raise UsageError(f"an image must have linear float values, not {array.dtype}; divide by the maximum and decode")
     if array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] not in (1, 3, 4)):
-        raise UsageError(f"an image is H×W or H×W×channels with 1, 3 or 4 of them, not {'×'.join(map(str, array.shape))}")
+        shape = "×".join(map(str, array.shape))
+        raise UsageError(f"an image must have the shape H×W or H×W×C with 1, 3 or 4 channels, not {shape}")
     in_place = array.dtype == numpy.float32 and all(0 < step and step % 4 == 0 for step in array.strides)
     if in_place and (array.ndim == 2 or array.shape[2] == 1 or array.strides[2] == 4):
         return array

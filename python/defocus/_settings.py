@@ -70,7 +70,7 @@ def check_exclusions(given: Mapping[str, Any]) -> None:
     for keyword in given:
         for name in INFOS[keyword].excludes if keyword in INFOS else ():
             if by_name[name] in given:
-                raise _defocus.UsageError(f"{keyword}: cannot be given together with {by_name[name]}")
+                raise _defocus.UsageError(f"{keyword} cannot be combined with {by_name[name]}")
 
 
 def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
@@ -80,7 +80,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
     if scene is not None:
         for keyword in SCHOOL:
             if keyword in given:
-                raise _defocus.UsageError(f"{keyword}: is of the built-in school of fish; give it without a scene")
+                raise _defocus.UsageError(f"{keyword} applies only to the built-in school of fish; leave out the scene")
     if isinstance(scene, (str, os.PathLike)):
         set_value(request, "scene", scene)
     elif scene is not None and not isinstance(scene, _defocus.Scene):

@@ -72,7 +72,7 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
     const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(options.timings.c_str(), "ab"), &std::fclose);
     if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
-        fail("{}: cannot be written", options.timings.string());
+        fail("cannot write {}", options.timings.string());
 }
 
 // ---- one frame ------------------------------------------------------------------------------------------------------

@@ -17,11 +17,11 @@ void checkFramePattern(const std::string& pattern) {
     const std::string name = fs::path(pattern).filename().string();
     const std::size_t first = name.find('#');
     if (first == std::string::npos)
-        fail("{}: the name has no place for the frame's number; write #### for it, as in frames/####.exr", pattern);
+        fail("{}: the pattern has no frame number; add #### to the file name, as in frames/####.exr", pattern);
     const std::size_t end = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', end) != std::string::npos ||
         fs::path(pattern).parent_path().string().find('#') != std::string::npos)
-        fail("{}: the frame's number can stand in one place only, in the file's name", pattern);
+        fail("{}: the frame number (####) may occur only once, in the file name", pattern);
     checkImageExtension(pattern);
 }
 

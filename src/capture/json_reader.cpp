@@ -55,7 +55,7 @@ void JsonReader::requireObject(const std::vector<std::string>& known) const {
         if (std::ranges::find(known, key) != known.end()) continue;
         const std::string nearest = nearestWord(key, known);
         if (!nearest.empty()) failWith(fmt::format("there is no key '{}'; did you mean '{}'?", key, nearest));
-        failWith(fmt::format("there is no key '{}'; there are: {}", key, fmt::join(known, ", ")));
+        failWith(fmt::format("there is no key '{}'; the keys are: {}", key, fmt::join(known, ", ")));
     }
 }
 
@@ -104,7 +104,7 @@ bool JsonReader::boolean() const {
 }
 
 std::string JsonReader::text() const {
-    if (!value_->is_string() || value_->get_ref<const std::string&>().empty()) failExpecting("a text");
+    if (!value_->is_string() || value_->get_ref<const std::string&>().empty()) failExpecting("a string");
     return value_->get<std::string>();
 }
 

@@ -50,7 +50,7 @@ void addWords(const Schema& schema, std::vector<std::string>& words) {
     } else if (schema["type"] == "boolean") {
         words.emplace_back("true or false");
     } else if (schema["type"] == "string") {
-        words.emplace_back("a text");
+        words.emplace_back("a string");
     } else if (schema["type"] == "array") {
         const Schema& items = schema["items"];
         words.push_back(fmt::format("an array of {} {}s {}", schema["minItems"].get<int>(),

@@ -54,7 +54,7 @@ FrameRange rangeOf(const JsonReader& reader) {
     if (ends.size() != 2) reader.failExpecting(what);
     const FrameRange range{static_cast<int>(ends[0].integer(0, maxFrame)),
                            static_cast<int>(ends[1].integer(0, maxFrame))};
-    if (range.last < range.first) reader.failExpecting("a last frame that isn't before the first");
+    if (range.last < range.first) reader.failExpecting("a last frame that is not before the first");
     return range;
 }
 
@@ -74,7 +74,7 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
         key.requireObject(known);
         const double frame = key.at("frame").number(0, maxFrame);
         if (!keys.empty() && !(frame > keys.back().first))
-            key.at("frame").failExpecting(fmt::format("a frame after the key before it, {}", keys.back().first));
+            key.at("frame").failExpecting(fmt::format("a frame after the previous key, {}", keys.back().first));
         keys.emplace_back(frame, key);
     }
     return keys;
@@ -115,9 +115,9 @@ Dolly dollyOf(const JsonReader& reader) {
 ShotMovement movementOf(const JsonReader& reader) {
     reader.requireObject({"name", "keys", "interpolation", "turntable", "dolly"});
     const int movements = int{reader.has("keys")} + int{reader.has("turntable")} + int{reader.has("dolly")};
-    if (movements > 1) reader.failWith("give one of keys, turntable and dolly");
+    if (movements > 1) reader.failWith("give only one of 'keys', 'turntable' and 'dolly'");
     if (reader.has("interpolation") && !reader.has("keys"))
-        reader.at("interpolation").failWith("only keys are interpolated; a dolly has its own 'interpolation'");
+        reader.at("interpolation").failWith("interpolation applies only to keys; a dolly has its own 'interpolation'");
     if (reader.has("keys")) return cameraKeysOf(reader);
     if (reader.has("turntable")) return turntableOf(reader.at("turntable"));
     if (reader.has("dolly")) return dollyOf(reader.at("dolly"));
@@ -132,7 +132,7 @@ bool namesFocusTarget(const JsonReader& reader) {
 
 FocusTarget focusTargetOf(const JsonReader& reader) {
     if (std::ranges::count_if(focusTargets, [&](const std::string& name) { return reader.has(name.c_str()); }) != 1)
-        reader.failWith("give one of 'node', 'distance', 'pixel' and 'auto'");
+        reader.failWith("give exactly one of 'node', 'distance', 'pixel' and 'auto'");
     if (const auto node = reader.find("node")) return FocusNode{node->text()};
     if (const auto pixel = reader.find("pixel")) {
         const char* what = "a column and a row in pixels";
@@ -154,7 +154,7 @@ FocusTrack focusOf(const JsonReader& reader) {
     FocusTrack focus;
     if (!reader.has("keys")) {
         focus.keys = {{0, focusTargetOf(reader)}};
-        if (const auto easing = reader.find("interpolation")) easing->failWith("only keys are interpolated");
+        if (const auto easing = reader.find("interpolation")) easing->failWith("interpolation applies only to keys");
         return focus;
     }
     if (namesFocusTarget(reader))
@@ -270,7 +270,8 @@ std::string relativeToShot(const Setting& setting, const std::string& text, cons
 // Reads the values that correspond one-to-one to settings.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
-        if (reader.has("scene")) fish->failWith("is for the built-in school of fish; this shot names a scene");
+        if (reader.has("scene"))
+            fish->failWith("the setting belongs to the built-in school of fish, but the shot has a scene");
         fish->requireObject(keysAt("/fish", {}));
     }
     if (const auto animation = reader.find("animation")) {
@@ -338,9 +339,11 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
     if (const auto keys = reader.find("methodKeys")) shot.methodKeys = methodKeysOf(*keys);
     if (shot.focus && shot.lens.contains("focusDistance"))
-        reader.at("lens").at("focusDistance").failWith("the shot has a 'focus' too; give one of them");
+        reader.at("lens")
+            .at("focusDistance")
+            .failWith("cannot be combined with the shot's 'focus'; give only one of them");
     if (reader.has("exposure") && shot.lens.contains("exposureTime"))
-        reader.at("exposure").failWith("the lens has an exposureTime too; give one of them");
+        reader.at("exposure").failWith("cannot be combined with the lens's 'exposureTime'; give only one of them");
     readOutput(reader, shot);
     collectNames(reader, shot);
     return shot;
@@ -376,7 +379,7 @@ json parsed(std::string_view text, const fs::path& file) {
         return json::parse(text);
     } catch (const json::parse_error& error) {
         const std::size_t end = std::min(error.byte, text.size());
-        failAt(text, end > 0 ? end - 1 : 0, file, "not JSON: something is missing or too much here");
+        failAt(text, end > 0 ? end - 1 : 0, file, "not valid JSON: unexpected character or end of file");
     } catch (const json::out_of_range&) {
         failAt(text, placeOfOverflow(text), file, "the number is too large");
     }
@@ -390,8 +393,7 @@ void replaceValue(json& document, const ShotOverride& given) {
     try {
         document[json::json_pointer(given.pointer)] = value;
     } catch (const json::exception&) {
-        fail("--set {}: there is no such place in the shot; it is a JSON pointer, such as /lens/fStop=1.4",
-             given.pointer);
+        fail("--set {}: not found in the shot; give a JSON pointer, such as /lens/fStop=1.4", given.pointer);
     }
 }
 
@@ -426,13 +428,13 @@ FrameRange parseFrameRange(std::string_view text) {
         int value = -1;
         const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > maxFrame)
-            fail("'{}' is not FIRST:LAST, whole frames from 0 to {}, such as 0:240", text, maxFrame);
+            fail("'{}' is not FIRST:LAST, with frame numbers from 0 to {}, such as 0:240", text, maxFrame);
         return value;
     };
     const std::size_t colon = text.find(':');
     const int first = frame(text.substr(0, colon));
     const int last = colon == std::string_view::npos ? first : frame(text.substr(colon + 1));
-    if (last < first) fail("'{}': the last frame lies before the first", text);
+    if (last < first) fail("'{}': the last frame is before the first", text);
     return {first, last};
 }
 

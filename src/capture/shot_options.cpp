@@ -63,7 +63,7 @@ void checkMethodKeys(const Shot& shot) {
     for (const auto& [name, track] : shot.methodKeys)
         if (std::ranges::none_of(method.settings,
                                  [&](const MethodSetting& setting) { return setting.keyed && setting.name == name; }))
-            fail("{}: /methodKeys/{}: the method {} has no such setting that may change from frame to frame",
+            fail("{}: /methodKeys/{}: method {} has no setting of this name that supports keyframes",
                  shot.file.string(), name, method.name);
 }
 

@@ -1,7 +1,5 @@
 #include "capture/shot_schema.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -24,31 +22,30 @@ std::optional<Json> exampleOf(const Setting& setting) {
 
 // Returns the schema of a setting that may be animated: a value, or keys.
 Json trackSchema(const Setting& setting) {
-    Json value = {{"description", "The value at that frame"}};
+    Json value = {{"description", "Value at this frame"}};
     value.update(valueSchema(setting));
     if (const auto example = exampleOf(setting)) value["examples"] = Json::array({*example});
     const Json key = {{"type", "object"},
                       {"additionalProperties", false},
                       {"required", {"frame", "value"}},
                       {"properties", {{"frame", {{"$ref", "#/$defs/frame"}}}, {"value", value}}}};
-    const Json keys = {
-        {"type", "object"},
-        {"additionalProperties", false},
-        {"required", Json::array({"keys"})},
-        {"properties",
-         {{"keys",
-           {{"description", "Values at frames; between two of them the value goes from one to the other"},
-            {"examples", Json::array({Json::array({{{"frame", 0}, {"value", value["examples"][0]}}})})},
-            {"type", "array"},
-            {"minItems", 1},
-            {"items", key}}},
-          {"interpolation", {{"$ref", "#/$defs/interpolation"}}}}}};
+    const Json keys = {{"type", "object"},
+                       {"additionalProperties", false},
+                       {"required", Json::array({"keys"})},
+                       {"properties",
+                        {{"keys",
+                          {{"description", "Keyframes; between two keyframes, the value is interpolated"},
+                           {"examples", Json::array({Json::array({{{"frame", 0}, {"value", value["examples"][0]}}})})},
+                           {"type", "array"},
+                           {"minItems", 1},
+                           {"items", key}}},
+                         {"interpolation", {{"$ref", "#/$defs/interpolation"}}}}}};
     return {{"anyOf", {valueSchema(setting), keys}}};
 }
 
 Json schemaOf(const Setting& setting) {
     Json schema = Json::object();
-    schema["description"] = setting.unit.empty() ? setting.help : fmt::format("{} ({})", setting.help, setting.unit);
+    schema["description"] = setting.help;
     const std::optional<std::string> standard = setting.text(shotDefaults());
     if (standard)
         schema["default"] = settingJson(setting, *standard);

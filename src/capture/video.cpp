@@ -55,7 +55,7 @@ const std::vector<std::string>& encoderOf(const fs::path& path) {
         if (name == ending) return options;
         known += (known.empty() ? "" : ", ") + name;
     }
-    fail("{}: unknown kind of film \"{}\"; use one of {}", path.string(), ending, known);
+    fail("{}: unknown video type \"{}\"; use one of {}", path.string(), ending, known);
 }
 
 bool isInstalled(const std::string& program) {
@@ -79,7 +79,7 @@ class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
         int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0) fail("ffmpeg cannot be started: no pipe");
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot start ffmpeg: no pipe is available");
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
@@ -95,7 +95,7 @@ public:
         input_ = ends[1];
         if (fault != 0) {
             ::close(input_);
-            fail("ffmpeg cannot be started: {}", std::generic_category().message(fault));
+            fail("cannot start ffmpeg: {}", std::generic_category().message(fault));
         }
     }
     ~Ffmpeg() {
@@ -142,7 +142,7 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     const fs::path& path = frame.file;
     Image image = readImage(path);
     if (image.width != first.width || image.height != first.height)
-        fail("{}: is {}x{} and not {}x{} as the film's first frame", path.string(), image.width, image.height,
+        fail("{} is {}x{} px, but the first frame of the video is {}x{} px", path.string(), image.width, image.height,
              first.width, first.height);
     // Images read from PNG and JPEG are already tone-mapped, so only the display encoding is applied.
     const bool linear = path.extension() == ".exr";
@@ -170,7 +170,7 @@ std::string lastLine(std::string text) {
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(textOf(messages));
-    return said.empty() ? "ffmpeg failed and doesn't say why" : "ffmpeg says: " + said;
+    return said.empty() ? "ffmpeg failed without a message" : "ffmpeg says: " + said;
 }
 
 // Throws Error unless the video is readable and has all its frames. On a full disk, ffmpeg reports success but leaves
@@ -182,7 +182,7 @@ void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
                    "null", "-progress", "pipe:1", "-"},
                   counted.temporaryPath(), messages.temporaryPath());
     if (!ffmpeg.close())
-        fail("{}: cannot be written (is the disk full?): the film can't be read again: {}", name.string(),
+        fail("cannot write {} (is the disk full?): the video cannot be read back: {}", name.string(),
              complaint(ffmpeg, messages.temporaryPath()));
     const std::string progress = textOf(counted.temporaryPath());
     constexpr std::string_view key = "frame=";
@@ -190,7 +190,7 @@ void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
     const std::size_t found =
         last == std::string::npos ? 0 : std::strtoull(progress.c_str() + last + key.size(), nullptr, 10);
     if (found != frames)
-        fail("{}: cannot be written (is the disk full?): the film has {} of {} frames", name.string(), found, frames);
+        fail("cannot write {} (is the disk full?): the video has {} of {} frames", name.string(), found, frames);
 }
 
 }  // namespace
@@ -199,15 +199,15 @@ void checkVideo(const fs::path& path) {
     static_cast<void>(encoderOf(path));
     if (!isInstalled("ffmpeg"))
         fail(
-            "{}: films are made by the program ffmpeg, which isn't installed (Debian: apt install ffmpeg); the frames "
-            "can be rendered without --video",
+            "{}: video requires the program ffmpeg, which is not installed (Debian: apt install ffmpeg); without "
+            "--video, only the frames are rendered",
             path.string());
     checkWritable(path);
 }
 
 void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, double frameRate,
                 const Progress& progress) {
-    if (frames.empty()) fail("{}: a film needs a frame", path.string());
+    if (frames.empty()) fail("{}: a video needs at least one frame", path.string());
     const Image first = readImage(frames.front().file);
     const fs::path log = path.string() + ".log";
     removeUnfinished({path, log, path.string() + ".count"});
@@ -237,7 +237,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     const bool finished = ffmpeg.close();
     std::signal(SIGPIPE, previous);
     if (!finished || !listening)
-        fail("{}: cannot be written: {}", path.string(), complaint(ffmpeg, messages.temporaryPath()));
+        fail("cannot write {}: {}", path.string(), complaint(ffmpeg, messages.temporaryPath()));
     checkFilm(film.temporaryPath(), frames.size(), path);
     film.commit();
 }

@@ -39,12 +39,11 @@ int printFault(int code, std::string message) {
 
 void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
     program.set_version_flag("--version", "defocus " + programVersion());
-    program.add_flag("--quiet", global.quiet, "No progress and no summary; errors only");
-    program.add_flag("--verbose", global.verbose, "Say what was chosen: device, levels, times");
+    program.add_flag("--quiet", global.quiet, "Print errors only, without progress, warnings and summary");
+    program.add_flag("--verbose", global.verbose, "Also print the device, the levels of detail and the times");
     advanced(program
-                 .add_option(
-                     "--shader-dir", global.shaderDir,
-                     "Read shaders from this folder instead of those built in, for live editing; of commands that draw")
+                 .add_option("--shader-dir", global.shaderDir,
+                             "Folder from which to read the shaders instead of the built-in ones, for live editing")
                  ->type_name("FOLDER")
                  ->check(unnamed(CLI::ExistingDirectory)));
 }
@@ -74,7 +73,7 @@ void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
                                     "speedup", "popping", "convergence", "scaling"};
     const std::string& command = chosenCommand(program).get_name();
     if (!global.shaderDir.empty() && std::ranges::find(drawing, command) == drawing.end())
-        throw UsageError(fmt::format("--shader-dir: '{}' reads no shaders from a folder", command));
+        throw UsageError(fmt::format("--shader-dir cannot be used with '{}', which draws nothing", command));
 }
 
 std::string helpHint(const CLI::App& program) {
@@ -103,7 +102,8 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
     }
     const std::string nearest = nearestWord(word.substr(0, word.find('=')), known);
     if (!nearest.empty()) return fmt::format("there is no {} '{}'; did you mean '{}'?", what, word, nearest);
-    if (what == "command") return fmt::format("there is no command '{}'; there are: {}", word, fmt::join(known, ", "));
+    if (what == "command")
+        return fmt::format("there is no command '{}'; the commands are: {}", word, fmt::join(known, ", "));
     return fmt::format("there is no option '{}'; {}", word, helpHint(program));
 }
 
@@ -124,7 +124,8 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
     if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-        return fmt::format("which command? There are: {}; {}", fmt::join(namesOf(command), ", "), helpHint(program));
+        return fmt::format("a command is missing; the commands are: {}; {}", fmt::join(namesOf(command), ", "),
+                           helpHint(program));
     const std::string what = error.what();
     constexpr std::string_view ofSwitch = " was given a disallowed flag override";
     if (what.ends_with(ofSwitch))
@@ -133,8 +134,9 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App program("Depth of field of a real lens, by accumulation over lens samples with fractional level of detail",
-                     "defocus");
+    CLI::App program(
+        "Renders glTF scenes with the depth of field of a real lens, from lens samples and levels of detail",
+        "defocus");
     GlobalOptions global;
     global.words.assign(argv, argv + argc);
     addCommands(program, global);
@@ -156,8 +158,8 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     program.fallthrough();
     program.require_subcommand(1);
     program.formatter(std::make_shared<HelpFormat>());
-    program.set_help_flag("-h,--help", "The options that most people use");
-    program.set_help_all_flag("--help-all", "All options, of a command or of all commands");
+    program.set_help_flag("-h,--help", "Print the most common options");
+    program.set_help_all_flag("--help-all", "Print all options of a command, or of all commands");
     addGlobalOptions(program, global);
     addRenderCommand(program, global);
     addCaptureCommand(program, global);
@@ -175,7 +177,8 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addManCommand(program);
     program.parse_complete_callback([&program, &global] { refuseUnusedShaders(program, global); });
     program.footer(
-        "defocus COMMAND --help explains a command, and --help-all tells all of it.\n\nExample:\n"
+        "'defocus COMMAND --help' shows the most common options of a command, '--help-all' all of them.\n\n"
+        "Example:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");
 }
 
@@ -200,10 +203,10 @@ int runProgram(int argc, char** argv) {
         const int code = run(argc, argv);
         std::cout.flush();  // flush the text of --help or --version
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
-        if (lost && code == 0) return printFault(failed, "the output cannot be written to stdout");
+        if (lost && code == 0) return printFault(failed, "cannot write to standard output");
         return code;
     } catch (const std::bad_alloc&) {
-        return printFault(failed, "out of memory; try a smaller --size, fewer layers (--wave) or triangles");
+        return printFault(failed, "out of memory; try a smaller --size or --wave, or a scene with fewer triangles");
     } catch (const std::exception& error) {
         return printFault(failed, error.what());
     }

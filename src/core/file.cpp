@@ -76,7 +76,7 @@ void writeStream(const fs::path& from, const fs::path& to) {
     FileHandle stream = openFile(to, "wb");
     const bool written =
         stream && (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size());
-    if (!written || std::fclose(stream.release()) != 0) fail("{}: cannot be written: {}", to.string(), reason(errno));
+    if (!written || std::fclose(stream.release()) != 0) fail("cannot write {}: {}", to.string(), reason(errno));
 }
 
 // Flushes the directory to disk, so that a rename inside it survives a crash. Failures are ignored because some file
@@ -92,37 +92,37 @@ void syncFolder(const fs::path& folder) {
 
 std::vector<std::byte> readFile(const fs::path& path) {
     std::error_code status;
-    if (fs::is_directory(path, status)) fail("{}: is a directory, not a file", path.string());
+    if (fs::is_directory(path, status)) fail("{} is a directory, not a file", path.string());
     // Reading a device may never end, and opening a pipe may block forever.
     if (fs::exists(path, status) && !fs::is_regular_file(path, status) && !isDescriptor(path))
-        fail("{}: is a device or a pipe, not a file", path.string());
+        fail("{} is a device or a pipe, not a file", path.string());
     const FileHandle file = openFile(path, "rb");
-    if (!file) fail("{}: cannot be read: {}", path.string(), reason(errno));
+    if (!file) fail("cannot read {}: {}", path.string(), reason(errno));
     std::vector<std::byte> bytes;
     std::byte chunk[1 << 16];
     while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file.get()))
         bytes.insert(bytes.end(), chunk, chunk + count);
-    if (std::ferror(file.get()) != 0) fail("{}: cannot be read: {}", path.string(), reason(errno));
+    if (std::ferror(file.get()) != 0) fail("cannot read {}: {}", path.string(), reason(errno));
     return bytes;
 }
 
 fs::path fileWithin(const fs::path& folder, const fs::path& relative) {
     const fs::path normal = relative.lexically_normal();
     if (relative.empty() || relative.is_absolute() || *normal.begin() == "..")
-        fail("'{}' leads out of its folder; only files beside or below are read", relative.string());
+        fail("'{}' is outside its folder; only files in the same folder or below are read", relative.string());
     fs::path path = folder / relative;
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_regular_file(path, status))
-        fail("{}: is a device, a pipe or a folder, not a file", path.string());
+        fail("{} is a device, a pipe or a folder, not a file", path.string());
     return path;
 }
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     PendingFile pending(path);
     FileHandle file = openFile(pending.temporaryPath(), "wb");
-    if (!file) fail("{}: cannot be written: {}", path.string(), reason(errno));
+    if (!file) fail("cannot write {}: {}", path.string(), reason(errno));
     const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    if (!written || std::fclose(file.release()) != 0) fail("{}: cannot be written: {}", path.string(), reason(errno));
+    if (!written || std::fclose(file.release()) != 0) fail("cannot write {}: {}", path.string(), reason(errno));
     pending.commit();
 }
 
@@ -139,7 +139,7 @@ PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(
             fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
         // O_EXCL fails if the file exists: a process with the same id on another machine may have created it.
         descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-        if (descriptor_ < 0 && errno != EEXIST) fail("{}: cannot be written: {}", target_.string(), reason(errno));
+        if (descriptor_ < 0 && errno != EEXIST) fail("cannot write {}: {}", target_.string(), reason(errno));
         if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));
     }
 }
@@ -154,10 +154,10 @@ void PendingFile::commit() {
     if (stream_) return writeStream(temporary_, target_);
     // Some file systems report a full disk only at fsync.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
-        fail("{}: cannot be written: {}", target_.string(), reason(errno));
+        fail("cannot write {}: {}", target_.string(), reason(errno));
     std::error_code status;
     fs::rename(temporary_, target_, status);
-    if (status) fail("{}: cannot be written: {}", target_.string(), status.message());
+    if (status) fail("cannot write {}: {}", target_.string(), status.message());
     committed_ = true;
     syncFolder(target_.parent_path());
 }
@@ -172,7 +172,7 @@ void removeAbandoned(const fs::path& temporary) {
 
 void checkWritable(const fs::path& path) {
     std::error_code status;
-    if (fs::is_directory(path, status)) fail("{}: is a directory; give a file name", path.string());
+    if (fs::is_directory(path, status)) fail("{} is a directory; give a file name", path.string());
     const PendingFile probe(path);
 }
 

@@ -100,9 +100,9 @@ std::uint64_t parseBytes(std::string_view text) {
     std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     const auto found = std::ranges::find(units, unit, &std::pair<std::string_view, double>::first);
-    if (fault != std::errc() || found == units.end()) fail("'{}' is not an amount of memory, such as 2GiB", text);
+    if (fault != std::errc() || found == units.end()) fail("'{}' is not a memory size such as 2GiB", text);
     const double bytes = std::floor(number * found->second);
-    if (!(bytes >= 1 && bytes <= 0x1p62)) fail("'{}': an amount of memory from 1 B to 4 EiB", text);
+    if (!(bytes >= 1 && bytes <= 0x1p62)) fail("'{}' is out of range; give a memory size from 1 B to 4 EiB", text);
     return static_cast<std::uint64_t>(bytes);
 }
 

@@ -73,16 +73,16 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
         numbers.push_back(*number);
     }
     if (numbers.size() != count || splitAt(text, ',').size() != count)
-        fail("'{}' is not {} numbers parted by commas, each {}", text, count, inWords(range));
+        fail("'{}' is not a list of {} numbers separated by commas, each {}", text, count, inWords(range));
     return numbers;
 }
 
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices) {
     for (std::size_t i = 0; i < choices.size(); ++i)
         if (choices[i] == text) return i;
-    if (choices.size() == 1) fail("'{}' is not '{}'", text, choices.front());
+    if (choices.size() == 1) fail("'{}' is not valid; the only choice is '{}'", text, choices.front());
     const std::string nearest = nearestWord(text, choices);
-    fail("'{}' is none of {}{}", text, fmt::join(choices, ", "),
+    fail("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 

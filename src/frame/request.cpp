@@ -74,7 +74,7 @@ void checkValue(const Setting& setting, const Request& request, Request& scratch
     } else if (const std::optional<std::string> text = setting.text(request)) {
         setting.set(scratch, *text);
     } else if (setting.kind == SettingKind::choice && setting.text(Request{})) {
-        fail("give one of {}", fmt::join(setting.choices, ", "));
+        fail("choose one of {}", fmt::join(setting.choices, ", "));
     }
 }
 

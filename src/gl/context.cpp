@@ -68,14 +68,14 @@ std::vector<Candidate> devices(const char* extensions) {
         return std::vector<Candidate>{{"EGL devices", EGL_PLATFORM_DEVICE_EXT, nullptr, std::move(why)}};
     };
     for (const char* needed : {"EGL_EXT_platform_base", "EGL_EXT_platform_device"})
-        if (!listed(extensions, needed)) return none(fmt::format("the driver has no {}", needed));
+        if (!listed(extensions, needed)) return none(fmt::format("the driver does not support {}", needed));
     if (!listed(extensions, "EGL_EXT_device_enumeration") && !listed(extensions, "EGL_EXT_device_base"))
-        return none("the driver has no EGL_EXT_device_enumeration");
+        return none("the driver does not support EGL_EXT_device_enumeration");
     std::array<EGLDeviceEXT, 32> found{};
     EGLint count = 0;
     if (eglQueryDevicesEXT(static_cast<EGLint>(found.size()), found.data(), &count) != EGL_TRUE)
         return none(fmt::format("eglQueryDevicesEXT: {}", eglErrorName(eglGetError())));
-    if (count == 0) return none("there are none");
+    if (count == 0) return none("none found");
     std::vector<Candidate> result, software;
     for (EGLint i = 0; i < count; ++i) {
         const EGLDeviceEXT device = found[static_cast<std::size_t>(i)];
@@ -92,8 +92,9 @@ std::vector<Candidate> candidates() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<Candidate> result = devices(extensions);
     constexpr const char* surfaceless = "EGL_MESA_platform_surfaceless";
-    result.push_back({"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr,
-                      listed(extensions, surfaceless) ? "" : fmt::format("the driver has no {}", surfaceless)});
+    result.push_back(
+        {"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr,
+         listed(extensions, surfaceless) ? "" : fmt::format("the driver does not support {}", surfaceless)});
     result.push_back({"default display", EGL_NONE, nullptr});
     return result;
 }
@@ -115,7 +116,7 @@ public:
     void makeCurrent() override {
         if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
             eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
-            fail("the OpenGL context cannot be made current on this thread: {}", eglErrorName(eglGetError()));
+            fail("cannot make the OpenGL context current on this thread: {}", eglErrorName(eglGetError()));
     }
 
     [[nodiscard]] const std::string& device() const override { return device_; }
@@ -226,7 +227,7 @@ std::unique_ptr<GlContext> createHeadlessContext() {
         context->log().push_back(fmt::format("{}: {}", candidate.name, reason));
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", candidate.name, reason);
     }
-    fail("no OpenGL 4.5 context: {}; install a driver (Debian: libegl1 libgl1-mesa-dri)", reasons);
+    fail("cannot create an OpenGL 4.5 context: {}; install a driver (Debian: libegl1 libgl1-mesa-dri)", reasons);
 }
 
 }  // namespace defocus::engine

@@ -25,7 +25,7 @@ Stage stageOf(const std::string& path) {
     if (extension == ".geom") return {GL_GEOMETRY_SHADER, "geometry"};
     if (extension == ".frag") return {GL_FRAGMENT_SHADER, "fragment"};
     if (extension == ".comp") return {GL_COMPUTE_SHADER, "compute"};
-    fail("shader {}: the extension names no stage", path);
+    fail("shader {}: unknown extension; expected .vert, .tesc, .tese, .geom, .frag or .comp", path);
 }
 
 std::string sourceOf(const std::string& path, const std::filesystem::path& overrideFolder) {
@@ -34,7 +34,7 @@ std::string sourceOf(const std::string& path, const std::filesystem::path& overr
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
     const auto found = embeddedShaders().find(path);
-    if (found == embeddedShaders().end()) fail("shader {}: there is no such file", path);
+    if (found == embeddedShaders().end()) fail("shader {}: file not found", path);
     return std::string(found->second);
 }
 
@@ -42,7 +42,7 @@ std::string sourceOf(const std::string& path, const std::filesystem::path& overr
 // cycles.
 std::string expanded(const std::string& path, const std::filesystem::path& overrideFolder,
                      std::set<std::string>& including) {
-    if (!including.insert(path).second) fail("shader {}: includes itself", path);
+    if (!including.insert(path).second) fail("shader {}: the file includes itself", path);
     std::istringstream source(sourceOf(path, overrideFolder));
     std::string result;
     std::string line;
@@ -53,7 +53,7 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
             continue;
         }
         const std::size_t end = line.find('"', directive.size());
-        if (end == std::string::npos) fail("shader {}:{}: an #include without its closing quote", path, number);
+        if (end == std::string::npos) fail("shader {}:{}: the closing quote of #include is missing", path, number);
         result += "#line 1\n" +
                   expanded(line.substr(directive.size(), end - directive.size()), overrideFolder, including) +
                   fmt::format("#line {}\n", number + 1);

@@ -13,11 +13,11 @@ namespace {
 const char* inWords(GLenum status) {
     switch (status) {
         case GL_FRAMEBUFFER_UNSUPPORTED:
-            return "the driver does not render to this combination of formats";
+            return "the driver does not support this combination of formats";
         case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
-            return "an attachment cannot be rendered to";
+            return "an attachment is not renderable";
         case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
-            return "the attachments differ in their layers";
+            return "some attachments are layered and others are not";
         case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
             return "it has no attachment";
         default:
@@ -91,7 +91,8 @@ void Target::finish(const GlTexture* depth) {
         height_ = depth->info().height;
     }
     const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) fail("render target of {} x {} px: {}", width_, height_, inWords(status));
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        fail("cannot create a render target of {} x {} px: {}", width_, height_, inWords(status));
 }
 
 void Target::bind() const {

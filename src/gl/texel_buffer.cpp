@@ -9,7 +9,7 @@ TexelBuffer::TexelBuffer(std::span<const float> values, GLenum format, int compo
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t texels = values.size() / static_cast<std::size_t>(components);
     if (texels > static_cast<std::size_t>(max))
-        fail("{}: {} texels are more than the {} that this driver reads in one buffer", what, texels, max);
+        fail("{}: {} texels exceed this driver's limit of {} per buffer", what, texels, max);
     buffer_ = Buffer::of(values);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);

@@ -46,11 +46,12 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (info.width > limit || info.height > limit)
-        fail("{} x {} px is beyond this driver's largest texture of {} px a side", info.width, info.height, limit);
+        fail("{} x {} px exceeds this driver's maximum texture size of {} px", info.width, info.height, limit);
     GLint maxLayers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
     if (info.layers > maxLayers)
-        fail("{} layers are beyond this driver's {} of one texture; choose a smaller wave", info.layers, maxLayers);
+        fail("{} layers exceed this driver's maximum of {} layers per texture; choose a smaller wave", info.layers,
+             maxLayers);
     GLuint name = 0;
     glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
     handle_ = GlHandle<destroyTexture>(name);
@@ -62,8 +63,10 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     else
         glTextureStorage2D(name, info.levels, format, info.width, info.height);
     if (glGetError() != GL_NO_ERROR)
-        fail("graphics memory: a texture of {} x {} px and {} layers cannot be had; choose a smaller size or wave",
-             info.width, info.height, std::max(info.layers, 1));
+        fail(
+            "out of graphics memory: cannot allocate a texture of {} x {} px and {} layers; choose a smaller size or "
+            "wave",
+            info.width, info.height, std::max(info.layers, 1));
     sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }
 

@@ -29,7 +29,8 @@ std::string lastFault() {
     return words != nullptr ? words : "no reason given";
 }
 
-constexpr const char* withoutWindow = "start it in a desktop session, or use 'defocus render', which needs no display";
+constexpr const char* withoutWindow =
+    "start the program in a desktop session, or use 'defocus render', which needs no display";
 
 Window* owner(GLFWwindow* window) {
     return static_cast<Window*>(glfwGetWindowUserPointer(window));
@@ -74,7 +75,7 @@ int heldModifiers(GLFWwindow* window) {
 }  // namespace
 
 Window::Window(const WindowOptions& options) {
-    if (glfwInit() != GLFW_TRUE) fail("no window can be opened: {}; {}", lastFault(), withoutWindow);
+    if (glfwInit() != GLFW_TRUE) fail("cannot open a window: {}; {}", lastFault(), withoutWindow);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -85,7 +86,7 @@ Window::Window(const WindowOptions& options) {
     if (window_ == nullptr) {
         const std::string reason = lastFault();
         glfwTerminate();
-        fail("no window with OpenGL 4.5 can be opened: {}; {}", reason, withoutWindow);
+        fail("cannot open a window with OpenGL 4.5: {}; {}", reason, withoutWindow);
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
@@ -186,7 +187,7 @@ void Window::setFullscreen(bool on) {
     windowedSize_ = size();
     GLFWmonitor* const screen = screenOf(windowedPosition_, windowedSize_);
     const GLFWvidmode* const mode = screen != nullptr ? glfwGetVideoMode(screen) : nullptr;
-    if (mode == nullptr) fail("no screen is known that the window could cover");
+    if (mode == nullptr) fail("cannot switch to full screen: no monitor found");
     glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 

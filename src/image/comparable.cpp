@@ -27,8 +27,8 @@ ComparablePair comparablePair(const ImageView& reference, const ImageView& test)
     if (reference.empty()) fail("images without pixels cannot be compared");
     for (const ImageView& image : {reference, test})
         if (!coversItsPixels(image))
-            fail("an image of {}x{} with {} channels reaches beyond its {} values", image.width, image.height, image.channels,
-                 image.pixels.size());
+            fail("an image of {}x{} px with {} channels needs more than its {} values", image.width, image.height,
+                 image.channels, image.pixels.size());
 
     const int width = reference.width;
     ComparablePair pair{Image(width, reference.height, 3), Image(width, reference.height, 3), {}};

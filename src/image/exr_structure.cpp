@@ -84,15 +84,15 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
         const std::uint64_t bytes = number(head, at);
         at += 4;
         const auto refuse = [&] {
-            fail("{}: cannot be read: {} bytes are no value of its attribute '{}'", name, bytes, *attribute);
+            fail("cannot read {}: {} bytes are not a valid size of its attribute '{}'", name, bytes, *attribute);
         };
         if (bytes > fileBytes - std::min<std::uint64_t>(fileBytes, at)) refuse();
         const auto known = std::ranges::find(sizes, *type, &std::pair<std::string_view, std::uint64_t>::first);
         if (known != sizes.end() && known->second != bytes) refuse();
         if (bytes > head.size() - at) return;
         if (*attribute == "dataWindow" && *type == "box2i" && widthOf(head.subspan(at, bytes)) > widestRow)
-            fail("{}: cannot be read: its rows have {} pixels, and {} at most can be read", name,
-                 widthOf(head.subspan(at, bytes)), widestRow);
+            fail("cannot read {}: its rows have {} pixels; the maximum is {}", name, widthOf(head.subspan(at, bytes)),
+                 widestRow);
         if (*type == "chlist" && !isChannelList(head.subspan(at, bytes))) refuse();
         at += bytes;
     }

@@ -290,12 +290,13 @@ void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDis
 
 void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegree) {
     if (!(pixelsPerDegree >= 1 && pixelsPerDegree <= 1000))
-        fail("FLIP: {} pixels per degree is outside 1 to 1000", pixelsPerDegree);
+        fail("FLIP: {} pixels per degree is out of range; choose 1 to 1000", pixelsPerDegree);
     if (!hdr) return;
     const double start = hdr->startExposure, stop = hdr->stopExposure;
     if (!(start >= -60 && start <= stop && stop <= 60))
-        fail("FLIP: exposures from {} to {} EV: they must rise and stay within ±60", start, stop);
-    if (hdr->exposures < 1 || hdr->exposures > 64) fail("FLIP: {} exposures is outside 1 to 64", hdr->exposures);
+        fail("FLIP: exposures from {} to {} EV must increase and stay within ±60 EV", start, stop);
+    if (hdr->exposures < 1 || hdr->exposures > 64)
+        fail("FLIP: {} exposures is out of range; choose 1 to 64", hdr->exposures);
 }
 
 }  // namespace

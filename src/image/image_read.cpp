@@ -94,22 +94,22 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     }
     image.memory = std::make_unique<CheckedMemory>(image.bytes.data(), image.bytes.size());
     image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
-    if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
+    if (!image.input) fail("cannot read {}: {}", name, firstLine(OIIO::geterror()));
 
     // Read straight alpha: OpenImageIO would premultiply values before they are decoded to linear.
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
     if (!image.input->open("image", image.spec, hints))
-        fail("{}: cannot be read: {}", name, firstLine(image.input->geterror()));
+        fail("cannot read {}: {}", name, firstLine(image.input->geterror()));
     const OIIO::ImageSpec& spec = image.spec;
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("{}: cannot be read: it has no pixels", name);
-    if (spec.deep) fail("{}: deep images cannot be read", name);
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("cannot read {}: the image has no pixels", name);
+    if (spec.deep) fail("cannot read {}: deep images are not supported", name);
     if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > maximumPixels)
-        fail("{}: {}x{} pixels are more than the {} million that can be read", name, spec.width, spec.height,
+        fail("cannot read {}: {}x{} pixels exceed the maximum of {} million", name, spec.width, spec.height,
              maximumPixels / 1000000);
     if (format == "jpeg" && std::uint64_t(spec.width) * std::uint64_t(spec.height) > maxJpegPixels * image.bytes.size())
-        fail("{}: cannot be read: its {} bytes are too few for {}x{} pixels", name, image.bytes.size(), spec.width,
+        fail("cannot read {}: its {} bytes are too few for {}x{} pixels", name, image.bytes.size(), spec.width,
              spec.height);
     return image;
 }
@@ -125,7 +125,7 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
         if (spec.nchannels == 1) return {0};
         if (spec.nchannels == 2 && spec.alpha_channel == 1) return {0, 0, 0, 1};
         if (spec.nchannels != 3 && spec.nchannels != 4)
-            fail("{}: has {} channels, none of them named R, G and B", name, spec.nchannels);
+            fail("cannot read {}: it has {} channels, but none named R, G and B", name, spec.nchannels);
         channels = {0, 1, 2};
     }
     if (spec.alpha_channel >= 0) channels.push_back(spec.alpha_channel);
@@ -145,7 +145,7 @@ std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, 
     // For truncated data, libjpeg only warns and fills the missing pixels.
     const std::string message = image.input->geterror();
     if (!complete || message.find("Premature end") != std::string::npos)
-        fail("{}: cannot be read: {}", name, firstLine(message));
+        fail("cannot read {}: {}", name, firstLine(message));
 
     bool allInOrder = channels.size() == stride;
     for (std::size_t c = 0; c < channels.size(); ++c) allInOrder = allInOrder && channels[c] == first + int(c);
@@ -206,7 +206,7 @@ Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     // Read the file and detect its format.
     const std::string name = path.string();
     const std::vector<std::byte> encoded = readFile(path);
-    if (encoded.empty()) fail("{}: cannot be read: the file is empty", name);
+    if (encoded.empty()) fail("cannot read {}: the file is empty", name);
     const auto format = formatOf(encoded);
     if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name);
 
@@ -238,7 +238,8 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
         const std::size_t dot = names[i].rfind('.');
         const std::size_t place =
             dot == std::string::npos ? dot : std::string_view("RGBA").find(names[i].substr(dot + 1));
-        if (place == std::string::npos) fail("{}: not an EXR file with layers: it has a channel '{}'", name, names[i]);
+        if (place == std::string::npos)
+            fail("{}: not an EXR file with layers: the channel '{}' belongs to no layer", name, names[i]);
         std::vector<int>& layer = channels.try_emplace(names[i].substr(0, dot), 4, -1).first->second;
         layer[place] = static_cast<int>(i);
     }
@@ -247,7 +248,7 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
     for (auto& [layerName, places] : channels) {
         if (places[3] < 0) places.pop_back();
         if (std::ranges::find(places, -1) != places.end())
-            fail("{}: the layer '{}' lacks one of the channels R, G and B", name, layerName);
+            fail("{}: the layer '{}' has no channel R, G or B", name, layerName);
         Image image(file.spec.width, file.spec.height, static_cast<int>(places.size()));
         image.pixels = readChannels<float>(file, places, name);
         layers.push_back({layerName, std::move(image)});

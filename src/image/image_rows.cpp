@@ -98,14 +98,14 @@ struct ImageRowWriter::State {
 
     [[noreturn]] void failed() {
         const std::string reason = file.failure() != 0 ? std::strerror(file.failure()) : firstLine(output->geterror());
-        fail("{}: cannot be written: {}", name, reason);
+        fail("cannot write {}: {}", name, reason);
     }
 
     // Starts the file. Called only when the first rows are available: libpng prints a message if a file ends without
     // rows.
     void open() {
         output = OIIO::ImageOutput::create(formatName(kind), &file);
-        if (!output) fail("{}: cannot be written: {}", name, firstLine(OIIO::geterror()));
+        if (!output) fail("cannot write {}: {}", name, firstLine(OIIO::geterror()));
         output->set_ioproxy(&file);
         if (!output->open("image", spec) || file.failure() != 0) failed();
     }
@@ -133,7 +133,7 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int
         s.spec.full_height = place.imageHeight;
         s.spec.full_y = 0;
     }
-    if (s.file.failure() != 0) fail("{}: cannot be written: {}", s.name, std::strerror(s.file.failure()));
+    if (s.file.failure() != 0) fail("cannot write {}: {}", s.name, std::strerror(s.file.failure()));
 }
 
 ImageRowWriter::~ImageRowWriter() = default;
@@ -182,8 +182,8 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
         static_cast<void>(readFile(path));  // throws Error with the reason why it cannot be read
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
-    if (!s.input) fail("{}: cannot be read: {}", s.name, firstLine(OIIO::geterror()));
-    if (!s.input->open(s.name, s.spec)) fail("{}: cannot be read: {}", s.name, firstLine(s.input->geterror()));
+    if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
+    if (!s.input->open(s.name, s.spec)) fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));
     const std::vector<std::string> names(s.spec.channelnames.begin(), s.spec.channelnames.end());
     const bool colours =
         names == std::vector<std::string>{"R", "G", "B"} || names == std::vector<std::string>{"R", "G", "B", "A"};
@@ -222,7 +222,7 @@ Image ImageRowReader::read(int first, int count) {
     const int begin = s.spec.y + first;
     if (!s.input->read_scanlines(0, 0, begin, begin + count, 0, 0, s.spec.nchannels, OIIO::TypeFloat,
                                  rows.pixels.data()))
-        fail("{}: cannot be read: {}", s.name, firstLine(s.input->geterror()));
+        fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));
     return rows;
 }
 

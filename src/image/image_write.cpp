@@ -22,9 +22,9 @@ namespace {
 void checkImage(const ImageView& image, const std::string& name) {
     const std::size_t values = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0)) *
                                std::size_t(std::max(image.channels, 0));
-    if (values == 0 || values != image.pixels.size()) fail("{}: cannot be written: the image has no pixels", name);
+    if (values == 0 || values != image.pixels.size()) fail("cannot write {}: the image has no pixels", name);
     if (image.channels != 1 && image.channels != 3 && image.channels != 4)
-        fail("{}: cannot be written: the image has {} channels instead of 1, 3 or 4", name, image.channels);
+        fail("cannot write {}: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
 // Returns the complete encoded file, so that one checked write stores it. Image libraries report write errors late or
@@ -34,10 +34,10 @@ std::vector<unsigned char> encode(const std::string& name, const char* format, c
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &memory);
-    if (!output) fail("{}: cannot be written: {}", name, firstLine(OIIO::geterror()));
+    if (!output) fail("cannot write {}: {}", name, firstLine(OIIO::geterror()));
     output->set_ioproxy(&memory);
     if (!output->open("image", spec) || !output->write_image(spec.format, pixels) || !output->close())
-        fail("{}: cannot be written: {}", name, firstLine(output->geterror()));
+        fail("cannot write {}: {}", name, firstLine(output->geterror()));
     return bytes;
 }
 
@@ -61,14 +61,14 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
 
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
     const std::string name = path.string();
-    if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers are written to .exr files", name);
+    if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers can only be written to an .exr file", name);
     const int width = layers.front().image.width;
     const int height = layers.front().image.height;
     std::vector<std::string> channels;
     for (const ImageLayer& layer : layers) {
         checkImage(layer.image, name);
         if (layer.image.width != width || layer.image.height != height)
-            fail("{}: cannot be written: its layers differ in size", name);
+            fail("cannot write {}: its layers differ in size", name);
         for (int c = 0; c < layer.image.channels; ++c) channels.push_back(layer.name + '.' + "RGBA"[c]);
     }
 

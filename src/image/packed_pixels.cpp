@@ -16,7 +16,7 @@ bool coversItsPixels(const ImageView& view) {
 PackedPixels::PackedPixels(const ImageView& view) : view_(view) {
     if (view.isPacked()) return;
     if (!coversItsPixels(view))
-        fail("an image of {}x{} with {} channels and strides of {} and {} reaches beyond its {} values", view.width,
+        fail("an image of {}x{} px with {} channels and strides of {} and {} needs more than its {} values", view.width,
              view.height, view.channels, view.strides.pixel, view.strides.row, view.pixels.size());
     copy_ = Image(view.width, view.height, view.channels);
     for (int y = 0; y < view.height; ++y)

@@ -94,8 +94,7 @@ double valueAt(const Image& image, int x, int y) {
     const float* pixel = image.at(x, y);
     for (int c = 0; c < image.channels; ++c)
         if (!(pixel[c] >= 0) || !std::isfinite(pixel[c]))
-            fail("the aperture's image holds {} at pixel {},{}: light that passes is a number of 0 or more", pixel[c],
-                 x, y);
+            fail("aperture image: pixel {},{} has the value {}; values must be finite and at least 0", x, y, pixel[c]);
     if (image.channels < 3) return static_cast<double>(pixel[0]);
     return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -126,7 +125,7 @@ std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
 }
 
 ApertureImage readApertureImage(const Image& image) {
-    if (image.empty()) fail("the aperture's image is empty");
+    if (image.empty()) fail("aperture image: the image has no pixels");
     ApertureImage cells;
     const std::vector<double> values = cellValues(image, cells);
     const auto columns = static_cast<std::size_t>(cells.columns);
@@ -140,7 +139,7 @@ ApertureImage readApertureImage(const Image& image) {
             cells.cellEnds[i] = row > 0 ? static_cast<float>((end += values[i]) / row) : 1.0f;
         cells.rowEnds.push_back(all += row);
     }
-    if (!(all > 0)) fail("the aperture's image is black within the lens's circle: no light would pass");
+    if (!(all > 0)) fail("aperture image: all pixels within the lens circle are black, so no light passes");
     for (double& end : cells.rowEnds) end /= all;
     return cells;
 }

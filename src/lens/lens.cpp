@@ -44,7 +44,7 @@ void checkLens(const Lens& lens) {
     requirePositive(lens.anamorphicRatio, "the anamorphic ratio", "");
     if (!(lens.focusDistance > 0)) fail("lens: the focus distance must be above 0 m, not {}", lens.focusDistance);
     if (!(lens.blurScale >= 0) || !std::isfinite(lens.blurScale))
-        fail("lens: the blur scale must be a finite number of 0 or more, not {}", lens.blurScale);
+        fail("lens: the blur scale must be finite and at least 0, not {}", lens.blurScale);
     requireWithin(lens.exposureTime, 0, 1e6, "the exposure time (s)");
     requireWithin(lens.iso, 1, 1e7, "the ISO sensitivity");
     if (!std::isfinite(lens.bladeRotation)) fail("lens: the blade rotation must be finite, not {}", lens.bladeRotation);
@@ -57,21 +57,21 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
     requireWithin(lens.astigmatism, -maxAberration, maxAberration, "the astigmatism (mm)");
     requireWithin(lens.coma, -maxAberration, maxAberration, "the coma (mm)");
-    requireWithin(lens.foregroundLimit, 0, infinity, "the limit of the foreground's blur (px)");
-    requireWithin(lens.backgroundLimit, 0, infinity, "the limit of the background's blur (px)");
-    requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front (m)");
-    requireWithin(lens.focusRangeBehind, 0, infinity, "the focus range behind (m)");
+    requireWithin(lens.foregroundLimit, 0, infinity, "the foreground limit (px)");
+    requireWithin(lens.backgroundLimit, 0, infinity, "the background limit (px)");
+    requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front of the focus distance (m)");
+    requireWithin(lens.focusRangeBehind, 0, infinity, "the focus range behind the focus distance (m)");
     requireWithin(lens.focusTilt, -maxTilt, maxTilt, "the focus tilt (radians)");
     requireWithin(lens.focusSwing, -maxTilt, maxTilt, "the focus swing (radians)");
     requireWithin(lens.fieldCurvature, -1e3, 1e3, "the field curvature");
     requireWithin(lens.radialBlurGain, 0, 1e3, "the radial blur gain");
     if (lens.focusRangeFront >= lens.focusDistance)
         fail(
-            "lens: the focus range reaches {:.6g} m in front of a focus at {:.6g} m: it must end in front of the "
-            "camera",
+            "lens: the focus range extends {:.6g} m in front of the focus distance of {:.6g} m; it must end in front "
+            "of the camera",
             lens.focusRangeFront, lens.focusDistance);
     if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
-        fail("lens: with focus breathing the focus distance ({:.6g} m) must be beyond the focal length ({:.6g} mm)",
+        fail("lens: with focus breathing, the focus distance ({:.6g} m) must exceed the focal length ({:.6g} mm)",
              lens.focusDistance, lens.focalLength);
 }
 

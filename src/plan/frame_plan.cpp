@@ -30,20 +30,19 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         fail("image size {} x {}: each side must be 1 to {} px", view.width, view.height, maxImageSide);
     if (settings.sampleCount < 1 || settings.sampleCount > maxSamples)
         fail("{} samples: choose 1 to {}", settings.sampleCount, maxSamples);
-    if (!(view.nearPlane > 0)) fail("near plane {} m: must be above 0", view.nearPlane);
-    if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
+    if (!(view.nearPlane > 0)) fail("the near plane must be above 0 m, not {}", view.nearPlane);
+    if (!(settings.cocTolerance > 0)) fail("the CoC tolerance must be above 0 px, not {}", settings.cocTolerance);
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
-        fail("level-of-detail thresholds must be 0 or more");
+        fail("level-of-detail thresholds must be at least 0");
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
     if (metric == LodMetric::score && settings.thresholds.size)
-        fail("levels by score take a blur threshold alone (--blur-threshold)");
+        fail("--lod-metric score accepts only --blur-threshold");
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
-        fail("levels by {} take {} alone", measured ? "measured error" : lodMetricName(metric),
-             measured ? "a light threshold (--light-threshold)"
-                      : "a blur and a size threshold (--blur-threshold, --size-threshold)");
+        fail("--lod-metric {} accepts only {}", lodMetricName(metric),
+             measured ? "--light-threshold" : "--blur-threshold and --size-threshold");
 }
 
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
@@ -158,7 +157,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
 // Returns the reason why the object need not be drawn; empty if the object must be drawn.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
-    if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
+    if (pyramid.levels.front().triangleCount == 0) return "it has no triangles";
     if (plan.settings.keepAll) return "";
     if (outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest)) return "no lens sample can see it";
     return "";
@@ -224,10 +223,8 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
     plan.leftOut.push_back(
-        {"lens samples",
-         fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
-                     "samples remain",
-                     blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
+        {"lens samples", fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", blur,
+                                     kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
     const double aspect = plan.coc.aspect;  // the aspect ratio is kept without the lens
     plan.coc = {};
@@ -266,13 +263,13 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     }
     if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
-    if (!plan.usesTransmission)
-        plan.leftOut.push_back({"transmission path", "no drawn material shows what lies behind it"});
+    if (!plan.usesTransmission) plan.leftOut.push_back({"transmission path", "no drawn material transmits light"});
     if (!plan.usesCocControls)
-        plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
+        plan.leftOut.push_back({"controls of the blur", "neither the lens nor an object has any: C(w) = a + b·w"});
     if (plan.shadows.maps.empty())
-        plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings) ? "no light has anything before it"
-                                                                                  : "nothing asks for shadows"});
+        plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings)
+                                                   ? "no object is in front of a light"
+                                                   : "shadows are off (--shadows, --ground)"});
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
@@ -306,16 +303,16 @@ void noteLevels(FramePlan& plan, const World& world) {
         kept += static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
     if (kept < all)
         plan.leftOut.push_back(
-            {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
+            {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame uses them"});
     if (plan.trianglesFacingAway > 0)
         plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesFacingAway),
-                                "their clusters show their back to all of the lens"});
+                                "their clusters face away from the whole lens"});
     if (plan.trianglesOutside > 0)
         plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesOutside),
                                 "no lens sample can see their clusters"});
     const LodMode mode = plan.settings.lod;
     if (whole > 0 && (mode == LodMode::fractional || mode == LodMode::continuous))
-        plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is whole"});
+        plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is an integer"});
 }
 
 }  // namespace
@@ -346,7 +343,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
-        fail("lens: a cat's eye needs a background: what the barrel hides of it has no coverage of its own");
+        fail("lens: a cat's eye cannot be combined with a transparent background");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
     plan.frameFirst = settings.firstSample;
     plan.frameSamples = settings.firstSample + settings.sampleCount;

@@ -21,7 +21,7 @@ std::string drawsText(const ObjectPlan& object) {
     const bool shares = boundarySample(object).has_value();
     return fmt::format("{:<24}  {}{}", drawText(object.coarse, shares ? 1 - object.boundaryShare : 0),
                        drawText(object.fine, shares ? object.boundaryShare : 0),
-                       object.motion.empty() ? object.blurMoves ? "  changes its blur" : "" : "  moves");
+                       object.motion.empty() ? object.blurMoves ? "  blur changes" : "" : "  moves");
 }
 
 std::size_t movingCount(const FramePlan& plan) {
@@ -48,11 +48,10 @@ std::string lensCellsText(const FramePlan& plan) {
     const LensCells cells = lensCells(plan);
     if (cells.blur > 0)
         return fmt::format(
-            "--method multirate blurs each sample's image as its part of the lens would, by σ = {:.3g} of the CoC: "
-            "{:.2g} px "
-            "of the largest\n",
+            "--method multirate blurs each sample's image by σ = {:.3g} of the CoC ({:.2g} px for the largest CoC), as "
+            "its part of the lens would\n",
             cells.blur, cells.blur * plan.largestBlur);
-    return fmt::format("--method multirate draws this frame as the accumulation does: {}\n", cells.reason);
+    return fmt::format("--method multirate draws this frame like accumulation: {}\n", cells.reason);
 }
 
 // Rounds a tiny CoC to 0, to avoid printing −0.00.
@@ -75,7 +74,7 @@ std::string planTable(const FramePlan& plan) {
     if (!plan.moments.empty())
         text.insert(text.size() - 1,
                     fmt::format("shutter: {} moments, {} of {} objects move{}\n", momentCount(plan), movingCount(plan),
-                                plan.objects.size(), plan.middleFromView.empty() ? "" : ", and so does the camera"));
+                                plan.objects.size(), plan.middleFromView.empty() ? "" : ", the camera moves"));
     std::size_t width = 6;
     for (const ObjectPlan& object : plan.objects) width = std::max(width, object.name.size());
     text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px",

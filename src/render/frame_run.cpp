@@ -17,12 +17,11 @@ void checkStop(const StopSettings& stop, const Method& method, const ShutterSett
     const char* what = stop.targetError ? "a target error" : "a time limit";
     if (!method.sumsBlocks)
         throw UsageError(
-            fmt::format("method '{}' doesn't add lens samples block by block, which {} needs", method.name, what));
+            fmt::format("method '{}' cannot add lens samples in blocks, which {} requires", method.name, what));
     if (shutter.seconds > 0 && shutter.exactMotion())
-        throw UsageError(
-            fmt::format("exact motion poses the scene for each of a known number of samples, which {} leaves open; "
-                        "give a number of motion segments",
-                        what));
+        throw UsageError(fmt::format(
+            "exact motion requires a fixed number of samples, which {} leaves open; give a number of motion segments",
+            what));
 }
 
 void FrameRun::start(const View& view, const RenderSettings& settings, const StopSettings& stop) {

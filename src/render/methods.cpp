@@ -22,13 +22,13 @@ namespace {
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
         {.name = "accumulation",
-         .description = "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)",
+         .description = "accumulation of lens samples with levels of detail (Jeong, Kim and Lee 2011)",
          .sumsBlocks = true,
          .drawsTiles = true,
          .settings = {},
          .make = makeAccumulationRenderer},
         {.name = "multirate",
-         .description = "the same, each image blurred as its part of the lens would blur it: fewer samples do",
+         .description = "accumulation of images that are blurred by their part of the lens; needs fewer samples",
          .blursCells = true,
          .sumsBlocks = true,
          .settings = {},
@@ -81,7 +81,7 @@ const Method& methodNamed(std::string_view name) {
     if (found != table().end()) return *found;
     std::string known;
     for (const Method& method : table()) known += (known.empty() ? "" : ", ") + method.name;
-    fail("no method is called '{}'; there are: {}", name, known);
+    fail("there is no method '{}'; the methods are: {}", name, known);
 }
 
 std::string MethodUse::text() const {
@@ -109,7 +109,7 @@ MethodSettings completeSettings(std::string_view method, const std::vector<Metho
                                 const MethodSettings& given) {
     for (const auto& [name, value] : given) {
         const MethodSetting& setting = settingNamed(method, known, name);
-        if (!takes(setting, value)) fail("method {}: {} is {}, not '{}'", method, name, accepted(setting), value);
+        if (!takes(setting, value)) fail("method {}: {} must be {}, not '{}'", method, name, accepted(setting), value);
     }
     MethodSettings complete = given;
     for (const MethodSetting& setting : known) complete.try_emplace(setting.name, setting.standard);

@@ -83,7 +83,7 @@ int clipNamed(const Scene& scene, std::string_view nameOrNumber) {
     const auto [stop, fault] = std::from_chars(nameOrNumber.data(), end, number);
     if (fault == std::errc() && stop == end && number < scene.clips.size()) return static_cast<int>(number);
 
-    std::string help = ": the scene has none";
+    std::string help = "; the scene has no animations";
     if (const std::string nearest = nearestWord(nameOrNumber, names); !nearest.empty()) {
         help = fmt::format("; did you mean '{}'?", nearest);
     } else if (!names.empty()) {

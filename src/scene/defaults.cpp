@@ -105,7 +105,7 @@ std::string labelOf(const CameraNode& place) {
     std::vector<std::string> names;
     names.reserve(places.size());
     for (const CameraNode& place : places) names.push_back(labelOf(place));
-    std::string help = ": the scene has none (name no camera for one that frames the scene)";
+    std::string help = "; the scene has no cameras (without a camera name, the view frames the scene)";
     if (const std::string nearest = nearestWord(name, names); !nearest.empty())
         help = fmt::format("; did you mean '{}'?", nearest);
     else if (!names.empty())
@@ -170,7 +170,7 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoi
     }
     if (chosen == nullptr) return framingCamera(pose.bounds, aspect);
     if (chosen->camera->orthographic)
-        fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene", labelOf(*chosen),
+        fail("camera '{}' cannot be used: {}; choose another camera, or '{}' to frame the scene", labelOf(*chosen),
              *chosen->camera->orthographic, framingName);
     return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index)};
 }

@@ -90,7 +90,7 @@ std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint
 }
 
 Ignored replacedNormalsNote(std::size_t count) {
-    return {"vertex normals", "of no length or not finite; replaced by the faces' average", count};
+    return {"vertex normals", "zero length, NaN or infinite; replaced by the average of the adjacent faces", count};
 }
 
 int normalMapUvSet(std::span<const Primitive> primitives, std::span<const Material> materials) {

@@ -108,7 +108,7 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
         state.nodes.push_back({node.translation, node.rotation, node.scale, restWeights(scene, node)});
     if (clip >= 0 && !scene.clips.empty()) {
         if (static_cast<std::size_t>(clip) >= scene.clips.size())
-            fail("there is no animation clip {}: the scene has {} (0 to {})", clip, scene.clips.size(),
+            fail("there is no animation clip {}; the scene has {} clips (0 to {})", clip, scene.clips.size(),
                  scene.clips.size() - 1);
         animate(scene.clips[static_cast<std::size_t>(clip)], time, state);
     }
@@ -252,7 +252,7 @@ Pose poseAt(const Scene& scene, double time, int clip) {
 namespace {
 
 std::string missingNode(std::string_view name, const std::vector<std::string>& names) {
-    if (names.empty()) return fmt::format("there is no node '{}': the scene's nodes have no names", name);
+    if (names.empty()) return fmt::format("there is no node '{}'; the scene's nodes have no names", name);
     if (const std::string nearest = nearestWord(name, names); !nearest.empty())
         return fmt::format("there is no node '{}'; did you mean '{}'?", name, nearest);
     const std::size_t listed = std::min(names.size(), namesListed);

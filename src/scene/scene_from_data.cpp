@@ -300,7 +300,7 @@ Scene sceneFromData(const SceneData& data) {
     each("instance", data.instances, [&](const auto& label, const auto& part) { addInstance(label, part, scene); });
     each("camera", data.cameras, [&](const auto& label, const auto& part) { addCamera(label, part, scene); });
     each("light", data.lights, [&](const auto& label, const auto& part) { addLight(label, part, scene); });
-    if (const std::string placed = placedAtInfinity(scene); !placed.empty()) refuse("{} is placed at infinity", placed);
+    if (const std::string placed = placedAtInfinity(scene); !placed.empty()) refuse("the transform of {} is not finite", placed);
     return scene;
 }
 

@@ -171,15 +171,15 @@ void addMaterials(Scene& scene) {
 
 void checkOptions(const FishSchoolOptions& options) {
     if (options.fishCount < 1 || options.fishCount > maximumFish) {
-        fail("fish school: {} fish asked for, give 1 to {}", options.fishCount, maximumFish);
+        fail("fish school: {} fish requested; choose 1 to {}", options.fishCount, maximumFish);
     }
     if (options.trianglesPerFish < minimumTriangles || options.trianglesPerFish > maximumTriangles) {
-        fail("fish school: {} triangles per fish asked for, give {} to {}", options.trianglesPerFish, minimumTriangles,
-             maximumTriangles);
+        fail("fish school: {} triangles per fish requested; choose {} to {}", options.trianglesPerFish,
+             minimumTriangles, maximumTriangles);
     }
     const std::int64_t total = std::int64_t{options.fishCount} * options.trianglesPerFish;
     if (total > maximumTotal) {
-        fail("fish school: {} fish of {} triangles are {} in all, more than {}", options.fishCount,
+        fail("fish school: {} fish of {} triangles have {} triangles in total; the maximum is {}", options.fishCount,
              options.trianglesPerFish, total, maximumTotal);
     }
 }

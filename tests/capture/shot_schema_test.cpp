@@ -130,7 +130,7 @@ std::string parserFault(const json& shot) {
 
 // Returns whether a fault is one that no schema can express: the order of numbers or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
-    for (const char* part : {"a frame after the key before it", "a last frame", "/method:"})
+    for (const char* part : {"a frame after the previous key", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
     return false;
 }

@@ -105,7 +105,7 @@ protected:
         if (line.front() == "bench") return text;  // the bench's table contains times
         static const std::regex times("[0-9.]+ m?s\\b|\"buildSeconds\": [0-9.e-]+");
         text += std::regex_replace(outcome.out, times, "");
-        return text + (outcome.err.find("there before") != std::string::npos ? "kept" : "");
+        return text + (outcome.err.find("from earlier runs") != std::string::npos ? "kept" : "");
     }
 
     [[nodiscard]] std::string leftByCase(const std::string& command, const OwnOptionCase& tried, bool with) const {

@@ -198,7 +198,7 @@ TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
         int status = 0;
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
-        expectSaidOneLine("of 65536 samples: nothing is written");
+        expectSaidOneLine("of 65536 samples: no image is written");
         EXPECT_FALSE(fs::exists(folder() / "out.exr"));
         for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
             EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
@@ -221,7 +221,7 @@ TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
             EXPECT_EQ(code, 128 + SIGKILL);
         } else {
             EXPECT_EQ(code, 1);
-            expectSaidOneLine("rows are kept in out.tiles; the same command with --resume goes on");
+            expectSaidOneLine("rows are kept in out.tiles; repeat the command with --resume to continue");
         }
         EXPECT_FALSE(fs::exists(folder() / "out.exr"));
         EXPECT_TRUE(fs::exists(folder() / "out.tiles"));
@@ -317,14 +317,16 @@ TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "GPU drivers lack other extensions";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
     EXPECT_EQ(ran(line, {{"FAULT_EGL", "EGL_EXT_platform_device"}}), 0) << said();
-    EXPECT_NE(said().find("EGL devices: the driver has no EGL_EXT_platform_device\n"), std::string::npos) << said();
+    EXPECT_NE(said().find("EGL devices: the driver does not support EGL_EXT_platform_device\n"), std::string::npos)
+        << said();
     EXPECT_NE(said().find("surfaceless platform: "), std::string::npos) << said();
 
     const std::string all = "EGL_EXT_platform_device,EGL_MESA_platform_surfaceless";
     EXPECT_EQ(ran(line, {{"FAULT_EGL", all}, {"EGL_PLATFORM", "x11"}, {"DISPLAY", ":-1"}}), 1);
     const std::string text = said();
-    EXPECT_NE(text.find("no OpenGL 4.5 context: EGL devices: the driver has no EGL_EXT_platform_device; surfaceless "
-                        "platform: the driver has no EGL_MESA_platform_surfaceless; default display: eglInitialize"),
+    EXPECT_NE(text.find("cannot create an OpenGL 4.5 context: EGL devices: the driver does not support "
+                        "EGL_EXT_platform_device; surfaceless platform: the driver does not support "
+                        "EGL_MESA_platform_surfaceless; default display: eglInitialize"),
               std::string::npos)
         << text;
 }

@@ -59,10 +59,10 @@ TEST_F(TileCommand, whatIsMissingOrForeignIsNamed) {
     expectRefused(merged({"0.exr", "2.exr"}), 1, "tile 1/3 of the frame is missing: rows 16 to 31 of 48 (--tile 1/3)");
     expectRefused(merged({"1.exr", "2.exr"}), 1, "tile 0/3");
     expectRefused(merged({"0.exr", "1.exr"}), 1, "tile 2/3");
-    expectRefused(merged({"0.exr", "gone.exr", "2.exr"}), 1, "gone.exr: cannot be read: No such file");
+    expectRefused(merged({"0.exr", "gone.exr", "2.exr"}), 1, "cannot read gone.exr: No such file");
     expectRefused(merged({"0.exr", "0.exr", "1.exr", "2.exr"}), 1, "overlap: both hold row 0");
     expectRefused(merged({"half.exr", "1.exr", "2.exr"}), 1, "overlap");
-    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "other settings");
+    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different settings");
     expectRefused(merged({"0.exr", "quads.gltf", "2.exr"}), 1, "quads.gltf: ");
     ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
     expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr: not a tile of a frame");

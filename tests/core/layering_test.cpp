@@ -24,7 +24,7 @@ struct Line {
 
 // Returns the layer of a file: "lod/simplify" for "lod/simplify/weld.h", "render" for "render/circular/circular.h".
 // Only layers of lod and view are two folders deep.
-std::string roomOf(const std::string& path) {
+std::string moduleOf(const std::string& path) {
     const std::string first = path.substr(0, path.find('/'));
     return first == "lod" || first == "view" ? path.substr(0, path.rfind('/')) : first;
 }
@@ -39,7 +39,7 @@ std::vector<Line> sourceLines() {
         std::ifstream file(entry.path());
         std::string text;
         for (int number = 1; std::getline(file, text); ++number)
-            lines.push_back({relative.string(), roomOf(relative.string()), number, text});
+            lines.push_back({relative.string(), moduleOf(relative.string()), number, text});
     }
     return lines;
 }
@@ -51,7 +51,7 @@ std::string where(const Line& line) {
 // Layers from the bottom up, with the other layers that each may include.
 const std::map<std::string, std::vector<std::string>>& allowed() {
     static const std::map<std::string, std::vector<std::string>> table = [] {
-        std::map<std::string, std::vector<std::string>> rooms = {
+        std::map<std::string, std::vector<std::string>> modules = {
             {"core", {}},
             {"image", {"core"}},
             {"scene", {"core", "image"}},
@@ -62,16 +62,16 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
             {"plan", {"core", "image", "scene", "lens", "lod/simplify", "lod/pyramid"}},
             {"gl", {"core", "image"}},
         };
-        const auto addOver = [&](const char* room, const char* base, std::vector<std::string> more) {
-            const std::vector<std::string>& below = rooms.at(base);
+        const auto addOver = [&](const char* module, const char* base, std::vector<std::string> more) {
+            const std::vector<std::string>& below = modules.at(base);
             more.insert(more.end(), below.begin(), below.end());
             more.emplace_back(base);
-            rooms[room] = more;
+            modules[module] = more;
         };
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
-        rooms["stability"] = {};  // bench/stability, which only a command includes
+        modules["stability"] = {};  // bench/stability, which only a command includes
         addOver("capture", "frame", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
@@ -82,8 +82,8 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
         addOver("cli", "view/window", {"eval", "stability"});
-        rooms["frame"].emplace_back("school");  // only frame makes the built-in scene
-        return rooms;
+        modules["frame"].emplace_back("school");  // only frame makes the built-in scene
+        return modules;
     }();
     return table;
 }
@@ -97,10 +97,10 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
         ++checked;
         ASSERT_TRUE(allowed().contains(line.folder)) << where(line);
         EXPECT_NE(match[1].str().find('/'), std::string::npos) << where(line) << ": includes are relative to src";
-        const std::string room = roomOf(match[1]);
-        const std::vector<std::string>& rooms = allowed().at(line.folder);
-        const bool isPublic = room == "defocus";
-        const bool known = isPublic || room == line.folder || std::count(rooms.begin(), rooms.end(), room) > 0;
+        const std::string module = moduleOf(match[1]);
+        const std::vector<std::string>& modules = allowed().at(line.folder);
+        const bool isPublic = module == "defocus";
+        const bool known = isPublic || module == line.folder || std::count(modules.begin(), modules.end(), module) > 0;
         EXPECT_TRUE(known) << where(line);
     }
     EXPECT_GT(checked, 100u);  // the sources were found

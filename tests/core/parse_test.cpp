@@ -52,9 +52,9 @@ TEST(ParseChoice, listsTheChoicesAndSuggestsTheNearest) {
     const std::vector<std::string> choices = {"none", "aces", "agx"};
     EXPECT_EQ(parseChoice("agx", choices), 2u);
     EXPECT_EQ(faultOf([&] { parseChoice("aecs", choices); }),
-              "'aecs' is none of none, aces, agx; did you mean 'aces'?");
-    EXPECT_EQ(faultOf([&] { parseChoice("filmic", choices); }), "'filmic' is none of none, aces, agx");
-    EXPECT_EQ(faultOf([&] { parseChoice("jeong", {"jeong2011"}); }), "'jeong' is not 'jeong2011'");
+              "'aecs' is not one of none, aces, agx; did you mean 'aces'?");
+    EXPECT_EQ(faultOf([&] { parseChoice("filmic", choices); }), "'filmic' is not one of none, aces, agx");
+    EXPECT_EQ(faultOf([&] { parseChoice("jeong", {"jeong2011"}); }), "'jeong' is not valid; the only choice is 'jeong2011'");
 }
 
 }  // namespace

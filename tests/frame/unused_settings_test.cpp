@@ -27,21 +27,20 @@ TEST(UnusedSettings, aDefaultRequestHasNone) {
 
 TEST(UnusedSettings, eachIsNamedWithItsReason) {
     const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
-        {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: the method circular draws no lens samples"},
+        {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: method circular has no lens samples"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
-         "--blades, --obstruction have no effect: the method circular has a round or oval aperture"},
+         "--blades, --obstruction have no effect: method circular supports only round and oval apertures"},
         {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}, {"coma", "1"}},
-         "--cat-eye, --coma have no effect: the method scheuermann has the same lens for all colours and pixels"},
-        {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter has no effect: the method circular draws no motion"},
-        {{{"motionSegments", "4"}},
-         "--motion-segments has no effect: without --shutter nothing moves during the exposure"},
+         "--cat-eye, --coma have no effect: method scheuermann uses the same lens for all colours and pixels"},
+        {{{"method", "circular"}, {"shutter", "0.1"}},
+         "--shutter has no effect: method circular does not support motion blur"},
+        {{{"motionSegments", "4"}}, "--motion-segments has no effect: there is no motion blur without --shutter"},
         {{{"environmentRotation", "30"}},
-         "--environment-rotation has no effect: without --environment the surroundings are the same all around"},
+         "--environment-rotation has no effect: there is no environment map without --environment"},
         {{{"time", "2"}}, "--time has no effect: the scene has no animation"},
-        {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop has no effect: with --no-dof nothing is blurred"},
-        {{{"lod", "off"}, {"lightThreshold", "0.1"}},
-         "--light-threshold has no effect: with --lod off everything is drawn in full detail"},
-        {{{"lodCoc", "centre"}}, "--lod-coc has no effect: measured levels take the blur over the whole object"}};
+        {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop has no effect: --no-dof disables all blur"},
+        {{{"lod", "off"}, {"lightThreshold", "0.1"}}, "--light-threshold has no effect: --lod off draws full detail"},
+        {{{"lodCoc", "centre"}}, "--lod-coc has no effect: --lod-metric measured uses the blur over the whole object"}};
     for (const auto& [given, line] : cases) EXPECT_EQ(linesOf(given), std::vector<std::string>{line});
 }
 

@@ -90,15 +90,15 @@ TEST_F(GlProgram, linkErrorsNameAllShaders) {
 }
 
 TEST_F(GlProgram, badPathsAndIncludesAreErrors) {
-    EXPECT_TRUE(says(faultOf({"missing.frag"}), "shader missing.frag: there is no such file"));
+    EXPECT_TRUE(says(faultOf({"missing.frag"}), "shader missing.frag: file not found"));
     writeShader("stage.glsl", "");
-    EXPECT_TRUE(says(faultOf({"stage.glsl"}), "shader stage.glsl: the extension names no stage"));
+    EXPECT_TRUE(says(faultOf({"stage.glsl"}), "shader stage.glsl: unknown extension"));
     writeShader("self.frag", "\n#include \"self.frag\"\n");
-    EXPECT_TRUE(says(faultOf({"self.frag"}), "shader self.frag: includes itself"));
+    EXPECT_TRUE(says(faultOf({"self.frag"}), "shader self.frag: the file includes itself"));
     writeShader("quote.frag", "\n#include \"open.glsl\n");
     EXPECT_TRUE(says(faultOf({"quote.frag"}), "shader quote.frag:2")) << faultOf({"quote.frag"});
     writeShader("lost.frag", "#include \"parts/lost.glsl\"\n");
-    EXPECT_TRUE(says(faultOf({"lost.frag"}), "shader parts/lost.glsl: there is no such file"));
+    EXPECT_TRUE(says(faultOf({"lost.frag"}), "shader parts/lost.glsl: file not found"));
 }
 
 }  // namespace

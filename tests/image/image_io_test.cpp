@@ -43,9 +43,11 @@ std::string readFault(const fs::path& path) {
     return messageOf<Error>([&] { readImage(path); });
 }
 
-// Expects one line that begins with the file's name.
+// Expects one line that begins with the file's name, or with the verb and the file's name.
 void expectClearFault(const std::string& message, const std::string& name) {
-    EXPECT_TRUE(message.starts_with(name)) << message;
+    EXPECT_TRUE(message.starts_with(name) || message.starts_with("cannot read " + name) ||
+                message.starts_with("cannot write " + name))
+        << message;
     EXPECT_GT(message.size(), name.size() + 2) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
@@ -223,15 +225,14 @@ TEST(ImageFileDeathTest, aFullDiskLeavesTheOldFile) {
             value = static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0f;
         const std::string message = messageOf<Error>([&] { writeImage(path, noise); });
         const bool alone = std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}) == 1;
-        const bool good =
-            message.starts_with(path.string() + ": cannot be written") && readText(path) == "old" && alone;
+        const bool good = message.starts_with("cannot write " + path.string()) && readText(path) == "old" && alone;
         fs::remove_all(folder.path());
         std::fprintf(stderr, "%s\n", message.c_str());
         std::_Exit(good ? 7 : 1);
     };
-    EXPECT_EXIT(writeWithLittleSpace("a.exr"), testing::ExitedWithCode(7), "cannot be written");
-    EXPECT_EXIT(writeWithLittleSpace("a.png"), testing::ExitedWithCode(7), "cannot be written");
-    EXPECT_EXIT(writeWithLittleSpace("a.jpg"), testing::ExitedWithCode(7), "cannot be written");
+    EXPECT_EXIT(writeWithLittleSpace("a.exr"), testing::ExitedWithCode(7), "cannot write");
+    EXPECT_EXIT(writeWithLittleSpace("a.png"), testing::ExitedWithCode(7), "cannot write");
+    EXPECT_EXIT(writeWithLittleSpace("a.jpg"), testing::ExitedWithCode(7), "cannot write");
 }
 
 TEST(BadImageFile, missingDirectoryEmptyAndForeign) {

@@ -96,7 +96,8 @@ TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     writeFile(folder() / "b.exr", "not an image");
     for (const char* name : {"a.png", "b.exr", "missing.exr", "."}) {
         const std::string said = messageOf<Error>([&] { ImageRowReader reader(folder() / name); });
-        EXPECT_TRUE(said.starts_with((folder() / name).string())) << said;
+        const std::string path = (folder() / name).string();
+        EXPECT_TRUE(said.starts_with(path) || said.starts_with("cannot read " + path)) << said;
     }
 }
 
@@ -113,7 +114,8 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
             writer.write(pattern(530, 201));
             writer.finish();
         });
-        EXPECT_NE(said.find(name + ": cannot be written: File too large"), std::string::npos) << said;
+        EXPECT_NE(said.find("cannot write " + (folder() / name).string() + ": File too large"), std::string::npos)
+            << said;
     }
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);

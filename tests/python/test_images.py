@@ -57,7 +57,7 @@ def test_float32_arrays_are_read_where_they_lie(gradient):
 
 
 def test_what_is_no_image_is_refused(gradient):
-    with pytest.raises(defocus.UsageError, match="linear floats, not uint8"):
+    with pytest.raises(defocus.UsageError, match="linear float values, not uint8"):
         defocus.compare((255 * gradient).astype(numpy.uint8), gradient)
     with pytest.raises(defocus.UsageError, match="not 24×32×2"):
         defocus.compare(gradient[..., :2], gradient)
@@ -88,7 +88,7 @@ def test_eight_bits_are_encoded_and_exposed(tmp_path):
     defocus.write_image(tmp_path / "a.png", grey, tone_map="none", exposure=1)
     read = defocus.read_image(tmp_path / "a.png")
     assert numpy.allclose(read, 0.5, atol=0.005)
-    with pytest.raises(defocus.UsageError, match="tone_map: 'acse' is none of none, aces, agx, neutral; did you mean 'aces'"):
+    with pytest.raises(defocus.UsageError, match="tone_map: 'acse' is not one of none, aces, agx, neutral; did you mean"):
         defocus.write_image(tmp_path / "b.png", grey, tone_map="acse")
     assert not (tmp_path / "b.png").exists()
 

@@ -148,7 +148,7 @@ def test_progressive_reports_wrong_keywords_at_once():
 
 def test_aovs_tell_depth_blur_and_level(small):
     with defocus.Renderer(**small, f_stop=1.4, focus_distance=2) as renderer:
-        with pytest.raises(defocus.Error, match="no frame was started"):
+        with pytest.raises(defocus.Error, match="no frame has been started"):
             renderer.aovs()
         renderer.start()
         depth, coc, level = aovs = renderer.aovs()
@@ -208,7 +208,7 @@ def test_a_clipped_picture_is_warned_of(meshes, tmp_path):
     with defocus.Renderer(meshes / "staircase.gltf", size=(16, 12), samples=1, exposure=-20) as renderer:
         image = renderer.render()
         renderer.write(tmp_path / "linear.exr", image)
-        with pytest.warns(UserWarning, match="of the picture is black"):
+        with pytest.warns(UserWarning, match="of the image is black"):
             renderer.write(tmp_path / "black.png", image)
 
 

@@ -115,11 +115,11 @@ def test_none_leaves_a_value_open(meshes):
 
 
 def test_the_school_has_no_file_and_a_scene_must_be_one(meshes):
-    with pytest.raises(defocus.UsageError, match="fish_count: is of the built-in school"):
+    with pytest.raises(defocus.UsageError, match="fish_count applies only to the built-in school"):
         defocus.plan(meshes / "chess.glb", fish_count=3)
     with pytest.raises(defocus.UsageError, match="5 is neither a path nor a Scene"):
         defocus.render(5)
-    with pytest.raises(defocus.UsageError, match="progress: 7 is not a function"):
+    with pytest.raises(defocus.UsageError, match="progress: 7 is not a callable"):
         defocus.render(progress=7)
 
 

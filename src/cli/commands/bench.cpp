@@ -62,8 +62,8 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     options.renderer.wave = arguments.request.wave.value_or(0);
     options.renderer.shaderFolder = global.shaderDir;
     const BenchSubject subject = benchSubject(*context, global, frame, options.runs);
-    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
-               subject.runs, subject.device, speedupHeader());
+    fmt::print("{}, {} x {} px, {} runs each, on {}\n\n{}", subject.scene, subject.width, subject.height, subject.runs,
+               subject.device, speedupHeader());
 
     // Write all rows after each new row, so that an interrupted run loses nothing.
     std::vector<SpeedupRow> rows;
@@ -84,32 +84,36 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
 void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<SpeedupArguments>();
     CLI::App* command = bench.add_subcommand(
-        "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
+        "speedup",
+        "Measure the frame time and image error of full detail, nearest and fractional levels from a fixed camera");
     const char* group = "Measurement";
     SpeedupOptions& options = arguments->speedup;
-    addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples")->group(group);
-    addNumbers(*command, "--fstops", options.fStops, {0.001, 1e6}, "N,N,…", "Further f-numbers, at 64 samples")
+    addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples to measure")
+        ->group(group);
+    addNumbers(*command, "--fstops", options.fStops, {0.001, 1e6}, "N,N,…",
+               "Additional f-numbers to measure, at 64 samples")
         ->group(group);
     addNumbers(*command, "--focus-distances", options.focusDistances, {1e-6, 1e12}, "M,M,…",
-               "Further focus distances, at 64 samples")
+               "Additional focus distances in m to measure, at 64 samples")
         ->group(group);
     addParsed(*command, "--methods", "NAME,NAME,…",
-              "Further methods, each with its settings, as in scheuermann,circular:far-components=2",
+              "Additional methods to measure, with their settings, such as scheuermann,circular:far-components=2",
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
-    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Number of runs of each mode; the median is reported")
+        ->group(group);
     addInteger(*command, "--seeds", options.seeds, 1, 1000,
-               "Seeds that the runs go through, so that errors have a spread, too; at most as many as runs")
+               "Number of seeds, used in turn by the runs to measure the spread of errors; at most the number of runs")
         ->group(group);
     addParsed(*command, "--reference-samples", "N",
-              "Lens samples of the converged reference that each lens is compared with; without it, eight times the "
-              "most that are measured with the lens; 0: no reference",
+              "Number of lens samples of the reference; 0: no reference. Default: eight times the maximum measured "
+              "with the same lens",
               [&options](const std::string& text) {
                   options.referenceSamples = static_cast<std::uint32_t>(parseInteger(text, 0, maxSamples));
               })
         ->group(group);
     CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
+        command->add_option("-o,--output", arguments->folder, "Folder for the results speedup.csv and speedup.json")
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
@@ -125,7 +129,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"
         "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024\n"
         "  defocus bench speedup --preset jeong2011 --report figure-2\n"
-        "With a preset, all is measured twice: with what the preset sets, and with what a call without it has.");
+        "With --preset, everything is measured twice: with and without the preset.");
     command->callback([arguments, command, &global] {
         const CLI::Option& preset = *command->get_option("--preset");
         if (!preset.empty()) arguments->preset = preset.results().front();
@@ -145,22 +149,22 @@ void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list
     if (folder.empty()) return;
     std::error_code fault;
     std::filesystem::create_directories(folder, fault);
-    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    if (fault) fail("cannot create the folder {}: {}", folder.string(), fault.message());
     for (const char* name : files) checkWritable(folder / name);
 }
 
 void addAllowChanged(CLI::App& command, bool& allowed) {
     advanced(command
                  .add_flag("--allow-changed", allowed,
-                           "Write results even if the program was built from sources that differ from their commit")
+                           "Write results even if the program was built from uncommitted sources")
                  ->group("Output"));
 }
 
 void refuseChangedSources(const std::filesystem::path& output, bool allowed, const std::string& commit) {
     if (output.empty() || allowed || !commit.ends_with("-changed")) return;
     fail(
-        "{}: the program was built from changed sources ({}), so nobody could repeat these results; commit the sources "
-        "and build again, or pass --allow-changed",
+        "{}: results are not written because the program was built from uncommitted sources ({}); commit and rebuild, "
+        "or pass --allow-changed",
         output.string(), commit);
 }
 
@@ -189,7 +193,7 @@ BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global,
 }
 
 void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
-    CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");
+    CLI::App* bench = program.add_subcommand("bench", "Measure render time and image error on this machine");
     bench->require_subcommand(1);
     addSpeedup(*bench, global);
     addConvergenceCommand(*bench, global);

@@ -95,12 +95,12 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
     std::vector<ConvergenceRun> runs;
     if (fs::exists(journal)) runs = readRunsCsv(textIn(journal), subject, journal.string());
     if (!runs.empty() && !arguments.resume)
-        fail("{}: holds {} frames of an earlier run: --resume goes on from them, --overwrite begins anew",
+        fail("{} has {} frames of an earlier run; continue with --resume, or start over with --overwrite",
              journal.string(), runs.size());
     if (holdsOtherReference(folder, reference))
         fail(
-            "{}: holds the reference of another scene, camera, size, number of samples or build of the program; choose "
-            "another folder, or begin anew with --overwrite",
+            "{} has the reference of another scene, camera, size, number of samples or build of the program; choose "
+            "another folder, or start over with --overwrite",
             folder.string());
     return runs;
 }
@@ -237,7 +237,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     // Measure the frames.
     ResultsFolder results(folder, reference, subject, hash, options.seeds);
     if (arguments.resume) results.resume(done);
-    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n", subject.bench.scene, subject.bench.width,
+    fmt::print("{}, {} x {} px, {} runs each, on {}\n\n", subject.bench.scene, subject.bench.width,
                subject.bench.height, options.runs, subject.bench.device);
     std::fflush(stdout);
     const ConvergenceVisitor visitor = {
@@ -264,31 +264,32 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
 void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
     const char* group = "Measurement";
     ConvergenceOptions& options = arguments.options;
-    addParsed(
-        command, "--methods", "NAME,NAME,…",
-        "Methods, each with its settings, as in accumulation,circular:far-components=2; without it, all that this "
-        "program has. Accumulation at full detail is always there",
-        [&options](const std::string& text) { options.methods = parseMethods(text); })
+    addParsed(command, "--methods", "NAME,NAME,…",
+              "Methods to measure, with their settings, such as accumulation,circular:far-components=2. Accumulation "
+              "at full detail is always included. Default: all methods",
+              [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addList(command, "--rows", "published,best,standard", options.forms,
-            "Forms of the methods that are named without settings: as a paper has it (its preset), with the settings "
-            "that come closest to the reference, with standard settings",
+            "Forms of the methods that are given without settings: as published (their preset), with the settings of "
+            "the smallest error (best), or with default settings (standard)",
             [](const std::string& part) {
                 constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::standard};
                 return forms[parseChoice(part, {"published", "best", "standard"})];
             })
         ->default_str("published,best,standard")
         ->group(group);
-    addIntegers(command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples")->group(group);
+    addIntegers(command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples to measure")
+        ->group(group);
     addList(command, "--lod", "off,nearest,fractional,continuous", options.lods,
-            "Levels of detail, of methods that draw levels",
+            "Level-of-detail modes to measure, for methods with levels",
             [](const std::string& part) {
                 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
                 return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
             })
         ->default_str("off,fractional")
         ->group(group);
-    addList(command, "--metrics", "size,error,halving,measured,score", options.metrics, "What levels are chosen by",
+    addList(command, "--metrics", "size,error,halving,measured,score", options.metrics,
+            "Rules that choose the levels (see --lod-metric of render)",
             [](const std::string& part) {
                 constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving,
                                                 LodMetric::measured, LodMetric::score};
@@ -297,21 +298,21 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         ->default_str("measured")
         ->group(group);
     addNumbers(command, "--threshold-factors", options.thresholdFactors, {0, 1000}, "F,F,…",
-               "Times the standard thresholds for each number of samples")
+               "Factors on the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "The scene's own light, or a fixed one painted on its meshes, which ray tracers show alike; "
-                    "unlit where this program has ray tracers")
+                    "Shading: the scene's lights (lit), or fixed light stored in the meshes (unlit), which ray tracers "
+                    "can reproduce. Default: unlit if the program has ray tracers")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
-    addInteger(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
-    addInteger(
-        command, "--seeds", options.seeds, 1, 1000,
-        "Sets of sample points, which the runs take in turn: the error is their mean, with the least and the most")
+    addInteger(command, "--runs", options.runs, 1, 1000, "Number of runs of each row; the median is reported")
+        ->group(group);
+    addInteger(command, "--seeds", options.seeds, 1, 1000,
+               "Number of seeds, used in turn by the runs; the error is reported as mean, minimum and maximum")
         ->group(group);
     addInteger(command, "--reference-samples", arguments.referenceSamples, 2, maxSamples,
-               "Lens samples of the reference, which is kept beside the results and used again")
+               "Number of lens samples of the reference, which is stored beside the results and reused")
         ->group(group);
 }
 
@@ -319,21 +320,21 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
     const char* group = "Output";
     command
         .add_option("-o,--output", arguments.output,
-                    "Folder for results.csv, results.json, runs.csv, reference.exr and images; without it, that of the "
-                    "report, else convergence")
+                    "Folder for results.csv, results.json, runs.csv, reference.exr and images. Default: the folder of "
+                    "--report, else convergence")
         ->type_name("FOLDER")
         ->group(group);
     CLI::Option* resume =
-        command.add_flag("--resume", arguments.resume, "Measure only what the folder's runs.csv doesn't have yet")
+        command.add_flag("--resume", arguments.resume, "Measure only what is missing in runs.csv of the folder")
             ->group(group);
     command
         .add_flag("--overwrite", arguments.overwrite,
-                  "Begin anew in a folder that holds frames or the reference of another run; they are lost")
+                  "Delete the frames or the reference of another run in the folder, and start over")
         ->excludes(resume)
         ->group(group);
     command
         .add_option("--report", arguments.report,
-                    "Folder for index.html: plots, tables and pictures in one file (needs python3-matplotlib)")
+                    "Folder for index.html with plots, tables and pictures (requires python3-matplotlib)")
         ->type_name("FOLDER")
         ->group(group);
     addAllowChanged(command, arguments.allowChanged);
@@ -343,8 +344,8 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
 
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
-    CLI::App* command =
-        bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
+    CLI::App* command = bench.add_subcommand(
+        "convergence", "Measure the error over run time of methods and settings against a reference");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups,

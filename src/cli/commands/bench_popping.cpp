@@ -35,7 +35,7 @@ struct PoppingArguments {
 
 void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.frames > arguments.options.pathFrames)
-        fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
+        fail("--frames {} exceeds the {} frames of the movement (--path-frames)", arguments.options.frames,
              arguments.options.pathFrames);
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     refuseChangedSources(folder, arguments.allowChanged);
@@ -92,25 +92,26 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<PoppingArguments>();
     arguments->request.size = {320, 240};
-    CLI::App* command = bench.add_subcommand(
-        "popping",
-        "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
+    CLI::App* command = bench.add_subcommand("popping",
+                                             "Measure how levels of detail change the image from frame to frame: focus "
+                                             "pull, dolly, turntable and animation");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(
         *command, arguments->request,
         settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
-    addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples")->group(group);
+    addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples to measure")
+        ->group(group);
     addInteger(*command, "--frames", options.frames, 2, 10'000,
-               "Frames of each movement: the stretch of it over which levels change most often")
+               "Number of frames to measure of each movement, where levels change most often")
         ->group(group);
     addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
-               "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
-               "focus distance, once around, the clip once): its speed")
+               "Number of frames of a complete movement, which sets its speed: focus from the nearest to the farthest "
+               "object, dolly over half the focus distance, one turn, one cycle of the animation")
         ->group(group);
     CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
+        command->add_option("-o,--output", arguments->folder, "Folder for the results popping.csv and popping.json")
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);

@@ -36,8 +36,8 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context, global);
     subject.scene = frame.sceneName;
-    fmt::print("{}, {} x {} px, on {}: errors of linear light, its mean 1\n\n{}", frame.sceneName, options.width,
-               options.height, subject.device, predictionHeader());
+    fmt::print("{}, {} x {} px, on {}: errors of linear light, relative to its mean\n\n{}", frame.sceneName,
+               options.width, options.height, subject.device, predictionHeader());
     std::fflush(stdout);
     std::vector<PredictionRow> rows;
     measurePrediction(
@@ -61,12 +61,12 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
     arguments->request.size = {arguments->options.width, arguments->options.height};
     CLI::App* command = bench.add_subcommand(
         "prediction",
-        "A scene's largest mesh alone, level by level under growing blur: the error that its pyramid "
-        "expects against the rendered one");
-    addNumbers(*command, "--cocs", arguments->options.cocs, {0.01, 1e4}, "PX,PX,…", "Blur of the mesh's centre")
+        "Compare the predicted with the rendered error of each level of a scene's largest mesh, for several blurs");
+    addNumbers(*command, "--cocs", arguments->options.cocs, {0.01, 1e4}, "PX,PX,…",
+               "Blur at the centre of the mesh, in px")
         ->group("Measurement");
     addSettings(*command, arguments->request, {"scene", "fishCount", "trianglesPerFish", "size"});
-    command->add_option("-o,--output", arguments->folder, "Folder for prediction.csv and prediction.json")
+    command->add_option("-o,--output", arguments->folder, "Folder for the results prediction.csv and prediction.json")
         ->type_name("FOLDER")
         ->group("Output");
     addAllowChanged(*command, arguments->allowChanged);

@@ -47,7 +47,7 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});
         if (code == 0) return true;
         if (code != notInstalled && code != withoutMatplotlib)
-            fail("{}: the report could not be drawn (exit code {}); the results beside it are complete",
+            fail("cannot draw the report {} (exit code {}); the results beside it are complete",
                  (report / "index.html").string(), code);
     }
     return false;
@@ -58,8 +58,8 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
 void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report) {
     command
         .add_option("--report", report,
-                    "Folder for the same files and index.html, which has plots and tables of all benches with results "
-                    "there (needs python3-matplotlib); instead of --output")
+                    "Folder for the results and index.html, with plots and tables of all benches in the folder "
+                    "(requires python3-matplotlib). Replaces --output")
         ->type_name("FOLDER")
         ->excludes(output)
         ->group("Output");

@@ -37,7 +37,7 @@ struct ScalingArguments {
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.large &&
         std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
-        throw UsageError("--large is for triangles, which are not among --axes");
+        throw UsageError("--large requires triangles in --axes");
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
@@ -48,7 +48,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context, global);
     subject.runs = options.runs;
-    fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
+    fmt::print("{} runs each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
     std::fflush(stdout);
 
     // Write all rows after each new row, so that an interrupted run loses nothing.
@@ -87,30 +87,32 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
 void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ScalingArguments>();
     CLI::App* command = bench.add_subcommand(
-        "scaling", "Time and memory against triangles, instances, samples, pixels and blur, with fitted exponents");
+        "scaling", "Measure time and memory over triangles, instances, samples, pixels and blur, and fit exponents");
     const char* group = "Measurement";
     ScalingOptions& options = arguments->options;
     const std::vector<ScalingAxis> all = options.axes;
     std::vector<std::string> names;
     for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
-    addList(*command, "--axes", "AXIS,AXIS,…", options.axes, "What grows: triangles, instances, samples, pixels, blur",
+    addList(*command, "--axes", "AXIS,AXIS,…", options.axes,
+            "Quantities to vary: triangles, instances, samples, pixels, blur",
             [all, names](const std::string& part) { return all[parseChoice(part, names)]; })
         ->default_str(fmt::format("{}", fmt::join(names, ",")))
         ->group(group);
     command
         ->add_flag("--large", options.large,
-                   "Triangles up to 50 million instead of 10, as far as memory allows; their pyramids take minutes")
+                   "Measure up to 50 instead of 10 million triangles, as far as memory allows; building their pyramids "
+                   "takes minutes")
         ->group(group);
     command
-        ->add_flag(
-            "--scenes", arguments->scenes,
-            "Also two large scenes, 100 million triangles in instances and 10,000 different objects: time of the "
-            "plan, memory, and the first image; their pyramids take minutes")
+        ->add_flag("--scenes", arguments->scenes,
+                   "Also measure two large scenes (100 million triangles in instances, and 10,000 different objects): "
+                   "planning time, memory and time to the first image; building their pyramids takes minutes")
         ->group(group);
-    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Number of runs of each frame; the median is reported")
+        ->group(group);
     addSettings(*command, arguments->request, {"cacheFolder"});
     CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
+        command->add_option("-o,--output", arguments->folder, "Folder for the results scaling.csv and scaling.json")
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);

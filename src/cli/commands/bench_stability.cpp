@@ -35,17 +35,19 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
         },
         progress);
     const bool leftOut = std::ranges::any_of(rows, &StabilityRow::leftOut);
-    if (leftOut) fmt::print("\nWhat is left out needs the ray tracer, which is in defocus_bench.\n");
+    if (leftOut) fmt::print("\nThe remaining cases need the ray tracer, which is in defocus_bench.\n");
     return rows;
 }
 
 // Measures each method with default settings against the lens; prints a row per method and a summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
-        "\nThe disk of a point of light against the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm,\n"
-        "192 px, 256 samples, but for what is varied. It follows the lens if it is off by at most {:g} px\n"
-        "and its energy by {:g} %.\n"
-        "\n{}",
+        "\n"
+        "Blurred disk of a point light compared with the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm "
+        "sensor,\n"
+        "192 px, 256 samples, except for the varied setting. The disk follows the lens if its size differs by at most "
+        "{:g} px\n"
+        "and its energy by at most {:g} %.\n",
         honestDiameter, 100 * honestEnergy, honestyHeader());
     std::vector<HonestyRow> rows;
     measureHonesty(
@@ -57,10 +59,12 @@ std::vector<HonestyRow> printedHonesty(const Progress& progress) {
         },
         progress);
     fmt::print(
-        "\n{}\nWhat differs is the method's own. scheuermann: as published, blur is linear in depth between\n"
-        "three planes and at most 10 px wide, whatever the lens; its pre-blurred small copy widens all disks,\n"
-        "with coc=thin-lens too. circular: below full resolution, larger pixels widen small disks, as do\n"
-        "fewer taps.\n",
+        "\n"
+        "{}\n"
+        "Differences are properties of the methods. scheuermann: as published, the blur is linear in depth between "
+        "three\n"
+        "planes and at most 10 px wide, whatever the lens; its pre-blurred small copy widens all disks, also with\n"
+        "coc=thin-lens. circular: below full resolution or with fewer taps, small disks become wider.\n",
         honestySummary(rows));
     return rows;
 }
@@ -79,7 +83,7 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
     if (!output.empty()) writeFile(output, stabilityJson(rows, honesty, benchSubject(*context, global)));
     drawReport(arguments.report, arguments.report);
     const auto failed = std::ranges::count_if(rows, &StabilityRow::failed);
-    if (failed > 0) fail("{} of {} cases are beyond their limits", failed, rows.size());
+    if (failed > 0) fail("{} of {} cases exceed their limits", failed, rows.size());
 }
 
 }  // namespace
@@ -87,8 +91,8 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
 void addStabilityCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<StabilityArguments>();
     CLI::App* command = bench.add_subcommand(
-        "stability", "Stiff and extreme cases against their truth, and whether the blur follows the lens alone");
-    CLI::Option* output = command->add_option("-o,--output", arguments->output, "JSON file for the rows")
+        "stability", "Compare extreme cases with their exact results, and check that the blur follows the lens");
+    CLI::Option* output = command->add_option("-o,--output", arguments->output, "JSON file for the results")
                               ->type_name("FILE")
                               ->group("Output");
     addReport(*command, output, arguments->report);

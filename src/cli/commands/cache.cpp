@@ -26,7 +26,7 @@ struct CacheArguments {
 std::filesystem::path folderOf(const CacheArguments& arguments) {
     const std::filesystem::path folder =
         arguments.request.cacheFolder.empty() ? defaultCacheFolder() : arguments.request.cacheFolder;
-    if (folder.empty()) fail("no cache folder: neither XDG_CACHE_HOME nor HOME is set; give one with --cache-dir");
+    if (folder.empty()) fail("no cache folder: neither XDG_CACHE_HOME nor HOME is set; give a folder with --cache-dir");
     return folder;
 }
 
@@ -70,13 +70,13 @@ void clear(const CacheArguments& arguments) {
 
 void addCacheCommand(CLI::App& program) {
     auto arguments = std::make_shared<CacheArguments>();
-    CLI::App* command = program.add_subcommand("cache", "List or remove the simplified meshes kept on disk");
+    CLI::App* command = program.add_subcommand("cache", "List or remove cached simplified meshes");
     command->require_subcommand(1);
     const char* example = "Examples:\n  defocus cache list\n  defocus cache clear --cache-dir /tmp/pyramids";
 
-    CLI::App* listing = command->add_subcommand("list", "Size, date and triangles of each file");
+    CLI::App* listing = command->add_subcommand("list", "Print the size, date and triangle count of each file");
     listing->callback([arguments] { list(*arguments); });
-    CLI::App* clearing = command->add_subcommand("clear", "Remove the cache's files, and no others");
+    CLI::App* clearing = command->add_subcommand("clear", "Remove the files of the cache");
     clearing->callback([arguments] { clear(*arguments); });
     for (CLI::App* place : {command, listing, clearing}) {
         addSettings(*place, arguments->request, {"cacheFolder"});

@@ -88,7 +88,7 @@ std::string shutterText(double seconds) {
 }
 
 const char* const plainLensNote =
-    "The limits are those of the plain lens: its limits, range, tilt or curvature of the blur count in the table only";
+    "The depth of field ignores focus range, tilt, curvature and limits of the blur; the table includes them";
 
 }  // namespace
 
@@ -135,7 +135,7 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     for (const Blur& blur : facts.blurs)
         text += fmt::format("{:>12} {:>12.2f} {:>14.4f}{}\n", inMetres(blur.depth), blur.pixels, blur.onSensor,
                             blur.inFocus ? "  in focus" : "");
-    text += "\nThe blur is that of the image's middle, < 0 in front of the focus.\n";
+    text += "\nBlur in the middle of the image; negative in front of the focus.\n";
     return text;
 }
 

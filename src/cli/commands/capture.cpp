@@ -67,24 +67,24 @@ void checkArguments(const CaptureArguments& arguments) {
         const fs::path folder = fs::path(pattern).parent_path();
         std::error_code fault;
         if (!folder.empty() && !arguments.dryRun) fs::create_directories(folder, fault);
-        if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+        if (fault) fail("cannot create the folder {}: {}", folder.string(), fault.message());
         if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
     }
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
     if (!arguments.shot.video.empty()) {
         if (part)
             fail(
-                "--video needs all frames: run the shards first, then the command without --shard and with --resume "
+                "--video needs all frames; run all shards first, then the command without --shard and with --resume "
                 "--video {}",
                 arguments.shot.video.string());
         checkVideo(arguments.shot.video);
     }
     if (!arguments.sampleRange) return;
     if (arguments.request.targetError)
-        throw UsageError("--sample-range needs a number of samples, which --target-error leaves open");
+        throw UsageError("--sample-range cannot be combined with --target-error; give --samples");
     checkSampleRange(*arguments.sampleRange, arguments.request.samples.value_or(maxSamples));
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
-        fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
+        fail("--sample-range writes sums of samples to EXR files; give one output, such as -o frames/####.exr");
 }
 
 FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& settings) {
@@ -102,9 +102,9 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
                const std::vector<FilmFrame>& film) {
     const StopSettings stop = stopSettings(arguments.request);
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
-                                : stop.automatic ? "as many samples as each frame asks for"
+                                : stop.automatic ? "as many samples as each frame needs"
                                                  : fmt::format("{} samples", base.settings.sampleCount);
-    fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
+    fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames per second\n", prepared.sceneName, prepared.cameraName,
                base.view.width, base.view.height, samples, arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
                "triangles", "file");
@@ -115,7 +115,7 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
                    lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
-                   each.finished        ? " (is there)"
+                   each.finished        ? " (finished)"
                    : each.other.empty() ? ""
                                         : " (other settings)");
     }
@@ -161,11 +161,11 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
     const double render = figures.renderMilliseconds / 1000;
     const double total = figures.totalMilliseconds / 1000;
     std::string text = fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
-    if (figures.finishedBefore > 0) text += fmt::format(", {} of them there before", figures.finishedBefore);
+    if (figures.finishedBefore > 0) text += fmt::format(", {} of them from earlier runs", figures.finishedBefore);
     if (figures.rendered > 0)
         text += fmt::format(
-            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms "
-            "and {:.2f} M triangles a frame)",
+            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms and {:.2f} M "
+            "triangles per frame)",
             figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
     if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
@@ -193,7 +193,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     return renderFilm(arguments.shot, base, prepared.world, driver, film, options,
                       metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
 } catch (const Error& error) {
-    fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
+    fail("{} (finished frames are kept; repeat the command with --resume to continue)", error.what());
 }
 
 // Throws Error if frames made with other settings, which may have taken hours, would be replaced.
@@ -202,7 +202,8 @@ void refuseToReplace(const std::vector<FilmFrame>& film) {
     const auto first = std::ranges::find_if(film, replaced);
     if (first == film.end()) return;
     const auto more = std::ranges::count_if(film, replaced) - 1;
-    fail("{}{} made with other settings: --overwrite renders anew, -o writes elsewhere", first->other.string(),
+    fail("{}{} rendered with other settings; replace with --overwrite, or give another output with -o",
+         first->other.string(),
          more > 0 ? fmt::format(" and {} more frame{} were", more, more > 1 ? "s" : "") : " was");
 }
 
@@ -258,7 +259,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     figures.finishedBefore = static_cast<int>(film.size());
     if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);
     if (figures.stoppedBefore)
-        fail("stopped before frame {}: {} of {} frames are finished; the same command with --resume goes on",
+        fail("stopped before frame {}: {} of {} frames are finished; repeat the command with --resume to continue",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
 
     // Encode the video.
@@ -278,10 +279,10 @@ void parseShard(const std::string& text, Shard& shard) {
         shard.count = static_cast<int>(parseInteger(text.substr(slash + 1), 1, 1'000'000));
         shard.index = static_cast<int>(parseInteger(text.substr(0, slash), 0, 999'999));
     } catch (const Error&) {
-        fail("'{}' is not I/N, such as 0/4: part I, from 0 to N-1, of N", text);
+        fail("'{}' is not I/N, such as 0/4: part I (0 to N-1) of N", text);
     }
     if (shard.index >= shard.count)
-        fail("'{}': the parts of {} are 0 to {} (of a Slurm job: --array=0-{})", text, shard.count, shard.count - 1,
+        fail("'{}': with {} parts, the part must be 0 to {} (Slurm: --array=0-{})", text, shard.count, shard.count - 1,
              shard.count - 1);
 }
 
@@ -300,7 +301,8 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
                              throw CLI::ValidationError(error.what());  // reported as a command-line error
                          }
                      },
-                     "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
+                     "Replace a value of the shot, given by its JSON pointer, such as --set /lens/fStop=1.4. Can be "
+                     "given several times")
                  ->allow_extra_args(false)
                  ->type_name("/PLACE=VALUE")
                  ->group(group));
@@ -311,18 +313,21 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
                 arguments.shot = loadShot(path, arguments.overrides);
                 applyShot(arguments.shot, arguments.request);
             },
-            "Shot file (JSON; docs/shot.schema.json)")
+            "Shot file (JSON, see docs/shots.md)")
         ->required()
         ->type_name("FILE");
-    addParsed(command, "--range", "FIRST:LAST", "Frames to render, or one; movements keep the shot's range",
+    addParsed(command, "--range", "FIRST:LAST",
+              "First and last frame to render, or a single frame. Camera movements keep the range of the shot",
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
-    addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frames a second")->group(group);
-    advanced(addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R", "Of the scene's animation")
+    addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frame rate in frames per second")
+        ->group(group);
+    advanced(addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R",
+                       "Speed factor of the scene's animation; negative: backwards")
                  ->group(group));
     advanced(command
                  .add_flag("--animate-seed", arguments.shot.animateSeed,
-                           "Other sample positions in each frame, so that the noise moves like film grain")
+                           "Change the sample positions from frame to frame, so that noise looks like film grain")
                  ->group(group));
 }
 
@@ -330,33 +335,34 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Output";
     command
         .add_option("-o,--output", arguments.outputs,
-                    "Pattern of the frames, #### being the number: .exr, .png or .jpg. Can be given several times. "
-                    "Without it, the shot's, else frames/####.exr")
+                    "File pattern of the frames, with #### for the frame number: .exr, .png or .jpg. Can be given "
+                    "several times. Default: from the shot, else frames/####.exr")
         ->allow_extra_args(false)
         ->type_name("PATTERN")
         ->group(group);
     command
-        .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
+        .add_option("--video", arguments.shot.video, "Also encode a video with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
     CLI::Option* resume =
-        command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
+        command
+            .add_flag("--resume", arguments.resume, "Keep finished frames that were rendered with the same settings")
             ->group(group);
     command
         .add_flag("--overwrite", arguments.overwrite,
-                  "With --resume: render frames anew that were made with other settings")
+                  "With --resume: replace frames that were rendered with other settings")
         ->needs(resume)
         ->group(group);
-    advanced(addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
+    advanced(addParsed(command, "--shard", "I/N",
+                       "Render only part I (0 to N-1) of the frames, to share a shot between N machines",
                        [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
                  ->group(group));
-    advanced(
-        addParsed(
-            command, "--sample-range", "FIRST:END",
-            "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
-            [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
-            ->group(group));
-    command.add_flag("--dry-run", arguments.dryRun, "Print what each frame would be, and render nothing")->group(group);
+    advanced(addParsed(command, "--sample-range", "FIRST:END",
+                       "Range of the lens samples to draw in each frame, in multiples of 64. Writes their sums to "
+                       "#.partFIRST-END.exr for 'defocus merge'",
+                       [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+                 ->group(group));
+    command.add_flag("--dry-run", arguments.dryRun, "Print the plan of each frame without rendering")->group(group);
 }
 
 }  // namespace
@@ -364,17 +370,17 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<CaptureArguments>();
     arguments->request = shotDefaults();
-    CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
+    CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and video");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);
     addSettings(*command, arguments->request, settingsOf(pictureGroups, {"scene"}));
-    command->add_option("--scene", arguments->request.scene, "glTF file, instead of the shot's")
+    command->add_option("--scene", arguments->request.scene, "glTF file that replaces the scene of the shot")
         ->type_name("FILE")
         ->group("Scene");
     addMethodSettings(*command, arguments->request);
     addDeveloperSettings(*command, arguments->request);
     command->footer(
-        "Options replace what the shot says.\n\n"
+        "Options override the shot.\n\n"
         "Examples:\n"
         "  defocus capture shots/fish-pull.json --video fish.mp4\n"
         "  defocus capture shot.json --range 0:48 --samples 16 --size 320x240 -o preview/####.png\n"

@@ -112,7 +112,7 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
                               limit.metric->largerIsBetter ? "below" : "above", limit.value);
     }
     if (!faults.empty())
-        fail("{}: differs too much from {}: {}", arguments.test.string(), arguments.reference.string(), faults);
+        fail("{} differs too much from {}: {}", arguments.test.string(), arguments.reference.string(), faults);
 }
 
 void runCompare(const CompareArguments& arguments) {
@@ -126,7 +126,7 @@ void runCompare(const CompareArguments& arguments) {
     const Image reference = readImage(arguments.reference);
     const Image test = readImage(arguments.test);
     if (reference.width != test.width || reference.height != test.height)
-        fail("{} is {}x{}, but {} is {}x{}: only images of one size can be compared", arguments.reference.string(),
+        fail("{} has {}x{} pixels, but {} has {}x{}; give images of the same size", arguments.reference.string(),
              reference.width, reference.height, arguments.test.string(), test.width, test.height);
     Image flip;
     CompareOptions options;
@@ -149,33 +149,33 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = program.add_subcommand("compare", "Measure the difference between two images");
     command->add_option("A", arguments->reference, "Reference image (EXR, PNG, JPEG, HDR or TIFF)")->required();
-    command->add_option("B", arguments->test, "Image to judge, of the same size")->required();
+    command->add_option("B", arguments->test, "Image to compare with the reference, of the same size")->required();
     command->add_flag("--json", arguments->json,
-                      "Print JSON: mae, rmse, psnr (dB; null for equal images, whose PSNR is infinite), ssim, flip, "
-                      "maxError, maxErrorPixel [column, row], nonFinite, pixelCount");
+                      "Print JSON: mae, rmse, psnr (dB; null if the images are equal), ssim, flip, maxError, "
+                      "maxErrorPixel [column, row], nonFinite, pixelCount");
     command->add_option("--error-map", arguments->errorMap,
-                        "Write FLIP per pixel: .png and .jpg through the magma colour map, .exr as plain values");
-    CLI::Option* hdr = command->add_flag("--hdr", arguments->hdr,
-                                         "FLIP for HDR images: the worst over several exposures, instead of at EV 0");
+                        "Image file for the FLIP value of each pixel: .png and .jpg in magma colours, .exr as values");
+    CLI::Option* hdr = command->add_flag(
+        "--hdr", arguments->hdr, "Use FLIP for HDR images: the maximum over several exposures, instead of EV 0");
     const Range exposures = {-60, 60};
     advanced(addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
-                       "First exposure of --hdr")
+                       "First exposure of --hdr in EV")
                  ->needs(hdr));
     advanced(addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV",
-                       "Last exposure of --hdr")
+                       "Last exposure of --hdr in EV")
                  ->needs(hdr));
     advanced(addInteger(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")
                  ->needs(hdr));
     command
         ->add_option("--fail-above", arguments->failAbove,
-                     "METRIC=VALUE: exit with 1 when a metric is worse than VALUE: above it, or below it for psnr "
-                     "and ssim, which are better when larger. Can be given several times")
+                     "METRIC=VALUE: fail with exit code 1 if a metric is worse than VALUE (below it for psnr and ssim, "
+                     "else above it). Can be given several times")
         ->allow_extra_args(false)
         ->check(CLI::Validator(limitFault, ""));
     command->footer(
-        "All but HDR FLIP is measured on sRGB-encoded values in [0, 1] at EV 0. A pixel that is NaN or infinite in "
+        "All metrics except HDR FLIP use sRGB-encoded values in [0, 1] at EV 0. A pixel that is NaN or infinite in "
         "one\n"
-        "image counts as the largest difference, in both as equal.\n\n"
+        "image counts as the largest difference, in both images as equal.\n\n"
         "Example:\n"
         "  defocus compare reference.exr out.exr --error-map error.png --fail-above flip=0.015 --fail-above psnr=42");
     command->callback([arguments] { runCompare(*arguments); });

@@ -205,14 +205,15 @@ complete -c defocus -f -a '(_defocus)'
 
 void addCompletionsCommand(CLI::App& program) {
     auto script = std::make_shared<std::string_view>();
-    CLI::App* command = program.add_subcommand("completions", "Print what a shell needs to complete command lines");
+    CLI::App* command = program.add_subcommand("completions", "Print the shell script that completes command lines");
     addChoice<std::string_view>(*command, "SHELL", *script,
-                                {{"bash", bashScript}, {"zsh", zshScript}, {"fish", fishScript}}, "bash, zsh or fish")
+                                {{"bash", bashScript}, {"zsh", zshScript}, {"fish", fishScript}},
+                                "Shell: bash, zsh or fish")
         ->required();
     command->footer(
         "Example:\n"
         "  source <(defocus completions bash)\n"
-        "An installed program brings them along, where the shells look for them.");
+        "An installation puts the completion scripts where the shells find them.");
     command->callback([&program, script] {
         fmt::print(fmt::runtime(*script), fmt::arg("table", completionTable(program)), fmt::arg("awk", awkProgram));
         std::fflush(stdout);

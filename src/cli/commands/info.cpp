@@ -278,7 +278,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
                                pose.objects.size() == 1 ? "" : "s"));
     line("materials", materialSummary(scene));
     line("textures", textureSummary(scene));
-    lines("cameras", cameraLines(scene), "none (one that frames the scene is used)");
+    lines("cameras", cameraLines(scene), "none (the view frames the scene)");
 
     std::vector<std::string> lights, clips, skins, ignored;
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
@@ -331,15 +331,16 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
     CLI::Option* camera =
         command
             .add_flag("--camera", options.camera,
-                      "What the camera does instead: field of view, depth of field, hyperfocal distance, exposure, "
-                      "and the blur at chosen depths; --camera=NAME for one of several, or 'auto'")
+                      "Print the camera instead of the scene: field of view, depth of field, hyperfocal distance, "
+                      "exposure and the blur at several depths. --camera=NAME chooses a camera, or 'auto'")
             ->group(group);
-    addParsed(command, "--depths", "M,M,…", "Depths to say the blur at, 'inf' among them; without it, around the focus",
+    addParsed(command, "--depths", "M,M,…",
+              "Depths in m at which to print the blur; may include 'inf'. Default: depths around the focus",
               [&options](const std::string& text) { options.question.depths = parseDepths(text); })
         ->group(group);
     addNumber(command, "--acceptable-coc", options.question.acceptableCoc, {0, 1e3, true}, "MM",
-              "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
-              "sensor of 36 x 27 mm)")
+              "Maximum blur in mm on the sensor that counts as sharp. Default: the sensor's diagonal divided by 1500 "
+              "(0.03 mm for 36 x 27 mm)")
         ->group(group);
     // Leave out the aperture's shape and the aberrations: the report depends only on the aperture's diameter.
     std::vector<std::string> unused = {"camera", "nodeBlur", "apertureImage"};
@@ -357,9 +358,9 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
 
 void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App* command = program.add_subcommand("info", "Say what a scene holds, and what of it is ignored and why");
+    CLI::App* command = program.add_subcommand("info", "Print the contents of a scene, and what is ignored and why");
     addSettings(*command, options->seen, sceneSettings);
-    command->add_flag("--json", options->json, "JSON for programs, with every mesh, instead of text");
+    command->add_flag("--json", options->json, "Print JSON, with every mesh");
     addCameraQuestion(*command, *options);
     command->footer(
         "Examples:\n"

@@ -54,9 +54,9 @@ fs::path levelFile(const fs::path& folder, const std::string& stem, std::size_t 
 void prepareFolder(const fs::path& folder, const fs::path& firstFile) {
     std::error_code status;
     if (fs::exists(folder, status) && !fs::is_directory(folder, status))
-        fail("{}: is not a folder to export to", folder.string());
+        fail("{} is not a folder; give a folder for --export", folder.string());
     fs::create_directories(folder, status);
-    if (status) fail("{}: the folder cannot be made: {}", folder.string(), status.message());
+    if (status) fail("cannot create the folder {}: {}", folder.string(), status.message());
     checkWritable(firstFile);
 }
 

@@ -79,7 +79,8 @@ std::string commandText(const CLI::App& command) {
         if (isSetting(option) && std::ranges::find(groups, option->get_group()) == groups.end())
             groups.push_back(option->get_group());
     }
-    if (!groups.empty()) options += ".PP\n" + line(fmt::format("Takes settings too, of: {}.", fmt::join(groups, "; ")));
+    if (!groups.empty())
+        options += ".PP\n" + line(fmt::format("Also accepts the settings of: {}.", fmt::join(groups, "; ")));
     return subsection(name) + line(command.get_description() + ".") +
            fmt::format(".PP\n.B {}\n[\\fIoptions\\fR]{}\n", name, usage) + options + footerText(command.get_footer());
 }
@@ -113,20 +114,27 @@ std::string manPage(const CLI::App& program) {
     text += section("COMMANDS");
     for (const CLI::App* command : allCommands(program))
         if (command != &program) text += commandText(*command);
-    text += section("SETTINGS") + "The settings of a picture mean the same for each command that takes them.\n";
+    text += section("SETTINGS") + "Settings have the same meaning in all commands.\n";
     text += settingsText(program);
     text += section("EXIT STATUS") +
-            ".TP\n0\nThe work is done.\n.TP\n1\nSomething failed; a line on standard error says what.\n"
-            ".TP\n2\nThe command line is wrong.\n";
+            ".TP\n"
+            "0\n"
+            "Success.\n"
+            ".TP\n"
+            "1\n"
+            "Failure; the reason is printed to standard error.\n"
+            ".TP\n"
+            "2\n"
+            "Invalid command line.\n";
     text += section("FILES") + ".TP\n\\fI\\(ti/.cache/defocus\\fR\n" +
-            "Simplified meshes, which are made once; $XDG_CACHE_HOME/defocus where that variable is set.\n";
+            "Cache of simplified meshes; $XDG_CACHE_HOME/defocus if that variable is set.\n";
     return text;
 }
 
 }  // namespace
 
 void addManCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("man", "Print the manual page, for 'man -l -' to show");
+    CLI::App* command = program.add_subcommand("man", "Print the manual page, for 'man -l -'");
     command->footer("Example:\n  defocus man | man -l -");
     command->callback([&program] {
         fmt::print("{}", manPage(program));

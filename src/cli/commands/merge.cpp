@@ -49,7 +49,7 @@ void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
     metadata.try_emplace("capDate", std::string());  // empty, so that the image library doesn't insert the current time
     std::vector<JoinedOutput> outputs;
     for (const std::filesystem::path& path : arguments.outputs) {
-        if (isStandardOutput(path)) throw UsageError("tiles are joined to files alone");
+        if (isStandardOutput(path)) throw UsageError("tiles can only be merged to files; give a file name with -o");
         outputs.push_back({path, {arguments.toneMap, arguments.exposure.value_or(ownExposure(metadata))}});
     }
     joinRows(tiles, outputs, metadata);
@@ -75,24 +75,23 @@ void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
 void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = program.add_subcommand(
-        "merge", "Put a frame together from its parts (render or capture with --sample-range, render with --tile)");
-    command->add_option("PART", arguments->parts, "The parts of one frame, in any order")
-        ->required()
-        ->type_name("FILE…");
+        "merge", "Merge the parts of a frame (render or capture with --sample-range, render with --tile)");
+    command->add_option("PART", arguments->parts, "Parts of one frame, in any order")->required()->type_name("FILE…");
     command
-        ->add_option("-o,--output", arguments->outputs,
-                     fmt::format("Image to write: .exr, .png or .jpg; several times. {}", standardOutputHelp))
+        ->add_option(
+            "-o,--output", arguments->outputs,
+            fmt::format("Image file to write: .exr, .png or .jpg. {}. Can be given several times", standardOutputHelp))
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr");
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
-              "Of .png and .jpg; without it, what the lens's exposure time makes, else 0");
+              "Exposure in EV for PNG and JPEG. Default: from the parts' lens if it has an exposure time, else 0");
     addChoice<ToneMap>(
         *command, "--tonemap", arguments->toneMap,
         {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
-        "Film curve of .png and .jpg");
+        "Tone curve of PNG and JPEG");
     command->footer(
-        "The result has the same bits as a single run on a machine of the same kind.\n\n"
+        "The result is bit-identical to a single run on the same kind of machine.\n\n"
         "Example:\n"
         "  defocus render scene.glb --samples 256 --sample-range 0:128 -o a.exr\n"
         "  defocus render scene.glb --samples 256 --sample-range 128:256 -o b.exr\n"

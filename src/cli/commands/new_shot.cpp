@@ -64,7 +64,8 @@ Json shotOf(const PreparedFrame& frame, const fs::path& scene, const std::string
 }
 
 void refuseToReplace(const fs::path& path) {
-    if (fs::exists(path)) fail("{}: is there already; --overwrite replaces it, -o names another", path.string());
+    if (fs::exists(path))
+        fail("{} already exists; replace it with --overwrite, or give another name with -o", path.string());
 }
 
 void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) {
@@ -82,20 +83,21 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
 
     // Write the schema, which the shot's first line refers to, to the same folder.
     if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText());
-    if (!global.quiet) printMessage("{0}: defocus capture {0} renders it\n", output.string());
+    if (!global.quiet) printMessage("wrote {0}; render it with: defocus capture {0}\n", output.string());
 }
 
 }  // namespace
 
 void addNewShotCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<NewShotArguments>();
-    CLI::App* command = program.add_subcommand("new-shot", "Write a shot file for a scene, to change and to capture");
+    CLI::App* command = program.add_subcommand("new-shot", "Create a shot file for a scene, to edit and to capture");
     addSettings(*command, arguments->request, {"scene"});
     command
         ->add_option("-o,--output", arguments->output,
-                     "Shot to write; without it, SCENE.json here. Its schema comes to lie beside it, for editors")
+                     "Shot file to write. Its JSON schema is written beside it, for editors. Default: SCENE.json in "
+                     "the current folder")
         ->type_name("FILE");
-    command->add_flag("--overwrite", arguments->overwrite, "Replace a shot that is there");
+    command->add_flag("--overwrite", arguments->overwrite, "Replace an existing shot file");
     command->footer(
         "Example:\n"
         "  defocus new-shot scene.glb\n"

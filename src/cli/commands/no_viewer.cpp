@@ -6,12 +6,11 @@
 namespace defocus::engine {
 
 void addViewCommand(CLI::App& program, const GlobalOptions&) {
-    CLI::App* command = program.add_subcommand("view", "A window: not in this build");
+    CLI::App* command = program.add_subcommand("view", "Interactive viewer (not in this build)");
     command->fallthrough(false)->allow_extras();
     command->callback([] {
         fail(
-            "view: this program was built without its window; configure with -DDEFOCUS_VIEWER=ON (GLFW, Dear ImGui), "
-            "or "
+            "view: the program was built without the viewer; build it with -DDEFOCUS_VIEWER=ON (GLFW, Dear ImGui), or "
             "use render");
     });
 }

@@ -43,8 +43,8 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
 void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<PlanArguments>();
     CLI::App* command = program.add_subcommand(
-        "plan", "Print what a render would draw: blur, level and samples of each object, and what is left out");
-    command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
+        "plan", "Print the plan of a frame: blur, level and samples of each object, and what is left out");
+    command->add_flag("--json", arguments->json, "Print JSON instead of a table")->group("Output");
     // Leave out settings that don't affect a plan: method, environment and brightness.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",

@@ -85,7 +85,7 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
     if (named || name.empty()) return chosen;
     const std::string nearest = nearestWord(name, names);
     if (!nearest.empty()) fail("there is no mesh '{}'; did you mean '{}'?", name, nearest);
-    fail("there is no mesh '{}' among {}; defocus info lists them", name, names.size());
+    fail("there is no mesh '{}' among the {} meshes that 'defocus info' lists", name, names.size());
 }
 
 // ---- work ---------------------------------------------------------------------------------------
@@ -298,7 +298,7 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
 
 void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
     if (!global.shaderDir.empty() && arguments.turntable.empty())
-        throw UsageError("--shader-dir: nothing is drawn without --turntable");
+        throw UsageError("--shader-dir has no effect without --turntable");
     const Progress progress = terminalProgress(global);
     const auto loaded = std::make_shared<const Scene>(loadScene(arguments.request, progress));
     const Scene& scene = *loaded;
@@ -321,7 +321,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     options.finishes = &finishes;
     if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
         !failure.empty())
-        WarningPrinter(global).print({"a pyramid was not stored: " + failure});
+        WarningPrinter(global).print({"a pyramid was not cached: " + failure});
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
@@ -344,33 +344,36 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
 
 void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<PyramidArguments>();
-    CLI::App* command = program.add_subcommand(
-        "pyramid", "Simplify each mesh, and say what its levels of detail are and how far they are from it");
+    CLI::App* command =
+        program.add_subcommand("pyramid", "Simplify each mesh, and print its levels of detail and their errors");
     addSettings(*command, arguments->request, sceneSettings);
-    command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
+    command
+        ->add_option("--mesh", arguments->mesh, "Mesh to simplify, by its name in 'defocus info'. Default: all meshes")
         ->type_name("NAME");
-    CLI::Option* points = advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
-                                              "Points on each of two surfaces at which their distance is measured"));
-    command->add_flag("--no-measure", arguments->noMeasure, "Don't measure distances, which takes longer than the rest")
+    CLI::Option* points =
+        advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
+                            "Number of points on each of two surfaces at which their distance is measured"));
+    command
+        ->add_flag("--no-measure", arguments->noMeasure,
+                   "Skip the measurement of distances, which takes most of the time")
         ->excludes(points);
-    command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")
+    command->add_option("--export", arguments->exportFolder, "Folder to which each level is written as a .glb file")
         ->type_name("FOLDER");
     command
         ->add_option("--turntable", arguments->turntable,
-                     "Render all levels from all sides onto one sheet (.png, .jpg or .exr); of several meshes a sheet "
-                     "each, FILE-MESH.png")
+                     "Image file (.png, .jpg or .exr) that shows all levels from all sides. With several meshes: one "
+                     "file per mesh, FILE-MESH.png")
         ->type_name("FILE");
     command
         ->add_option("--cache-dir", arguments->cacheFolder,
-                     "Take the levels from this folder where it has them, and keep them there; without it, they are "
-                     "built anew")
+                     "Folder from which levels are read and in which they are stored. Default: build all levels")
         ->type_name("FOLDER");
-    command->add_flag("--json", arguments->json,
-                      "JSON for programs, with distances in both directions, instead of text");
+    command->add_flag("--json", arguments->json, "Print JSON, with distances in both directions");
     addSettings(*command, arguments->request, {"levelVertices"});
     command->footer(
-        "Lengths are in the mesh's own units. A level's error is the 99th percentile of its distance from level 0 or\n"
-        "back, whichever is larger, on the safe side; the measured figures are the larger of the two as well.\n\n"
+        "Lengths are in the units of the mesh. The error of a level is an upper bound of the 99th percentile of the\n"
+        "distances between the level and level 0, in either direction. Measured distances are the larger of both\n"
+        "directions.\n\n"
         "Examples:\n"
         "  defocus pyramid scene.glb --mesh Body --export levels\n"
         "  defocus pyramid scene.glb --mesh Body --no-measure --turntable levels.png");

@@ -39,11 +39,10 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
     command
-        .add_option(
-            "-o,--output", arguments.outputs,
-            fmt::format("Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. {}. "
-                        "Can be given several times",
-                        standardOutputHelp))
+        .add_option("-o,--output", arguments.outputs,
+                    fmt::format("Image file to write: .exr (linear floats with metadata), .png or .jpg (tone-mapped). "
+                                "{}. Can be given several times",
+                                standardOutputHelp))
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr")
@@ -51,30 +50,29 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     advanced(
         addParsed(
             command, "--aov", "depth,coc,level,work,swept-work",
-            "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
-            "out.level.png (level of detail), out.work.exr with out.work.png (triangles that touch each pixel, "
-            "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
-            "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
-            "rasteriser tests there)",
+            "Also write auxiliary images beside the first output. depth: m. coc: signed circle of confusion in px. "
+            "level: level of detail. work: triangles per pixel, including hidden ones, summed over the lens samples of "
+            "method accumulation. swept-work: triangles per pixel whose bounds, swept over lens and exposure, cover "
+            "the pixel, as a stochastic rasterizer would test. depth and coc are EXR; the others EXR and PNG",
             [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
             ->group(group));
-    advanced(
-        addParsed(command, "--sample-range", "FIRST:END",
-                  "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
-                  [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
-            ->group(group));
+    advanced(addParsed(command, "--sample-range", "FIRST:END",
+                       "Range of the lens samples to draw, in multiples of 64. Writes their sums to an EXR file for "
+                       "'defocus merge'",
+                       [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+                 ->group(group));
     advanced(addParsed(command, "--tile", "I/N",
-                       "Render part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+                       "Render only part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
                        [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
                  ->group(group));
     command
-        .add_flag(
-            "--resume", arguments.resume,
-            "Keep what an interrupted run of the same settings has finished: tiles of an image that doesn't fit into "
-            "memory, which lie beside the first output in out.tiles, or the file of a --tile")
+        .add_flag("--resume", arguments.resume,
+                  "Continue an interrupted run with the same settings: keep its finished tiles (folder out.tiles "
+                  "beside the first output), or the finished file of --tile")
         ->group(group);
     advanced(addParsed(command, "--stats", "FILE",
-                       "Write times, triangles, memory and what was asked for as JSON; - is standard output",
+                       "Write render times, triangle counts, memory use and the requested settings as JSON; - writes "
+                       "to standard output",
                        [&arguments](const std::string& text) { arguments.stats = text; })
                  ->group(group));
 }
@@ -103,9 +101,9 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
 FrameFiles filesOf(const RenderArguments& arguments) {
     FrameFiles files{arguments.outputs, arguments.sampleRange, arguments.tile, arguments.resume, {}};
     if (arguments.aovs.any())
-        files.whole = "--aov shows the whole image";
+        files.whole = "--aov needs the whole image";
     else if (std::ranges::any_of(arguments.outputs, isStandardOutput))
-        files.whole = "tiles are joined to files alone";
+        files.whole = "standard output needs the whole image";
     return files;
 }
 
@@ -115,7 +113,7 @@ void checkOutputs(const RenderArguments& arguments) {
     const Request& request = arguments.request;
     checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
-        fail("--aov writes files beside the first output, which must be a file");
+        fail("--aov writes files beside the first output; give a file as the first output");
     FrameOutput::check(filesOf(arguments), request);
 }
 
@@ -136,7 +134,7 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
     writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
     const WorkSummary summary = workSummary(work, samples);
     if (!quiet)
-        printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.max);
+        printMessage("work: {:.2f} triangles per pixel and lens sample, maximum {:.1f}\n", summary.mean, summary.max);
 }
 
 void writeSweptWork(const RenderArguments& arguments, const Image& work, const Metadata& metadata, bool quiet) {
@@ -144,7 +142,7 @@ void writeSweptWork(const RenderArguments& arguments, const Image& work, const M
     writeImage(derivedPath(output, "swept-work.exr"), work, metadata);
     writeImage(derivedPath(output, "swept-work.png"), sweptWorkColourMap(work));
     const WorkSummary summary = workSummary(work, 1);
-    if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.max);
+    if (!quiet) printMessage("swept work: {:.1f} triangles per pixel, maximum {:.0f}\n", summary.mean, summary.max);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {
@@ -153,7 +151,7 @@ void printSummary(const RenderArguments& arguments, const RenderReport& report, 
         names += (names.empty() ? "" : ", ") + shownOutput(path);
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
     printMessage("{}: {}\n", names, summary(report));
-    if (rowsKept > 0) printMessage("{} of {} rows there before\n", rowsKept, report.plan.view.height);
+    if (rowsKept > 0) printMessage("{} of {} rows kept from earlier runs\n", rowsKept, report.plan.view.height);
 }
 
 void printChoices(const GlContext& context, const RenderReport& report) {

@@ -103,31 +103,34 @@ std::string methodRow(const Method& method, const MethodSetting& setting) {
 std::string markdown() {
     std::string page =
         "# Settings\n\n"
-        "Every setting of a picture, by its names. `defocus settings --markdown` prints this page from the table that "
-        "the\nprogram itself reads (`src/frame/settings/rows.cpp`).\n\n"
-        "- **Option**: on the command line of `render`, `capture`, `view`, `plan` and the benches that follow it.\n"
-        "- **Python**: the keyword of `defocus.render` and its kin. C++ has the same names in `defocus::Request`.\n"
-        "- **Shot**: its place in a shot file, and whether it may have keys there. A camera's extras in a glTF file "
-        "may "
-        "hold\n  the values of the lens by the last part of that place.\n"
-        "- **Default**: empty where the scene, its camera or the number of samples decides.\n";
+        "All settings of an image. `defocus settings --markdown` prints this page from the table that the\n"
+        "program uses (`src/frame/settings/rows.cpp`).\n\n"
+        "- **Option**: the option of `render`, `capture`, `view`, `plan` and the benches.\n"
+        "- **Python**: the keyword of `defocus.render` and related functions. `defocus::Request` in C++ has the same "
+        "names.\n"
+        "- **Shot**: the place of the setting in a shot file, and whether it can have keyframes. The extras of a "
+        "camera in a\n"
+        "  glTF file can set lens values by the last part of this place.\n"
+        "- **Default**: empty if the scene, its camera or the number of samples decides.\n";
     SettingGroup group = SettingGroup::developer;
     bool first = true;
     for (const Setting& setting : settings()) {
         if (first || setting.group != group)
             page += fmt::format(
-                "\n## {}\n\n| option | Python | range | default | shot | what it does |\n| --- | --- | --- | --- | --- "
-                "| --- "
-                "|\n",
+                "\n"
+                "## {}\n\n"
+                "| option | Python | range | default | shot | meaning |\n"
+                "| --- | --- | --- | --- | --- | --- |\n",
                 groupTitle(setting.group));
         first = false;
         group = setting.group;
         page += markdownRow(setting);
     }
     page +=
-        "\n## Settings of methods\n\n| method | option | range | default | what it does |\n| --- | --- | --- | --- | "
-        "--- "
-        "|\n";
+        "\n"
+        "## Settings of methods\n\n"
+        "| method | option | range | default | meaning |\n"
+        "| --- | --- | --- | --- | --- |\n";
     for (const Method& method : methods())
         for (const MethodSetting& setting : method.settings) page += methodRow(method, setting);
     return page;
@@ -139,7 +142,7 @@ void printSchema(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path);
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const Json schema = Json::parse(text, text + bytes.size(), nullptr, false);
-    if (!schema.is_object()) fail("{}: not a JSON schema", path.string());
+    if (!schema.is_object()) fail("{} is not a JSON schema", path.string());
     fmt::print("{}\n", withSettings(schema).dump(2));
 }
 
@@ -158,14 +161,14 @@ void runSettings(const SettingsArguments& arguments) {
 void addSettingsCommand(CLI::App& program) {
     auto arguments = std::make_shared<SettingsArguments>();
     CLI::App* command = program.add_subcommand("settings", "List every setting with its range and default");
-    CLI::Option* json = command->add_flag("--json", arguments->json, "JSON for programs");
-    CLI::Option* page = command->add_flag("--markdown", arguments->markdown, "The page docs/settings.md");
-    CLI::Option* schema =
-        command
-            ->add_option("--shot-schema", arguments->schema,
-                         "This JSON schema of shots with the settings' types, ranges and descriptions as they are now")
-            ->type_name("FILE")
-            ->check(unnamed(CLI::ExistingFile));
+    CLI::Option* json = command->add_flag("--json", arguments->json, "Print JSON");
+    CLI::Option* page = command->add_flag("--markdown", arguments->markdown, "Print the page docs/settings.md");
+    CLI::Option* schema = command
+                              ->add_option("--shot-schema", arguments->schema,
+                                           "JSON schema of shots to update: prints it with the current types, ranges "
+                                           "and descriptions of the settings")
+                              ->type_name("FILE")
+                              ->check(unnamed(CLI::ExistingFile));
     json->excludes(page)->excludes(schema);
     page->excludes(schema);
     command->callback([arguments] {

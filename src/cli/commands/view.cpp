@@ -16,7 +16,7 @@ namespace {
 void runView(const SessionOptions& options) {
     checkStop(options.request);
     if (shutterSettings(options.request).exactMotion())
-        fail("--motion-segments exact: a window shows any number of samples; give a number, such as 16");
+        fail("--motion-segments exact cannot be used in the viewer; give a number, such as 16");
     if (!options.screenshot.empty()) {
         checkImageExtension(options.screenshot);
         checkWritable(options.screenshot);
@@ -29,22 +29,23 @@ void runView(const SessionOptions& options) {
 
 void addViewCommand(CLI::App& program, const GlobalOptions& global) {
     auto options = std::make_shared<SessionOptions>();
-    CLI::App* command = program.add_subcommand("view", "Look around in a scene, focus and compare, in a window");
+    CLI::App* command = program.add_subcommand("view", "Open an interactive viewer to look around, focus and compare");
     const char* group = "Window";
     addInteger(*command, "--frames", options->frames, 1, 1'000'000,
-               "Close after as many frames with the scene; without it, when the window is closed")
+               "Close the window after N frames of the scene. Default: keep it open")
         ->default_str("")
         ->group(group);
-    command->add_option("--screenshot", options->screenshot, "Write the last of --frames as an image (1 if not given)")
+    command
+        ->add_option("--screenshot", options->screenshot,
+                     "Image file for the last frame; sets --frames 1 if it is not given")
         ->type_name("FILE")
         ->group(group);
-    advanced(
-        command
-            ->add_option(
-                "--stats", options->stats,
-                "Keep the state of the view in this file, as JSON, several times a second: focus, samples, times …")
-            ->type_name("FILE")
-            ->group(group));
+    advanced(command
+                 ->add_option("--stats", options->stats,
+                              "JSON file that is updated several times per second with the state of the view: focus, "
+                              "samples, times and more")
+                 ->type_name("FILE")
+                 ->group(group));
     addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit"}));
     addMethodSettings(*command, options->request);
     addDeveloperSettings(*command, options->request, {"memory"});

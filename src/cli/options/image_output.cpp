@@ -27,7 +27,7 @@ std::string streamExtension(const fs::path& output) {
 
 void writeToStandardOutput(std::span<const std::byte> bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-        fail("standard output cannot be written: {}", std::strerror(errno));
+        fail("cannot write to standard output: {}", std::strerror(errno));
 }
 
 // A temporary file that the destructor removes. Image writers need a seekable file, which standard output is not.
@@ -36,7 +36,7 @@ public:
     explicit ScratchFile(const std::string& extension) {
         std::string pattern = (fs::temp_directory_path() / ("defocus-XXXXXX" + extension)).string();
         const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size()));
-        if (descriptor < 0) fail("{}: cannot be written: {}", pattern, std::strerror(errno));
+        if (descriptor < 0) fail("cannot write {}: {}", pattern, std::strerror(errno));
         ::close(descriptor);
         path_ = pattern;
     }
@@ -73,10 +73,10 @@ void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::p
         std::error_code missing;
         const fs::path file = fs::weakly_canonical(fs::absolute(output, missing), missing);
         const bool regular = !fs::exists(file, missing) || fs::is_regular_file(file, missing);
-        if (regular && !files.insert(file).second) fail("{}: two outputs have this name", output.string());
+        if (regular && !files.insert(file).second) fail("{}: this output is given twice", output.string());
         for (const fs::path& input : inputs)
             if (!input.empty() && fs::equivalent(input, output, missing))
-                fail("{}: it is read too, and would be replaced", output.string());
+                fail("{}: the file is also an input; give another output", output.string());
     }
 }
 
@@ -93,7 +93,7 @@ void checkImageOutputs(const std::vector<fs::path>& images, const std::vector<fs
     for (const fs::path& path : images) {
         checkImageExtension(isStandardOutput(path) ? "standard output" + streamExtension(path) : path.string());
         if (isStandardOutput(path) && ::isatty(STDOUT_FILENO) == 1)
-            fail("an image is nothing for a terminal to show; send standard output to a file or a program");
+            fail("cannot write an image to a terminal; redirect standard output to a file or a program");
     }
 }
 

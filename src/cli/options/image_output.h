@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Part of a --help text about standard output; follows the list of formats.
-inline constexpr const char* standardOutputHelp = "- is standard output, as PNG or as in exr:- and jpg:-";
+// Text about standard output for --help, after the formats.
+inline constexpr const char* standardOutputHelp = "-, exr:- or jpg:- writes PNG, EXR or JPEG to standard output";
 
 bool isStandardOutput(const std::filesystem::path& output);
 

@@ -148,7 +148,7 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     if (image.width != plan.view.width || image.height != plan.view.height)
         return fmt::format("{} x {} px instead of {} x {}", image.width, image.height, plan.view.width,
                            plan.view.height);
-    if (!allFinite(image)) return "pixels that are no numbers";
+    if (!allFinite(image)) return "NaN or infinite pixels";
     if (stats.samples != sampleTotal) return fmt::format("{} of {} samples", stats.samples, sampleTotal);
     const bool asPlanned = stats.samples == plan.samples.size() || stats.samples == plan.settings.sampleCount;
     if (method.usesLensSamples && !asPlanned)
@@ -175,10 +175,10 @@ bool needsShading(const Scene& scene) {
 // no shadows or no motion.
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
-        fail("it shades otherwise than the reference; compare it with --shading unlit");
-    if (!method.drawsShadows && !plan.shadows.maps.empty()) fail("it draws no shadows, which the reference has");
+        fail("its shading differs from the reference; use --shading unlit");
+    if (!method.drawsShadows && !plan.shadows.maps.empty()) fail("it draws no shadows, but the reference has shadows");
     if (!method.drawsMotion && !plan.moments.empty())
-        fail("it draws no motion, which the scene has while the shutter is open");
+        fail("it draws no motion, but the scene moves while the shutter is open");
 }
 
 Frame frameOf(const World& world, const View& view, const ConvergenceCase& wanted, const RendererOptions& options) {

@@ -126,9 +126,10 @@ std::string convergenceLine(const ConvergenceRow& row) {
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference) {
     const Difference& remaining = reference.remaining;
     std::string text = fmt::format(
-        "\nreference: {} lens samples at full detail, its own remaining error about PSNR {:.2f} dB, FLIP {:.4f}: no "
-        "figure says more than that\n* on no other row's account slower or farther off (MSE); + the same within its "
-        "method; f by FLIP\n",
+        "\n"
+        "reference: {} lens samples at full detail; its own remaining error is about PSNR {:.2f} dB, FLIP {:.4f}, "
+        "which limits all figures\n"
+        "* no other row is both faster and closer (MSE); + the same within its method; f by FLIP\n",
         reference.samples, remaining.psnr, remaining.flip);
     for (const BiasFloor& floor : biasFloors(rows))
         text += fmt::format(

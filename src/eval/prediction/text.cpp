@@ -48,8 +48,9 @@ std::string predictionSummary(std::span<const PredictionRow> rows) {
     }
     if (used == 0) return "No level is used.\n";
     return fmt::format(
-        "{} of {} levels that 16 to 512 samples use are predicted within a factor of 2; the worst is off by {:.2f},\n"
-        "the mean (of logarithms) by {:.2f}.\n",
+        "For {} of {} levels that 16 to 512 samples use, the prediction is within a factor of 2; the largest factor is "
+        "{:.2f},\n"
+        "the geometric mean is {:.2f}.\n",
         within, used, worst, std::exp(logarithms / static_cast<double>(used)));
 }
 

@@ -125,7 +125,7 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     const double needed = bytesPerTriangle * static_cast<double>(point.triangles);
     const double max = memoryShareMax * static_cast<double>(machine.memoryBytes);
     if (machine.memoryBytes == 0 || point.instances > 0 || needed <= max) return {};
-    return fmt::format("{:.0f} GB of main memory needed, about", needed / 1e9);
+    return fmt::format("about {:.0f} GB of main memory needed", needed / 1e9);
 }
 
 // The point measured last, with its world, which the next point may reuse.

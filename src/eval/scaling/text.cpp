@@ -157,8 +157,8 @@ std::string boundsAlong(std::span<const ScalingRow> rows) {
 
 std::string scalingSummary(std::span<const ScalingRow> rows) {
     std::string text =
-        "\ntime and memory against each axis, over the upper half of its points; what takes most of the frame "
-        "(alike: their spreads touch, or less than a twentieth of the frame is between them)\n";
+        "\ntime and memory over each axis, for the upper half of its points, with the largest parts of the frame "
+        "time\n(alike: their spreads overlap, or they differ by less than a twentieth of the frame time)\n";
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) {
         text += fmt::format("  {:<10} {:<10} ", scalingAxisName(curve.front().axis), lodModeName(curve.front().mode));
         const std::optional<PowerLaw> time = lawOf(curve, timeOf);
@@ -189,8 +189,8 @@ std::string scalingJson(std::span<const ScalingRow> rows, std::span<const Scalin
                         std::span<const LargeSceneRow> scenes, const BenchSubject& subject) {
     ordered_json document = subjectJson("scaling", subject);
     document["heldEqual"] =
-        "along an axis: scene, camera, lens, lens samples, image size but for what the axis names, and the process; "
-        "runs alternate between the modes";
+        "along an axis: scene, camera, lens, lens samples and image size, except for the varied quantity, and the "
+        "process; runs alternate between the modes";
     document["parts"] =
         "layers: the frame with nothing drawn; vertices: the same draws into 1/40 the width and height; fill: the rest";
     for (const char* list : {"curves", "rows", "leftOut"}) document[list] = ordered_json::array();

@@ -134,8 +134,8 @@ public:
         const Lens& lens = plan_.view.lens;
         if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
             fail(
-                "--sample-range: a frame with a cat's eye or axial chromatic aberration cannot be parted; render it "
-                "whole");
+                "--sample-range cannot be combined with a cat's eye or axial chromatic aberration; render all samples "
+                "at once");
         renderer.start(samplesOf(plan_, part_.range.first, count()));
     }
 
@@ -144,7 +144,7 @@ public:
         const bool more = renderer_.advance();
         if (more && renderer_.samples() % blockSamples != 0) return true;
         std::optional<BlockSum> block = renderer_.blockSum();
-        if (!block) fail("only the method 'accumulation' can render a part of a frame's samples");
+        if (!block) fail("--sample-range requires the method accumulation");
         part_.blocks.push_back(std::move(*block));
         return more;
     }
@@ -220,9 +220,8 @@ void FrameDriver::fit(const FrameOrder& order) {
     const FramePlan plan = planOfTiles(*world_, order.view, order.settings, order.stop.automatic);
     const bool tiles = mustDrawInTiles(*world_, plan, limits, method, limit_);
     if (tiles && order.stop.given())
-        refuseTiles(plan, limit_, "--target-error and --time-limit judge the whole image; give --samples");
-    if (tiles && order.samples)
-        refuseTiles(plan, limit_, "--sample-range keeps sums of the whole image; --tile shares its rows instead");
+        refuseTiles(plan, limit_, "--target-error and --time-limit need the whole image; give --samples");
+    if (tiles && order.samples) refuseTiles(plan, limit_, "--sample-range needs the whole image; use --tile instead");
     if (tiles && !order.whole.empty()) refuseTiles(plan, limit_, order.whole);
     if (tiles || order.rows)
         return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));

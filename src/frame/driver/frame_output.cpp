@@ -55,24 +55,23 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
     const bool oneExr = files.outputs.size() == 1 && files.outputs.front().extension() == ".exr";
     if (files.samples) {
         if (stopSettings(request).given())
-            throw UsageError(
-                "--sample-range needs a number of samples, which --target-error and --time-limit leave open");
-        if (!request.samples) throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
+            throw UsageError("--sample-range cannot be combined with --target-error or --time-limit; give --samples");
+        if (!request.samples) throw UsageError("--sample-range requires a number of samples; give --samples");
         checkSampleRange(*files.samples, *request.samples);
         if (!oneExr || !files.whole.empty())
-            fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
+            fail("--sample-range writes sums of samples to a single EXR file; give one output, such as -o part.exr");
     }
     if (!files.share && !files.resume) return;
     const std::string option = files.share ? "--tile" : "--resume";
     const Method& method = *chosenMethod(request).method;
     if (!method.drawsTiles)
-        throw UsageError(fmt::format("{}: method '{}' needs the whole image at once; 'accumulation' draws tiles",
-                                     option, method.name));
-    if (files.samples) throw UsageError(option + " and --sample-range don't go together: share one or the other");
+        throw UsageError(fmt::format("{}: method '{}' cannot draw tiles; choose accumulation", option, method.name));
+    if (files.samples) throw UsageError(option + " cannot be combined with --sample-range; give only one of them");
     if (stopSettings(request).given())
-        throw UsageError(option + " needs a number of samples, which --target-error and --time-limit leave open");
+        throw UsageError(option + " cannot be combined with --target-error or --time-limit; give --samples");
     if (!files.whole.empty()) throw UsageError(fmt::format("{} cannot be used here: {}", option, files.whole));
-    if (files.share && !oneExr) throw UsageError("--tile writes to one EXR file, such as -o tile.exr");
+    if (files.share && !oneExr)
+        throw UsageError("--tile writes to a single EXR file; give one output, such as -o tile.exr");
 }
 
 // Returns the folder of the temporary tiles: out.tiles for the output out.exr.
@@ -112,7 +111,7 @@ void FrameOutput::findTiles() {
 void FrameOutput::findShare() {
     const int height = wanted_.end;
     if (files_.share->count > height)
-        fail("--tile {}/{}: the image has {} rows", files_.share->index, files_.share->count, height);
+        fail("--tile {}/{}: the image has only {} rows", files_.share->index, files_.share->count, height);
     wanted_ = rowsOfPart(height, files_.share->index, files_.share->count);
     parts_.rows = {wanted_};
     if (!files_.resume || !isRowFile(files_.outputs.front())) return;
@@ -139,7 +138,9 @@ void FrameOutput::start(const Progress& progress) {
     driver_.start(Request(request), parts_, progress);
     if (!driver_.driver().inTiles()) {
         if (files_.resume)
-            throw UsageError("--resume goes on with tiles, and this frame fits into memory in one piece");
+            throw UsageError(
+                "--resume continues a frame that is drawn in tiles, but this frame fits into memory; leave out "
+                "--resume");
     } else if (settings_.empty()) {
         settings_ = driver_.settingsHash();
         findTiles();
@@ -177,11 +178,11 @@ double FrameOutput::share() const {
 
 std::string FrameOutput::stopMessage() const {
     const FrameDriver& driver = driver_.driver();
-    if (files_.share) return fmt::format("stopped: nothing of tile {} is kept", header().share);
+    if (files_.share) return fmt::format("stopped: tile {} is not written", header().share);
     if (driver.inTiles())
-        return fmt::format("stopped: {} of {} rows are kept in {}; the same command with --resume goes on",
+        return fmt::format("stopped: {} of {} rows are kept in {}; repeat the command with --resume to continue",
                            rowsKept_ + rowsDone_, wanted_.end, tilesFolder().string());
-    return fmt::format("stopped after {} of {} samples: nothing is written", driver.samples(), driver.sampleTotal());
+    return fmt::format("stopped after {} of {} samples: no image is written", driver.samples(), driver.sampleTotal());
 }
 
 // Joins the tiles into the output files, then removes the tiles.

@@ -73,7 +73,7 @@ Matrix4 lookAt(const Vector3& position, const Vector3& target, const Vector3& up
 }
 
 Scene Scene::load(const std::filesystem::path& path, const Progress& progress) {
-    if (path.empty()) throw UsageError("no scene is named; give the path of a .gltf or .glb file");
+    if (path.empty()) throw UsageError("no scene given; give the path of a .gltf or .glb file");
     const auto scene = std::make_shared<engine::Scene>(engine::loadGltf(path, progress));
     engine::setScale({}, *scene);
     return Scene(scene);

@@ -144,7 +144,7 @@ void complete(ReferenceImage& reference, const Part& one, const Part& other) {
 // Returns a reference that has its number of samples and its hash, but no image yet.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
-        fail("reference of {} samples: choose 2 to {}", options.samples, maxSamples);
+        fail("a reference of {} samples is not possible; choose 2 to {}", options.samples, maxSamples);
     ReferenceImage reference;
     reference.samples = options.samples;
     reference.hash = referenceHash(world, view, options);

@@ -50,8 +50,8 @@ std::size_t pyramidKind(const Request& request) {
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (plan.samples.size() <= blockSamples) return {};
     return {
-        fmt::format("{} lens samples, as many as the blur may need: an image in one piece ends earlier where its "
-                    "error is small, which tiles can't know before all are drawn",
+        fmt::format("the image is drawn in tiles with {} lens samples, the most that its blur may need; an image in "
+                    "one piece can stop earlier where its error is small",
                     plan.samples.size())};
 }
 
@@ -119,7 +119,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     // Run all steps that may fail because of the request before the previous frame is replaced.
     checkRequest(request);
     if (named_ && !sameScene(request, first_))
-        throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
+        throw UsageError("the request names another scene; create a SceneRenderer for it");
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
     PreparedFrame next = placeFrame(scaledScene(request), request, known);
     const std::size_t kind = pyramidKind(request);
@@ -162,24 +162,24 @@ bool SceneDriver::advance() {
 }
 
 FrameDriver& SceneDriver::driver() {
-    if (!driver_) fail("no frame was started; call start() first");
+    if (!driver_) fail("no frame has been started; call start() first");
     return *driver_;
 }
 
 const FrameDriver& SceneDriver::driver() const {
-    if (!driver_) fail("no frame was started; call start() first");
+    if (!driver_) fail("no frame has been started; call start() first");
     return *driver_;
 }
 
 Image SceneDriver::image() {
-    if (driver().samples() == 0) fail("the image has no sample yet; call advance() first");
+    if (driver().samples() == 0) fail("the image has no samples yet; call advance() first");
     const InContext use(*context_);
     return driver_->image();
 }
 
 AovImages SceneDriver::aovs() {
     if (driver().inTiles())
-        fail("the image is drawn in tiles, as it doesn't fit into memory, and AOVs show the whole image");
+        fail("AOVs need the whole image, but the image does not fit into memory and is drawn in tiles");
     const InContext use(*context_);
     return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
 }

@@ -51,10 +51,9 @@ std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOpt
         }
     const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(shown); };
     const auto line = [&](std::size_t count, const char* what) {
-        return std::vector{
-            fmt::format("{:.0f} % of the picture is {} at an exposure of {:.2g} EV: try --exposure auto, or "
-                        "--exposure {:.2g}",
-                        100 * share(count), what, write.exposure, helpfulExposure(image))};
+        return std::vector{fmt::format(
+            "{:.0f} % of the image is {} at an exposure of {:.2g} EV; try --exposure auto or --exposure {:.2g}",
+            100 * share(count), what, write.exposure, helpfulExposure(image))};
     };
     if (shown > 0 && share(whites) > maxWhite) return line(whites, "white");
     if (shown > 0 && share(blacks) > maxBlack && helpfulExposure(image) > write.exposure) return line(blacks, "black");

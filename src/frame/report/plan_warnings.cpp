@@ -33,10 +33,10 @@ std::string nothingBlurred(const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects) nearest = std::min(nearest, object.nearestDepth);
     const double scale = roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur);
     const std::string help = scale <= lensFieldNamed("blurScale")->max
-                                 ? fmt::format("try --blur-scale {:g}, or a wider aperture", scale)
-                                 : "are the scene's units metres?";
+                                 ? fmt::format("try --blur-scale {:g} or a smaller --fstop", scale)
+                                 : "check --units";
     return fmt::format(
-        "nothing is blurred: at most {:.2g} px, as what is seen lies {:.3g} m away or farther (focus at {:.3g} m, "
+        "no visible blur: the maximum is {:.2g} px, because the nearest surface is {:.3g} m away (focus at {:.3g} m, "
         "f/{:g}); {}",
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
@@ -60,13 +60,14 @@ Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint6
 std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std::uint64_t samples) {
     const double needed = static_cast<double>(samples) * std::pow(gaps.size / gaps.good, 2);
     const double scale = plan.view.lens.blurScale * gaps.good / gaps.size;
-    const std::string more = needed <= maxSamples
-                                 ? fmt::format("about {} samples fill it, ",
-                                               grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
-                                 : std::string();
+    const std::string more =
+        needed <= maxSamples
+            ? fmt::format("use about {} samples, or ", grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
+            : std::string();
     return fmt::format(
-        "up to {:.0f} px of blur from {} samples: points may show as copies; {}--blur-scale {:g} narrows it", blur,
-        grouped(samples), more, roundNumber(scale));
+        "blur of up to {:.0f} px from {} samples: bright points may appear as separate copies; {}--blur-scale {:g} for "
+        "less blur",
+        blur, grouped(samples), more, roundNumber(scale));
 }
 
 }  // namespace
@@ -77,9 +78,9 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& us
     std::vector<std::string> lines;
     if (plan.usesTransmission && !method.showsThrough)
         lines.push_back(
-            fmt::format("method {}: materials that transmit are drawn opaque; choose accumulation", method.name));
+            fmt::format("method {}: transmissive materials are drawn opaque; choose accumulation", method.name));
     if (!plan.shadows.maps.empty() && !method.drawsShadows)
-        lines.push_back(fmt::format("method {}: nothing casts a shadow; choose accumulation", method.name));
+        lines.push_back(fmt::format("method {}: shadows are not supported; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < minBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
@@ -100,7 +101,7 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
             lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",
                                         ignored.what, ignored.reason));
     }
-    if (more > 0) lines.push_back(fmt::format("{} more kinds of things are ignored", grouped(more)));
+    if (more > 0) lines.push_back(fmt::format("{} more kinds of content are ignored", grouped(more)));
     return lines;
 }
 

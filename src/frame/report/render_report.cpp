@@ -155,9 +155,9 @@ std::string statsJson(const RenderReport& report) {
         {"renderMilliseconds", stats.renderMilliseconds},
         {"totalMilliseconds", report.totalMilliseconds},
         {"gpuMilliseconds", stats.gpuMilliseconds},
-        {"gpuMillisecondsNote", report.softwareDriver
-                                    ? "timer queries of a software driver: vertex work is not covered, not for ratios"
-                                    : "timer queries around the waves of samples"},
+        {"gpuMillisecondsNote",
+         report.softwareDriver ? "timer queries of a software driver; they exclude vertex work, so do not compare them"
+                               : "timer queries around the waves of samples"},
         {"trianglesDrawn", stats.trianglesDrawn},
         {"trianglesFacingAway", report.plan.trianglesFacingAway},
         {"trianglesOutside", report.plan.trianglesOutside},

@@ -6,30 +6,30 @@ namespace defocus::engine {
 
 std::string methodWithoutSamples(const SettingContext& context) {
     if (context.method.usesLensSamples) return {};
-    return fmt::format("the method {} draws no lens samples", context.method.name);
+    return fmt::format("method {} has no lens samples", context.method.name);
 }
 
 std::string methodWithoutShapes(const SettingContext& context) {
     if (context.method.aperture != ApertureShown::oval) return {};
-    return fmt::format("the method {} has a round or oval aperture", context.method.name);
+    return fmt::format("method {} supports only round and oval apertures", context.method.name);
 }
 
 std::string methodWithoutLensPoints(const SettingContext& context) {
     if (context.method.aperture == ApertureShown::all) return {};
-    return fmt::format("the method {} has the same lens for all colours and pixels", context.method.name);
+    return fmt::format("method {} uses the same lens for all colours and pixels", context.method.name);
 }
 
 std::string methodWithoutMotion(const SettingContext& context) {
     if (context.method.drawsMotion) return {};
-    return fmt::format("the method {} draws no motion", context.method.name);
+    return fmt::format("method {} does not support motion blur", context.method.name);
 }
 
 std::string withoutShutter(const SettingContext& context) {
-    return context.request.shutter > 0 ? "" : "without --shutter nothing moves during the exposure";
+    return context.request.shutter > 0 ? "" : "there is no motion blur without --shutter";
 }
 
 std::string withoutEnvironment(const SettingContext& context) {
-    return context.request.environment.empty() ? "without --environment the surroundings are the same all around" : "";
+    return context.request.environment.empty() ? "there is no environment map without --environment" : "";
 }
 
 std::string withoutAnimation(const SettingContext& context) {
@@ -39,11 +39,11 @@ std::string withoutAnimation(const SettingContext& context) {
 std::string withoutShadows(const SettingContext& context) {
     const Request& request = context.request;
     const bool shadows = request.shadows == Shadows::on || (request.shadows == Shadows::automatic && request.ground);
-    return shadows ? "" : "without shadows (--shadows on, --ground) the size of a light has no effect";
+    return shadows ? "" : "the size of lights affects only shadows (--shadows on, --ground)";
 }
 
 std::string withoutBlur(const SettingContext& context) {
-    return context.lens.dofEnabled ? "" : "with --no-dof nothing is blurred";
+    return context.lens.dofEnabled ? "" : "--no-dof disables all blur";
 }
 
 std::string withoutBlurOrExposure(const SettingContext& context) {
@@ -51,13 +51,13 @@ std::string withoutBlurOrExposure(const SettingContext& context) {
 }
 
 std::string withoutLevels(const SettingContext& context) {
-    return context.request.lod == LodMode::off ? "with --lod off everything is drawn in full detail" : "";
+    return context.request.lod == LodMode::off ? "--lod off draws full detail" : "";
 }
 
 std::string withMeasuredLevels(const SettingContext& context) {
     const Request& request = context.request;
     const LodMetric metric = chosenMetric(request.lodMetric, givenThresholds(request));
-    return metric == LodMetric::measured ? "measured levels take the blur over the whole object" : "";
+    return metric == LodMetric::measured ? "--lod-metric measured uses the blur over the whole object" : "";
 }
 
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions) {

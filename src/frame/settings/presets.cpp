@@ -14,8 +14,7 @@ std::span<const Preset> presets() {
     // samples.
     static const std::vector<Preset> all = {
         {"jeong2011",
-         "Jeong, Kim and Lee 2011 as published: Halton samples, fixed thresholds, levels by the blur at the box's "
-         "centre and in steps of half, of surviving vertices",
+         "accumulation with levels of detail by size (Jeong et al. 2011)",
          {{"sequence", "halton"},
           {"lod", "fractional"},
           {"blurThreshold", "0.25"},
@@ -26,9 +25,7 @@ std::span<const Preset> presets() {
         // Tzeng and others 2012. blurThreshold is the score at which a level begins; its value is this program's
         // choice.
         {"tzeng2012",
-         "Tzeng and others 2012 as published: line samples in a buffer of fixed size, the same for all pixels, each "
-         "segment shaded in its middle from the light of vertices; of three levels of 100, 75 and 50 % of the vertices "
-         "one by its score",
+         "line samples with a buffer of fixed size (Tzeng et al. 2012)",
          {{"method", "line:resolve=published,shading-step=0,shading=vertices,wheel=shared"},
           {"lod", "nearest"},
           {"blurThreshold", "0.25"},
@@ -36,22 +33,19 @@ std::span<const Preset> presets() {
           {"lodCoc", "smallest"},
           {"levelVertices", "quarters"}}},
         {"scheuermann2004",
-         "Scheuermann 2004 as published: eight taps of a blur of at most 10 px, linear in depth, over one pinhole "
-         "image in bytes",
+         "Poisson disk over one pinhole image (Scheuermann 2004)",
          {{"method", "scheuermann:bits=8,pinholes=1"}, {"lod", "off"}}},
         {"garcia2018",
-         "Garcia 2018 as published: fields of quarter size, kernels of his slides with eight taps on each side, "
-         "sums in ten bits, near pixels weighed by their blur, one pinhole image",
+         "separable circular kernels over one pinhole image (Garcia 2018)",
          {{"method",
            "circular:near-components=1,resolution=quarter,kernel=published,kernel-taps=eight,storage=r10g10b10a2,"
            "transparency-buckets=0,pinholes=1"},
           {"lod", "off"}}},
         {"lee2010",
-         "Lee, Eisemann and Seidel 2010 as published: lens rays through the depth layers of one pinhole image",
+         "lens rays through the depth layers of one pinhole image (Lee et al. 2010)",
          {{"method", "layered:pinholes=1"}, {"lod", "off"}}},
         {"munkberg2012",
-         "Munkberg, Toth and Akenine-Möller 2012 as published: each pixel has its own points on the lens and in time, "
-         "and sees full detail",
+         "stochastic lens samples for each pixel (Munkberg et al. 2012)",
          {{"method", "stochastic"}, {"lod", "off"}}},
     };
     return all;

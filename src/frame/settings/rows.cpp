@@ -34,9 +34,8 @@ using Rows = std::vector<Setting>;
 
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
-               "Length of one unit of the scene, on which the blur depends: m, cm, mm or a number of metres. auto: the "
-               "file's extras; else metres if the camera or an option gives a length; else a guess from the size of "
-               "the scene")
+               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: from the file's extras, else "
+               "metres if the camera or an option gives a length, else estimated from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -54,8 +53,8 @@ Row shutterRow() {
                "shutter", "--shutter", "S",
                [](Request& request, const std::string& text) { request.shutter = parseSeconds(text); },
                [](const Request& request) { return std::optional(fmt::format("{}", request.shutter)); },
-               "Seconds that the shutter stays open, as 0.02 or 1/48, for motion blur of the animation. Default: 0, no "
-               "motion blur")
+               "Time in seconds that the shutter is open, such as 0.02 or 1/48, for motion blur of the animation. 0: "
+               "no motion blur")
         .kind(SettingKind::number)
         .range(0, 1e6)
         .clears(MEMBER(shutter));
@@ -71,7 +70,7 @@ Row hideRow() {
                    if (request.hide.empty()) return std::nullopt;
                    return fmt::format("{}", fmt::join(request.hide, ","));
                },
-               "Leave out a node and its children, given by name or number. Can be given several times")
+               "Hide a node, given by name or number, and its children. Can be given several times")
         .clears(MEMBER(hide))
         .repeats([](const Request& request) { return request.hide; });
 }
@@ -92,30 +91,30 @@ Rows sceneRows() {
             .inShot("/fish/triangles"),
         unitsRow().inShot("/units"),
         rows::number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
-                     "Time in the animation, in seconds. Before its start and after its end the animation holds")
+                     "Time in the animation in seconds. Outside its range, the animation holds its first or last frame")
             .unit("s")
             .everyday()
             .inShot("/animation/start")
             .unused(withoutAnimation),
         rows::words(SettingKind::text, "clip", "--clip", "NAME|N", MEMBER(clip),
-                    "Animation to play, by name or number; 'defocus info' lists them. Default: the first")
+                    "Animation to play, given by name or number as listed by 'defocus info'. Default: the first")
             .example("Walk")
             .inShot("/animation/clip")
             .json(R"({"anyOf": [{"type": "integer", "minimum": 0, "maximum": 1000000},
                                 {"type": "string", "minLength": 1}]})"),
-        rows::boolean("loop", "--loop", MEMBER(loop), "Repeat the animation instead of holding its ends")
+        rows::boolean("loop", "--loop", MEMBER(loop), "Loop the animation instead of holding its first and last frame")
             .inShot("/animation/loop")
             .unused(withoutAnimation),
         shutterRow().unit("s").inShot("/shutter/seconds").unused(methodWithoutMotion),
         rows::choice<ShutterPosition>(
             "shutterPosition", "--shutter-position",
             {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
-            MEMBER(shutterPosition), "Position of --time in the exposure")
+            MEMBER(shutterPosition), "Position of --time within the exposure")
             .inShot("/shutter/position")
             .unused(withoutShutter),
         rows::other("motionSegments", "--motion-segments", "N|exact", setMotionSegments, motionSegmentsText,
-                    "Straight segments of a vertex's path while the shutter is open (1 to 64), or 'exact' for a pose "
-                    "of its own for each sample")
+                    "Number of straight segments of a vertex's path while the shutter is open (1 to 64). exact: pose "
+                    "the scene at the time of each sample")
             .clears(MEMBER(motionSegments))
             .inShot("/shutter/segments")
             .json(R"({"type": "integer", "minimum": 1, "maximum": 64})")
@@ -123,18 +122,18 @@ Rows sceneRows() {
         rows::words(SettingKind::path, "environment", "--environment", "studio|overcast|sunset|FILE",
                     MEMBER(environment),
                     "Environment map: studio, overcast, sunset, or an equirectangular .hdr or .exr file. Replaces the "
-                    "default light; lights in the file still shine")
+                    "default lights; lights in the file are kept")
             .everyday()
             .example("studio")
             .inShot("/environment"),
         rows::number("environmentRotation", "--environment-rotation", "DEG", -360, 360, MEMBER(environmentRotation),
-                     "Rotation of the environment map, counter-clockwise seen from above")
+                     "Rotation of the environment map in degrees, counter-clockwise seen from above")
             .unit("degrees")
             .inShot("/environmentRotation")
             .unused(withoutEnvironment),
         rows::other("background", "--background", "environment|none|R,G,B", setBackground, backgroundText,
-                    "Background: the environment, none for a transparent image, or a uniform linear colour R,G,B that "
-                    "also lights the scene")
+                    "Background: the environment, none for a transparent image, or a linear colour R,G,B that also "
+                    "lights the scene")
             .clears(MEMBER(background))
             .inShot("/background")
             .json(R"({"anyOf": [{"enum": ["environment", "none"]},
@@ -142,23 +141,23 @@ Rows sceneRows() {
                                  "items": {"type": "number", "minimum": 0, "maximum": 1000000000}}]})",
                   ','),
         rows::boolean("ground", "--ground", MEMBER(ground),
-                      "Add a grey ground at the scene's lowest point, which catches its shadows")
+                      "Add a grey ground plane at the scene's lowest point, which receives shadows")
             .inShot("/ground"),
         hideRow(),
-        rows::choice<Shadows>("shadows", "--shadows",
-                              {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
-                              MEMBER(shadows), "Soft shadows of lights and surroundings. auto: on with --ground")
+        rows::choice<Shadows>(
+            "shadows", "--shadows", {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
+            MEMBER(shadows), "Soft shadows of the lights and the environment. auto: only with --ground")
             .inShot("/shadows"),
         rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
-                     "Angular diameter of directional lights, for the softness of their shadows. Default: each light's "
-                     "own, else 0.53 as the sun")
+                     "Angular diameter of directional lights in degrees; a larger one gives softer shadows. Default: "
+                     "0.53 (the sun) for lights in the file")
             .unit("degrees")
             .example("5")
             .inShot("/lightAngle")
             .unused(withoutShadows),
         rows::number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
-                     "Radius of point and spot lights, for the softness of their shadows. Default: each light's own, "
-                     "else 0.03")
+                     "Radius of point and spot lights in m; a larger one gives softer shadows. Default: 0.03 for "
+                     "lights in the file")
             .unit("m")
             .example("0.1")
             .inShot("/lightRadius")
@@ -184,18 +183,21 @@ Row pointRow(std::string name, std::string option, Member member, std::string he
 Rows cameraRows() {
     return {
         rows::other("camera", "--camera", "NAME", setCamera, cameraText,
-                    "Name of a camera of the file, or 'auto' for a camera that frames the scene. Default: the first")
+                    "Name of a camera in the file, or 'auto' for a camera that frames the scene. Default: the file's "
+                    "first camera, else 'auto'")
             .clears(MEMBER(camera))
             .everyday()
             .example("Camera")
             .inShot("/camera/name"),
         pointRow("cameraPosition", "--camera-position", MEMBER(cameraPosition),
-                 "Position of the camera; lights stay as for the camera of the file")
+                 "Position of the camera in m. The default lights keep their place. Default: the position of the "
+                 "file's camera")
             .unit("m"),
         pointRow("cameraTarget", "--camera-target", MEMBER(cameraTarget),
-                 "Point that the camera looks at, with its image upright")
+                 "Point in m that the camera looks at. Default: the viewing direction of the file's camera")
             .unit("m"),
-        pointRow("cameraUp", "--camera-up", MEMBER(cameraUp), "Direction that is up in the image"),
+        pointRow("cameraUp", "--camera-up", MEMBER(cameraUp),
+                 "Direction that points up in the image. Default: 0,1,0 with --camera-target, else the camera's own"),
         rows::other("size", "--size", "WxH", setSize, sizeText, "Image size in pixels")
             .clears(MEMBER(size))
             .unit("px")
@@ -268,24 +270,24 @@ Row lensRow(const LensField& field) {
 Rows focusRows() {
     return {
         rows::other("focusNode", "--focus-node", "NAME", setFocusNode, focusNodeText,
-                    "Focus on the centre of this node: that of its mesh's bounding box, or its origin")
+                    "Focus on a node: on the centre of its mesh's bounding box, or on its origin if it has no mesh")
             .clears(clearFocus<FocusNode>)
             .everyday()
             .excludes({"focusDistance"})
             .unused(withoutBlur),
         rows::other("focusPixel", "--focus-pixel", "X,Y", setFocusPixel, focusPixelText,
-                    "Focus on the surface seen at this pixel; 0,0 is the top left one")
+                    "Focus on the surface at this pixel; 0,0 is the top left pixel")
             .clears(clearFocus<FocusPixel>)
             .excludes({"focusDistance", "focusNode"})
             .unused(withoutBlur),
         rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-                    "Tilt the focus plane through the surfaces seen at three pixels; with 4 to 16 pixels, curve it so "
-                    "that the sum of their squared blurs is smallest")
+                    "Tilt the focus plane through the surfaces at three pixels; with 4 to 16 pixels, also curve it to "
+                    "minimize the sum of their squared blurs")
             .clears(clearFocus<FocusPoints>)
             .excludes({"focusDistance", "focusNode", "focusPixel"})
             .unused(withoutBlur),
         rows::other("focusAuto", "--focus-auto", "", setFocusAuto, focusAutoText,
-                    "Focus on the median depth of the surfaces in the image's middle")
+                    "Focus on the median depth of the surfaces in the middle of the image")
             .kind(SettingKind::boolean)
             .clears(clearFocus<FocusAuto>)
             .excludes({"focusDistance", "focusNode", "focusPixel", "focusPoints"})
@@ -301,15 +303,15 @@ Rows lensRows() {
     }
     rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
                                MEMBER(lens.apertureImage),
-                               "Image of the aperture, which replaces blades and rings: light passes where it is "
-                               "bright, and its longer side spans the lens")
+                               "Image of the aperture: bright pixels pass light, and the longer side spans the lens. "
+                               "Replaces --blades and --obstruction")
                        .unused(unusedLensField(LensFeature::shape)));
-    rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
-                               "Scale the blur of a node and its children; 0 keeps them sharp. Can be given several "
-                               "times")
-                       .clears(MEMBER(nodeBlur))
-                       .repeats(nodeBlurTexts)
-                       .unused(withoutBlur));
+    rows.push_back(
+        rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
+                    "Scale the blur of a node and its children; 0 keeps them sharp. Can be given several times")
+            .clears(MEMBER(nodeBlur))
+            .repeats(nodeBlurTexts)
+            .unused(withoutBlur));
     return rows;
 }
 
@@ -325,7 +327,8 @@ Row presetRow() {
         lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
     }
     Row row = Row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
-                  fmt::format("A set of settings; options beside it win. {}", fmt::join(lines, "; ")))
+                  fmt::format("Set several settings as published in a paper; other options override them. {}",
+                              fmt::join(lines, "; ")))
                   .choices(names)
                   .effect(SettingEffect::run)
                   .recorded();
@@ -343,10 +346,11 @@ Row presetRow() {
 }
 
 Row samplesRow() {
-    return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
-                         fmt::format("Lens samples. auto: 32 to 1024, by the largest blur and, for wide blurs, the "
-                                     "estimated error. With --target-error or --time-limit the maximum, default {}",
-                                     maxSamples))
+    return rows::integer(
+               "samples", "--samples", 1, maxSamples, MEMBER(samples),
+               fmt::format("Number of lens samples. auto: 32 to 1024, from the largest blur and, for wide blurs, the "
+                           "estimated error. With --target-error or --time-limit: the maximum, {} by default",
+                           maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
         .values(
@@ -370,53 +374,53 @@ Rows sampleRows() {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
-                     "Add blocks of 64 samples until the RMSE of the display-encoded image (0 to 1) at EV 0 is "
-                     "estimated to be below R")
+                     "Add blocks of 64 samples until the estimated RMSE of the image is below R. Pixel values are "
+                     "display-encoded, 0 to 1, at EV 0")
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
-                     "Add blocks of 64 samples for S seconds without loading; with --target-error, at most so long. "
-                     "In a film: begin no frame after S seconds")
+                     "Add blocks of 64 samples for S seconds, or until --target-error is reached. Loading does not "
+                     "count. For capture: start no frame after S seconds")
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
         rows::choice<Sequence>("sequence", "--sequence", sequences, MEMBER(sequence),
-                               "Low-discrepancy sequence of points on the lens and in the pixel; Jeong et al. 2011 "
-                               "use halton")
+                               "Sequence of sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
             .inShot("/sequence")
             .unused(methodWithoutSamples),
         rows::integer("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(seed),
-                      "Selects another set of sample points")
+                      "Seed of the sample points")
             .inShot("/seed")
             .unused(methodWithoutSamples),
-        rows::choice<LodMode>("lod", "--lod", modes, MEMBER(lod),
-                              "Simplified meshes for blurred objects: fractional splits the samples between two "
-                              "levels, continuous also splits one sample over its pixels, nearest draws one level, off "
-                              "draws full detail")
+        rows::choice<LodMode>(
+            "lod", "--lod", modes, MEMBER(lod),
+            "Levels of detail of blurred objects. fractional: two levels, between which the samples are split. "
+            "continuous: also split one sample over its pixels. nearest: one level. off: full detail")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "Levels by size: target edge length in pixels per pixel of blur. Default: by the number of "
-                     "samples")
+                     "For --lod-metric size, error, halving and score: target edge length in px per px of blur. "
+                     "Default: depends on the number of samples")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-                     "Levels by size: minimum target edge length. Default: by the number of samples")
+                     "For --lod-metric size, error and halving: minimum target edge length in px. Default: depends on "
+                     "the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
         rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "Measured levels: error for edges of 1 px, in standard deviations of the light within the blur. "
-                     "Default: by the number of samples")
+                     "For --lod-metric measured: allowed error of a level with edges of 1 px, relative to the standard "
+                     "deviation of the object's light within the blur. Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
             .unused(withoutLevels),
         rows::words(SettingKind::path, "cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
-                    "Folder for simplified meshes. Default: $XDG_CACHE_HOME/defocus or ~/.cache/defocus")
+                    "Folder of the cache of simplified meshes. Default: $XDG_CACHE_HOME/defocus, else ~/.cache/defocus")
             .effect(SettingEffect::run),
-        rows::boolean("noCache", "--no-cache", MEMBER(noCache), "Build simplified meshes without the cache")
+        rows::boolean("noCache", "--no-cache", MEMBER(noCache), "Neither read nor write the cache of simplified meshes")
             .excludes({"cacheFolder"})
             .effect(SettingEffect::run),
     };
@@ -429,7 +433,7 @@ Rows methodRows() {
     for (const Method& method : methods()) names.push_back(method.name);
     return {
         rows::other("method", "--method", "NAME", setMethod, methodText,
-                    fmt::format("Rendering method: {}; or NAME:SETTING=VALUE,… with the method's settings",
+                    fmt::format("Rendering method: {}. NAME:SETTING=VALUE,… also sets the method's settings",
                                 fmt::join(names, ", ")))
             .clears(clearMethod)
             .everyday()
@@ -438,7 +442,8 @@ Rows methodRows() {
                                   {{"automatic", LayerFormat::automatic},
                                    {"rgba16f", LayerFormat::rgba16f},
                                    {"rgba32f", LayerFormat::rgba32f}},
-                                  MEMBER(layerFormat), "Pixel format of a sample's layer; rgba32f for references")
+                                  MEMBER(layerFormat),
+                                  "Pixel format of a sample's layer; use rgba32f for reference images")
             .inShot("/layerFormat"),
     };
 }
@@ -449,13 +454,12 @@ Rows displayRows() {
             "toneMap", "--tonemap",
             {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
             MEMBER(toneMap),
-            "Tone curve of PNG, JPEG and video. neutral keeps colours and rolls off highlights; none "
-            "clips at white")
+            "Tone curve of PNG, JPEG and video. neutral: keeps colours and compresses highlights. none: clips at white")
             .effect(SettingEffect::display)
             .inShot("/toneMap"),
         Row(SettingKind::number, "exposure", "--exposure", "EV|auto",
-            "Exposure in EV for PNG, JPEG and video; auto meters the scene once. Default: from --exposure-time and "
-            "--iso if given, else auto for scenes with lights, else 0")
+            "Exposure in EV for PNG, JPEG and video. auto: meter the scene once. Default: from --exposure-time if "
+            "given, else auto for scenes with lights, else 0")
             .range(-60, 60)
             .choices({"auto"})
             .clears(MEMBER(exposure))
@@ -480,35 +484,35 @@ Rows developerRows() {
                                  {"measured", LodMetric::measured},
                                  {"score", LodMetric::score}},
                                 MEMBER(lodMetric),
-                                "Measure by which levels are chosen: measured (error of the light after the blur), "
-                                "size (projected edges), error (projected deviation), halving (edges if each level "
-                                "had half the triangles) or score (edges at the object's centre against the blur). "
-                                "automatic: size if one of its thresholds is given, else measured")
+                                "Rule that chooses the levels of detail. measured: error of the light after the blur. "
+                                "size: projected edge length. error: projected deviation. halving: edge length if each "
+                                "level had half the triangles. score: edge length at the object's centre. automatic: "
+                                "size if --blur-threshold or --size-threshold is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
-        rows::choice<LevelVertices>("levelVertices", "--level-vertices",
-                                    {{"fitted", LevelVertices::fitted},
-                                     {"surviving", LevelVertices::surviving},
-                                     {"quarters", LevelVertices::quarters}},
-                                    MEMBER(levelVertices),
-                                    "Vertices of coarser levels: fitted to full detail, surviving (unchanged vertices "
-                                    "of full detail), or quarters (surviving, in levels of 75 and 50 % of the "
-                                    "vertices)")
+        rows::choice<LevelVertices>(
+            "levelVertices", "--level-vertices",
+            {{"fitted", LevelVertices::fitted},
+             {"surviving", LevelVertices::surviving},
+             {"quarters", LevelVertices::quarters}},
+            MEMBER(levelVertices),
+            "Vertices of the simplified levels. fitted: moved to fit full detail. surviving: unchanged vertices of "
+            "full detail. quarters: unchanged vertices, in levels of 100, 75 and 50 % of the vertices")
             .inShot("/levelVertices")
             .unused(withoutLevels),
         rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
                              MEMBER(lodCoc),
-                             "Blur that an object's level counts on: the smallest over its bounding "
-                             "box, or the blur at the box's centre")
+                             "Blur from which an object's level is chosen: the smallest within its bounding box, or "
+                             "the blur at the box's centre")
             .unused([](const SettingContext& context) {
                 return firstOf(context, {methodWithoutSamples, withoutLevels, withMeasuredLevels});
             }),
         rows::number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(cocTolerance),
-                     "Maximum deviation of the blur inside a triangle from its interpolation; larger triangles are "
-                     "divided")
+                     "Maximum error, in px, of interpolating the blur across a triangle; triangles with a larger error "
+                     "are subdivided")
             .unit("px")
             .unused(methodWithoutSamples),
-        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll), "Draw also what cannot be seen (same image, slower)")
+        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll), "Disable culling (same image, slower)")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",
@@ -517,12 +521,12 @@ Rows developerRows() {
                 if (!request.memory) return std::nullopt;
                 return fmt::format("{}B", *request.memory);
             },
-            "Maximum memory of the program, such as 2GiB; decides how many samples are drawn at once and whether the "
-            "image is drawn in tiles (same image). Default: three quarters of the free memory")
+            "Maximum memory of the program, such as 2GiB; does not affect the image. Smaller limits draw fewer samples "
+            "at once, or the image in tiles. Default: three quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
         rows::integer("wave", "--wave", 1, 64, MEMBER(wave),
-                      "Samples drawn at once (same image). Default: as memory allows")
+                      "Number of samples drawn at once; does not affect the image. Default: as many as fit into memory")
             .effect(SettingEffect::run),
     };
 }

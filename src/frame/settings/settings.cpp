@@ -98,7 +98,7 @@ std::string groupTitle(SettingGroup group) {
         case SettingGroup::display:
             return "Output";
         case SettingGroup::developer:
-            return "For developers";
+            return "Developer options";
     }
     return "";
 }

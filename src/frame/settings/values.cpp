@@ -48,7 +48,7 @@ void setBackground(Request& request, const std::string& text) {
         return;
     }
     const std::size_t chosen = parseChoice(text, {"environment", "none", "R,G,B"});
-    if (chosen > 1) fail("give three numbers for R,G,B, such as 0.2,0.2,0.2");
+    if (chosen > 1) fail("give three numbers R,G,B, such as 0.2,0.2,0.2");
     if (chosen == 0)
         request.background = EnvironmentBackground{};
     else
@@ -148,7 +148,7 @@ std::optional<std::string> focusPixelText(const Request& request) {
 void setFocusPoints(Request& request, const std::string& text) {
     const std::vector<std::string> parts = splitAt(text, ',');
     if (parts.size() < 2 * minFocusPoints || parts.size() % 2 != 0 || parts.size() > 2 * maxFocusPoints)
-        fail("'{}' is not X,Y,X,Y,X,Y: columns and rows of {} to {} pixels", text, minFocusPoints, maxFocusPoints);
+        fail("'{}' is not X,Y,X,Y,X,Y: the columns and rows of {} to {} pixels", text, minFocusPoints, maxFocusPoints);
     FocusPoints points;
     for (std::size_t i = 0; i < parts.size(); i += 2) points.pixels.push_back(parsePixel(parts[i], parts[i + 1]));
     request.focus = std::move(points);

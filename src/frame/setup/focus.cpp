@@ -42,13 +42,15 @@ void focusAlong(const Scene& scene, const Pose& pose, const std::vector<Pixel>& 
 void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::string& what) {
     const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
     const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
-    if (!(glm::length(normal) > 1e-6 * extent)) fail("{}: the three points lie on a line; choose others", what);
+    if (!(glm::length(normal) > 1e-6 * extent)) fail("{}: the three points are on a line; choose other points", what);
     if (!(std::abs(normal.z) > 2e-3 * glm::length(normal)))
-        fail("{}: the plane through the three points holds the view axis; choose others", what);
+        fail("{}: the plane through the three points contains the view axis; choose other points", what);
     const double distance = -glm::dot(normal, points[0]) / normal.z;
     if (!(distance > 0))
-        fail("{}: the plane through the three points meets the view axis at or behind the camera; choose others", what);
-    // Plane equation: normal·(X, Y, −w) = normal·point, divided by −normal.z.
+        fail(
+            "{}: the plane through the three points crosses the view axis at or behind the camera; choose other points",
+            what);
+    // Plane equation: normal·(X, Y, −w) = normal·point. It is divided by −normal.z.
     lens.focusSwing = std::atan(-normal.x / normal.z);
     lens.focusTilt = std::atan(-normal.y / normal.z);
     lens.focusDistance = distance;
@@ -70,7 +72,8 @@ void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::stri
     }
     const glm::dvec4 fitted = glm::inverse(matrix) * right;
     if (!(fitted[0] > 0))
-        fail("{}: the focus through these points would meet the view axis behind the camera; choose others", what);
+        fail("{}: the focus surface through these points crosses the view axis behind the camera; choose other points",
+             what);
     Lens focused = lens;
     focused.focusDistance = 1 / fitted[0];
     focused.focusSwing = std::atan(fitted[1] / (fitted[0] * tanX));

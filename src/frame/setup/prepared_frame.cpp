@@ -39,7 +39,7 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, 
     const bool builtIn = isBuiltInEnvironment(path.string());
     Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
     for (const float value : map.pixels)
-        if (std::isinf(value)) fail("{}: holds infinity and cannot light a scene", path.string());
+        if (std::isinf(value)) fail("{} has infinite pixels and cannot be used as an environment map", path.string());
     return std::make_shared<Image>(rotation == 0 ? std::move(map) : turnedEnvironment(map, glm::radians(rotation)));
 }
 
@@ -95,9 +95,9 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     const glm::dvec3 up =
         orElse(request.cameraUp, request.cameraTarget ? glm::dvec3(0, 1, 0) : glm::dvec3(worldFromCamera[1]));
     const glm::dvec3 aside = glm::cross(up, back);
-    if (!(glm::length(back) > 0)) fail("--camera-target: the camera stands on it; move one of them");
+    if (!(glm::length(back) > 0)) fail("--camera-target must differ from the position of the camera; move one of them");
     if (!(glm::length(aside) > 1e-9 * glm::length(up) * glm::length(back)))
-        fail("--camera-up: the camera looks along it; give another direction");
+        fail("--camera-up must not be parallel to the viewing direction; give another direction");
     const glm::dvec3 z = glm::normalize(back);
     const glm::dvec3 x = glm::normalize(aside);
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
@@ -125,7 +125,7 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
     chooseFocus(request, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
     if (request.lens.iso && frame.view.lens.exposureTime == 0)
-        frame.refusedLensValues.emplace_back("iso says nothing without an exposure time (--exposure-time)");
+        frame.refusedLensValues.emplace_back("iso has no effect without --exposure-time");
     return placed;
 }
 
@@ -275,24 +275,24 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     std::vector<std::string> lines = damageWarnings(*frame.scene);
     if (frame.scaleNote) lines.push_back(*frame.scaleNote);
     for (const std::string& line : frame.refusedLensValues)
-        lines.push_back(fmt::format("camera '{}': {}; not used", frame.cameraName, line));
+        lines.push_back(fmt::format("camera '{}': {}; the value is ignored", frame.cameraName, line));
     const Lens& lens = frame.view.lens;
     if (lens.dofEnabled && lens.focusDistance * 1000 <= lens.focalLength)
         lines.push_back(
-            fmt::format("a focus at {:g} m lies inside the focal length of {:g} mm, where no real lens can be focused; "
-                        "are the scene's units metres?",
+            fmt::format("the focus distance of {:g} m is within the focal length of {:g} mm, which no real lens "
+                        "allows; check --units",
                         lens.focusDistance, lens.focalLength));
     if (const Bounds& bounds = frame.world.pose.bounds; !bounds.empty()) {
         const glm::dvec3 reach = glm::max(glm::abs(bounds.minimum), glm::abs(bounds.maximum));
         const double farthest = std::max({reach.x, reach.y, reach.z});
         if (farthest > largestScene || farthest < smallestScene)
             lines.push_back(
-                fmt::format("the scene reaches {:.2g} m from its origin: what lies beyond {:g} m, or is all "
-                            "smaller than {:g} m, isn't drawn right",
+                fmt::format("the scene extends {:.2g} m from its origin; content beyond {:g} m, or smaller than {:g} "
+                            "m, may be drawn incorrectly",
                             farthest, largestScene, smallestScene));
     }
     if (!frame.cacheFailure.empty())
-        lines.push_back(fmt::format("simplified meshes are not kept for the next run: {}", frame.cacheFailure));
+        lines.push_back(fmt::format("simplified meshes are not cached: {}", frame.cacheFailure));
     return lines;
 }
 

@@ -64,8 +64,8 @@ std::optional<std::string> guessedScaleNote(const Request& request, const Scene&
     const std::string unit = unitOfMetres(scene.metresPerUnit);
     const bool named = std::isalpha(static_cast<unsigned char>(unit.front())) != 0;
     return fmt::format(
-        "one unit of the scene is taken as {}{}, so that what is seen has an everyday size; --units m "
-        "takes it as 1 m",
+        "one unit of the scene is assumed to be {}{}, which gives the scene a plausible size; use --units m if it is 1 "
+        "m",
         named ? "1 " + unit : unit, named ? "" : " m");
 }
 

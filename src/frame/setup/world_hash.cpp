@@ -129,7 +129,7 @@ void addShaders(Hasher& hasher, const fs::path& folder) {
     for (auto entry = fs::recursive_directory_iterator(folder, fault); !fault && entry != fs::end(entry);
          entry.increment(fault))
         if (entry->is_regular_file()) files.push_back(entry->path());
-    if (fault) fail("{}: the shaders cannot be read: {}", folder.string(), fault.message());
+    if (fault) fail("cannot read the shaders in {}: {}", folder.string(), fault.message());
     std::ranges::sort(files);
     for (const fs::path& file : files) {
         hasher.addText(fs::relative(file, folder).string());

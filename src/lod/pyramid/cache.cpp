@@ -88,7 +88,7 @@ std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const Pyra
 void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
     std::error_code status;
     fs::create_directories(folder, status);
-    if (status) fail("{}: cannot be created: {}", folder.string(), status.message());
+    if (status) fail("cannot create {}: {}", folder.string(), status.message());
     writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key));
 }
 
@@ -176,7 +176,7 @@ std::vector<CacheFile> cacheFiles(const fs::path& folder) {
     if (!fs::exists(folder, status) && !status) return files;
     for (fs::directory_iterator entries(folder, status), end; !status && entries != end; entries.increment(status))
         if (std::optional<CacheFile> file = cacheFile(*entries)) files.push_back(std::move(*file));
-    if (status) fail("{}: cannot be read: {}", folder.string(), status.message());
+    if (status) fail("cannot read {}: {}", folder.string(), status.message());
     std::sort(files.begin(), files.end(), [](const CacheFile& a, const CacheFile& b) {
         return std::tie(b.written, a.path) < std::tie(a.written, b.path);
     });
@@ -188,7 +188,7 @@ std::vector<CacheFile> clearCache(const fs::path& folder) {
     for (const CacheFile& file : files) {
         std::error_code status;
         fs::remove(file.path, status);
-        if (status) fail("{}: cannot be removed: {}", file.path.string(), status.message());
+        if (status) fail("cannot remove {}: {}", file.path.string(), status.message());
     }
     return files;
 }

@@ -46,7 +46,8 @@ TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<File
         const std::size_t count = primitive.indices.size() / 3 * 3;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t v = primitive.indices[i];
-            if (v >= ids.size()) fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, v, ids.size());
+            if (v >= ids.size())
+                fail("mesh \"{}\": index {} is out of range; there are {} vertices", mesh.name, v, ids.size());
             level.indices.push_back(ids[{v}]);
         }
         level.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(count));

@@ -24,13 +24,13 @@ constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // sum over all cells
 
 std::string reasonForNone(const FramePlan& plan) {
-    if (plan.settings.keepAll) return "everything is kept";
+    if (plan.settings.keepAll) return "--keep-all is given";
     if (!plan.usesLens) return "no blur reaches half a pixel";
     if (plan.frameSamples < fewestSamples) return "there are too few samples";
     if (plan.needsAlpha) return "the background is transparent";
-    if (plan.coc.chromatic > 0) return "each sample has a wavelength of its own";
-    if (plan.usesOwnBlur) return "objects or vertices have a blur of their own";
-    if (plan.usesTransmission) return "something shows what lies behind it";
+    if (plan.coc.chromatic > 0) return "each sample has its own wavelength";
+    if (plan.usesOwnBlur) return "objects or vertices have their own blur";
+    if (plan.usesTransmission) return "a material transmits light";
     return "";
 }
 

@@ -51,7 +51,7 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
              view.shutterCameras.size());
     for (const Pose& pose : world.shutter.poses)
         if (pose.objects.size() != world.pose.objects.size())
-            fail("the shutter shows {} objects in one moment, {} in another", pose.objects.size(),
+            fail("the shutter has {} objects in one moment, but {} in another", pose.objects.size(),
                  world.pose.objects.size());
 }
 

@@ -26,7 +26,7 @@ Lens unfocused(const Lens& lens) {
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who) {
     const glm::dvec3 centre = nodeCentre(scene, pose, nodeNamed(scene, name));
     const double depth = -(glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1)).z;
-    if (!(depth > 0)) fail("{}: the centre of '{}' lies behind the camera", who, name);
+    if (!(depth > 0)) fail("{}: the centre of '{}' is behind the camera", who, name);
     return depth;
 }
 
@@ -50,9 +50,10 @@ std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose
 glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view, const Lens& lens,
                           const glm::ivec2& pixel, const char* who) {
     if (pixel.x >= view.width || pixel.y >= view.height)
-        fail("{}: pixel {},{} lies outside the image of {}x{}", who, pixel.x, pixel.y, view.width, view.height);
+        fail("{}: pixel {},{} is outside the image of {}x{} px", who, pixel.x, pixel.y, view.width, view.height);
     const auto point = surfacesAt(scene, pose, view, lens, {glm::dvec2(pixel) + 0.5}).front();
-    if (!point) fail("{}: there is no surface at pixel {},{}; choose one that shows an object", who, pixel.x, pixel.y);
+    if (!point)
+        fail("{}: there is no surface at pixel {},{}; choose a pixel that shows an object", who, pixel.x, pixel.y);
     return *point;
 }
 
@@ -87,7 +88,7 @@ std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const 
 
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who) {
     const std::optional<double> depth = depthOfMiddle(scene, pose, view);
-    if (!depth) fail("{}: the middle of the image shows no surface; choose another way to focus", who);
+    if (!depth) fail("{}: there is no surface in the middle of the image; use another focus option", who);
     return *depth;
 }
 

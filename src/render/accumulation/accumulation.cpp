@@ -64,7 +64,7 @@ public:
     void continueWith(const FramePlan& plan) override {
         const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
         if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
-            fail("more samples were asked for before the block that was begun is whole");
+            fail("more samples were requested before the current block is complete");
         clock_.beginSetup();
         samplesBefore_ = samples();
         setPlan(plan);

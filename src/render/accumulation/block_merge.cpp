@@ -13,10 +13,10 @@ void BlockMerge::add(const BlockSum& block) {
                                   .format = LayerFormat::rgba16f,
                                   .shaderFolder = {}});
     if (block.samples < 1 || block.samples > blockSamples || sum_->samples() % blockSamples != 0)
-        fail("only the last block of a frame has less than {} samples, and none has more", blockSamples);
+        fail("only the last block of a frame may have fewer than {} samples, and none may have more", blockSamples);
     for (const Image* each : {&block.sum, &block.compensation})
         if (each->width != sum_->info().width || each->height != sum_->info().height || each->channels != 4)
-            fail("a block has another size than those before it");
+            fail("a block differs in size from the blocks before it");
     sum_->addBlock(block);
 }
 

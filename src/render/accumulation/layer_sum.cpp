@@ -122,7 +122,7 @@ void LayerSum::addBlockTo(Sum& frame, int block, bool startsFrame) {
 }
 
 BlockSum LayerSum::block() {
-    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    if (samples_ == 0) fail("no samples have been accumulated yet");
     const int latest = latestBlock(samples_ % blockSamples != 0);
     return {(samples_ - 1) % blockSamples + 1, readBack(block_.sum[latest], 4),
             readBack(block_.compensation[latest], 4)};
@@ -150,7 +150,7 @@ const GlTexture& LayerSum::meanTexture() {
 }
 
 void LayerSum::makeMean() {
-    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    if (samples_ == 0) fail("no samples have been accumulated yet");
     if (meanIsCurrent_) return;
     if (!mean_) {
         mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});

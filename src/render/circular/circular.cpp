@@ -52,14 +52,12 @@ CircularOptions parsed(const MethodSettings& settings) {
     options.constants = settings.at("kernel") == "published" ? KernelConstants::published : KernelConstants::fitted;
     if (options.constants == KernelConstants::published &&
         std::max(options.nearComponents, options.farComponents) > publishedKernelLimit)
-        fail("method circular: kernel=published has constants for up to {} components; the others are kernel=fitted",
+        fail("method circular: kernel=published supports at most {} components; use kernel=fitted for more",
              publishedKernelLimit);
     if (options.combined && (!options.nearPremultiplied || options.biasByLuminance))
-        fail("method circular: fields=combined has no near field of its own; leave out near-field and bias-by");
+        fail("method circular: fields=combined has no separate near field; leave out near-field and bias-by");
     if (options.direct && options.storage == ComplexStorage::rgb10A2)
-        fail(
-            "method circular: convolution=direct stores no sums between its passes, so storage has no effect; leave it "
-            "out");
+        fail("method circular: storage has no effect with convolution=direct; leave it out");
     return options;
 }
 
@@ -249,60 +247,60 @@ std::vector<MethodSetting> circularSettings() {
     return {
         {.name = "near-components",
          .standard = "2",
-         .description = "Components of the kernel in front of the focus plane",
+         .description = "Number of complex components of the near-field kernel",
          .choices = {},
          .min = 1,
          .max = 5},
         {.name = "far-components",
          .standard = "2",
-         .description = "Components of the kernel behind the focus plane",
+         .description = "Number of complex components of the far-field kernel",
          .choices = {},
          .min = 1,
          .max = circularKernelLimit},
         {.name = "resolution",
          .standard = "full",
-         .description = "Of the blurred fields; as published, half with one far component or quarter with two",
+         .description =
+             "Resolution of the blurred fields. Garcia uses half with one far component, or quarter with two",
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .standard = "fitted",
-         .description =
-             "Constants of the kernel: those that come closest to the disk, or Niemitalo's (up to five components), of "
-             "which Garcia's slides print two",
+         .description = "Kernel constants: fitted to the disk, or published by Niemitalo for up to five components, "
+                        "two of which Garcia's slides print",
          .choices = {"fitted", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",
-         .description = "Taps on each side: one a pixel, eight as published, or sets of 4, 8, 16 and 32 by the blur",
+         .description = "Taps on each side of the centre: one per pixel (exact), eight as published, or 4, 8, 16 or 32 "
+                        "depending on the blur (sets)",
          .choices = {"exact", "eight", "sets"}},
         {.name = "storage",
          .standard = "half",
-         .description = "Of the complex sums between the passes",
+         .description = "Storage format of the complex sums between the passes",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "fields",
          .standard = "separate",
-         .description = "Near and far field blurred apart, or together in one pass with the far kernel",
+         .description = "Blur the near and far fields separately, or combined in one pass with the far-field kernel",
          .choices = {"separate", "combined"}},
         {.name = "near-field",
          .standard = "premultiplied",
-         .description =
-             "What a near pixel weighs in its field: what it covers times its blur, as published, so that what is "
-             "hardly blurred stays out of the wide blur of its neighbours; or what it covers alone",
+         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as "
+                        "published), or its coverage only",
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .standard = "1",
-         .description = "Above 1, the blurred near field hides its sharp image sooner: less ghosting, wider edges",
+         .description =
+             "Above 1, the blurred foreground covers its own sharp image more strongly: less ghosting, but wider edges",
          .choices = {},
          .min = 1,
          .max = 4,
          .whole = false},
         {.name = "bias-by",
          .standard = "constant",
-         .description =
-             "The bias everywhere, or by how much of its disk the near field fills and how bright it is over what it "
-             "covers: less ghosting, and edges that stay",
+         .description = "Variation of --blend-bias: constant, or proportional to the near field's coverage and "
+                        "relative brightness (luminance), which reduces ghosting without widening edges",
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .standard = "separable",
-         .description = "Direct gathers the same kernel over its whole square, for checks",
+         .description = "Convolution in two separable passes, or directly over the kernel's square (for checks)",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

@@ -163,7 +163,7 @@ double integral(std::span<const RadialNode> nodes, std::span<const CircularCompo
 
 std::span<const CircularComponent> circularKernel(int count) {
     if (count < 1 || count > circularKernelLimit) {
-        fail("a circular kernel of {} components: there are those of 1 to {}", count, circularKernelLimit);
+        fail("circular kernel of {} components: choose 1 to {}", count, circularKernelLimit);
     }
     const auto n = static_cast<std::size_t>(count);
     return std::span(components).subspan(n * (n - 1) / 2, n);
@@ -171,7 +171,7 @@ std::span<const CircularComponent> circularKernel(int count) {
 
 std::span<const CircularComponent> publishedCircularKernel(int count) {
     if (count < 1 || count > publishedKernelLimit)
-        fail("a published circular kernel of {} components: there are those of 1 to {}", count, publishedKernelLimit);
+        fail("published circular kernel of {} components: choose 1 to {}", count, publishedKernelLimit);
     static const std::array<CircularComponent, 15> kernels = publishedInRadii();
     const auto n = static_cast<std::size_t>(count);
     return std::span(kernels).subspan(n * (n - 1) / 2, n);

@@ -135,7 +135,7 @@ bool barrelCuts(const FramePlan& plan) {
 
 void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint32_t layerCount) {
     if (world.lights.size() > maxLights)
-        fail("the scene has {} lights; at most {} can light one image", world.lights.size(), maxLights);
+        fail("the scene has {} lights; the maximum is {}", world.lights.size(), maxLights);
     const EnvironmentType type = world.environment.type;
     const int levels = type == EnvironmentType::map
                            ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1

@@ -50,8 +50,7 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
         }
         if (result.cameraMoves) addRows(texels, plan.middleFromView[i]);
     }
-    result.texels =
-        TexelBuffer(texels, GL_RGBA32F, 4, "the poses of an object (fewer samples or motion segments need less)");
+    result.texels = TexelBuffer(texels, GL_RGBA32F, 4, "poses of an object (use fewer samples or motion segments)");
     return result;
 }
 

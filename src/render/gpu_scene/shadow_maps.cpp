@@ -89,7 +89,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     plan_ = castersOf(plan);
     defines_ = mapDefines(plan, world.lights.size());
     projections_ = TexelBuffer(texelsOf(shadowProjections(world, plan, directions_)), GL_RGBA32F, 4,
-                               "the projections of shadow maps (fewer samples need less)");
+                               "projections of shadow maps (use fewer samples)");
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
         target_ = Target();

@@ -46,10 +46,10 @@ public:
         clock_.beginSetup();
         if (plan.coc.chromatic > 0 && (plan.usesCocControls || plan.usesOwnBlur))
             fail(
-                "method layered: with controls of the blur it has one focus for all wavelengths; leave out the axial "
-                "chromatic aberration or choose accumulation");
+                "method layered: axial chromatic aberration cannot be combined with controls of the blur; leave one "
+                "out or choose accumulation");
         if (plan.usesLens && plan.coc.aberrates())
-            fail("method layered: its rays are straight; leave out astigmatism and coma or choose accumulation");
+            fail("method layered: astigmatism and coma are not supported; leave them out or choose accumulation");
         const auto total = static_cast<std::uint32_t>(plan.samples.size());
         const auto asked = static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes"));
         pinholeCount_ = std::min(asked, total);
@@ -217,9 +217,15 @@ private:
 Method layeredMethod() {
     MethodSetting pinholes = pinholesSetting();
     pinholes.description =
-        "Pinholes, each with its layers and its share of the lens samples: antialiasing; 1 as published";
+        "Number of pinhole images, each with its own layers and its share of the lens samples, for antialiasing; 1 as "
+        "published";
     const std::vector<MethodSetting> settings = {
-        {.name = "layers", .standard = "8", .description = "Depth layers at most", .choices = {}, .min = 1, .max = 16},
+        {.name = "layers",
+         .standard = "8",
+         .description = "Maximum number of depth layers",
+         .choices = {},
+         .min = 1,
+         .max = 16},
         pinholes,
     };
     return {.name = "layered",

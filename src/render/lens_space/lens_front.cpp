@@ -33,29 +33,26 @@ std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coa
 
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
     if (plan.coc.chromatic > 0)
-        fail(
-            "method {}: it has one focus for all wavelengths; leave out the axial chromatic aberration or choose "
-            "accumulation",
-            method);
+        fail("method {}: axial chromatic aberration is not supported; leave it out or choose accumulation", method);
     if (plan.usesLens && plan.coc.aberrates())
-        fail("method {}: its lens has no astigmatism or coma; leave them out or choose accumulation", method);
+        fail("method {}: astigmatism and coma are not supported; leave them out or choose accumulation", method);
     if (plan.usesLens && plan.view.lens.catEye > 0)
-        fail("method {}: it knows no cat's eye; leave it out or choose accumulation", method);
+        fail("method {}: a cat's eye is not supported; leave it out or choose accumulation", method);
     if (!plan.moments.empty() && world.shutter.perSample)
-        fail("method {}: it moves vertices in straight lines; give a number of motion segments or choose accumulation",
+        fail("method {}: exact motion is not supported; give a number of motion segments or choose accumulation",
              method);
     for (const ObjectPlan& object : plan.objects) {
         if (object.refinement != Refinement::none)
             fail(
-                "method {}: the controls of the blur bend inside the triangles of object '{}'; leave them out or "
-                "choose accumulation",
+                "method {}: the controls of the blur are not linear within the triangles of object '{}'; leave them "
+                "out or choose accumulation",
                 method, object.name);
         for (const Primitive& primitive : world.scene->meshes[static_cast<std::size_t>(object.mesh)].primitives) {
             if (primitive.material < 0) continue;
             const Material& material = world.scene->materials[static_cast<std::size_t>(primitive.material)];
             if (material.alphaMode == AlphaMode::opaque) continue;
             fail(
-                "method {}: object '{}' has the {} material '{}', and rays end at the first surface; choose "
+                "method {}: object '{}' has the {} material '{}', but only opaque surfaces are supported; choose "
                 "accumulation",
                 method, object.name, material.alphaMode == AlphaMode::blend ? "alpha-blended" : "alpha-tested",
                 material.name);

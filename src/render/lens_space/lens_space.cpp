@@ -155,7 +155,7 @@ private:
 MethodSetting shadingSetting() {
     return {.name = "shading",
             .standard = "surfaces",
-            .description = "Surfaces are shaded where rays meet them, or at their vertices, as published",
+            .description = "Where surfaces are shaded: at the rays' hit points, or at their vertices as published",
             .choices = {"surfaces", "vertices"}};
 }
 

@@ -29,7 +29,7 @@ void RaySum::add(std::uint32_t count) {
 }
 
 const GlTexture& RaySum::mean() {
-    if (rays_ == 0) fail("the sum holds no ray yet");
+    if (rays_ == 0) fail("no rays have been added yet");
     meanTarget_.bind();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, sums_.name());
     glProgramUniform1i(meanProgram_.name(), 0, width_);

@@ -13,7 +13,7 @@ std::uint64_t largestStorage() {
 
 Buffer storage(std::uint64_t bytes, const char* what) {
     if (bytes > largestStorage())
-        fail("{} take {} bytes; this driver's shaders read at most {} of one buffer", what, bytes, largestStorage());
+        fail("{} need {} bytes, but this driver's limit is {} bytes per buffer", what, bytes, largestStorage());
     return Buffer(bytes);
 }
 

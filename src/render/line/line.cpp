@@ -57,7 +57,7 @@ public:
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
         if (exact_ && segments_ != standardSegments)
-            fail("method line: segments is of resolve=published; exact lines hold as many as they need");
+            fail("method line: segments has an effect only with resolve=published; leave it out");
     }
 
     [[nodiscard]] std::string name() const override { return "line"; }
@@ -70,8 +70,7 @@ public:
     [[nodiscard]] std::uint64_t rayBytes() const override { return 2 * expectedRecords * recordBytes; }
 
     void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) override {
-        if (!plan.moments.empty())
-            fail("method line: its samples have no time; choose stochastic or accumulation for motion blur");
+        if (!plan.moments.empty()) fail("method line: motion blur is not supported; choose stochastic or accumulation");
         imageSize_ = {plan.view.width, plan.view.height};
         const LineSets lines = lineSets(plan, turned_);
         bounds_.clear();
@@ -95,7 +94,8 @@ public:
             static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 2 * sizeof(std::uint32_t)) + 64);
         const GLint fit = (max - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
         if (static_cast<GLint>(segments_) > fit)
-            fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit, max);
+            fail("method line: segments must be at most {} on this driver, which has {} bytes of shared memory", fit,
+                 max);
         build(segments_);
     }
 
@@ -113,8 +113,8 @@ public:
             if (counters.records > RecordBuffer::maxRecords()) {
                 if (wave.count == 1)
                     fail(
-                        "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
-                        "read at most {} of one buffer; choose a smaller image or a longer shading step",
+                        "method line: one line per pixel needs {} records, but this driver's limit is {} per buffer; "
+                        "choose a smaller image or a larger shading step",
                         counters.records, RecordBuffer::maxRecords());
                 wave.count /= 2;
                 continue;
@@ -276,27 +276,28 @@ Method lineMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "resolve",
          .standard = "exact",
-         .description = "All that is visible along a line, or a buffer of segments with heuristics, as published",
+         .description =
+             "Keep all visible segments of a line (exact), or a buffer of fixed size with heuristics (published)",
          .choices = {"exact", "published"}},
         {.name = "segments",
          .standard = std::to_string(standardSegments),
-         .description = "Segments of a line that the published buffer holds",
+         .description = "Number of segments in the buffer of --resolve published",
          .choices = {},
          .min = 2,
          .max = 64,
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
-         .description =
-             "Pixels that a surface moves along a line under one shading point; 0: one point a segment, in its "
-             "middle, as published",
+         .description = "Motion of a surface along a line, in px, that shares one shading point; 0: one point in the "
+                        "middle of each segment, as published",
          .choices = {},
          .min = 0,
          .max = 64},
         shadingSetting(),
         {.name = "wheel",
          .standard = "turned",
-         .description = "Lines that each pixel turns differently, or the same for all, as published",
+         .description = "Line directions: rotated from pixel to pixel in an 8 x 8 pattern, or the same for all pixels "
+                        "as published",
          .choices = {"turned", "shared"}},
     };
     return {.name = "line",

@@ -156,7 +156,7 @@ private:
 MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .standard = "4",
-            .description = "Pinhole images a frame, spread over the pixel: antialiasing",
+            .description = "Number of pinhole images per frame, spread over the pixel for antialiasing",
             .choices = {},
             .min = 1,
             .max = 64};
@@ -166,8 +166,8 @@ MethodSetting transparencyBucketsSetting(const char* standard) {
     return {.name = "transparency-buckets",
             .standard = standard,
             .description =
-                "Alpha-blended surfaces are blurred apart from what lies behind them, in as many groups by depth at "
-                "most; 0: with it, by their own blur",
+                "Maximum number of depth groups in which alpha-blended surfaces are blurred separately from their "
+                "background; 0: blur them together with it",
             .choices = {},
             .min = 0,
             .max = 8};

@@ -27,11 +27,11 @@ std::uint32_t wholeBlocks(double samples) {
 const char* stopReasonText(StopReason reason) {
     switch (reason) {
         case StopReason::sampleCount:
-            return "all samples asked for are drawn";
+            return "all requested samples are drawn";
         case StopReason::targetError:
             return "the estimated error is below the target";
         case StopReason::timeLimit:
-            return "time is up";
+            return "the time limit is reached";
         case StopReason::nothingBlurred:
             return "nothing is blurred";
     }

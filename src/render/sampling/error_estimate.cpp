@@ -70,7 +70,7 @@ double encodedDifference(const ImageView& a, const ImageView& b) {
 
 void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     if (!kept_.empty() && (mean.width != width_ || mean.height != height_))
-        fail("error estimate: the image has another size than the one before");
+        fail("error estimate: the image differs in size from the previous one");
     width_ = mean.width;
     height_ = mean.height;
     Kept latest{samples, encodedPixels(mean)};

@@ -54,8 +54,8 @@ public:
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (plan.usesCocControls && !thinLens_)
             fail(
-                "method scheuermann: with coc=published the blur follows the depth alone; coc=thin-lens takes the "
-                "lens's and the objects' controls of the blur");
+                "method scheuermann: coc=published ignores the controls of the blur; use coc=thin-lens or leave the "
+                "controls out");
         const PlanesByHand byHand = planesByHand(plan.view);
         makeTextures(plan.view.width, plan.view.height);
         if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
@@ -107,7 +107,9 @@ private:
             valueAt(view, settings_, "near-blur-depth"), valueAt(view, settings_, "focal-plane-depth"),
             valueAt(view, settings_, "far-blur-depth"), valueAt(view, settings_, "blurriness-cutoff")};
         if (thinLens_ && (planes.near > 0 || planes.focus > 0 || planes.far > 0 || planes.cutoff > 0))
-            fail("method scheuermann: with coc=thin-lens the lens says where things are blurred, not planes");
+            fail(
+                "method scheuermann: coc=thin-lens takes the blur from the lens; leave out near-blur-depth, "
+                "focal-plane-depth, far-blur-depth and blurriness-cutoff");
         return planes;
     }
 
@@ -218,8 +220,8 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
     if (byHand.cutoff > 0) result.cutoff = byHand.cutoff;
     if (!(result.near < result.focus && result.focus < result.far))
         fail(
-            "method scheuermann: full blur in front at {:g} m, focus at {:g} m, full blur behind at {:g} m: they must "
-            "grow in this order",
+            "method scheuermann: full blur in front at {:g} m, focus at {:g} m and full blur behind at {:g} m must "
+            "increase in this order",
             result.near, result.focus, result.far);
     return result;
 }
@@ -259,27 +261,29 @@ Method scheuermannMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .standard = "published",
-         .description = "Blur by three planes, linear in depth, as published, or by the thin lens",
+         .description = "Blur from the depth: linear between three planes as published, or by the thin lens",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .standard = "8",
-         .description = "Taps of the Poisson disk; 8 as published",
+         .description = "Number of taps of the Poisson disk; 8 as published",
          .choices = {},
          .min = 8,
          .max = maxTaps},
         {.name = "max-coc",
          .standard = "published",
-         .description = "Largest blur: 10 px as published, or what the scene asks for",
+         .description = "Maximum blur: 10 px as published, or unlimited",
          .choices = {"published", "unlimited"}},
         {.name = "bits",
          .standard = "16",
-         .description = "Of a channel of the stored images: half floats, or bytes of encoded colour as published",
+         .description =
+             "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes as published",
          .choices = {"16", "8"}},
-        byHand("near-blur-depth", "m in front of which all has the largest blur; 0: where the lens reaches it", 1e9),
-        byHand("focal-plane-depth", "m that are in focus; 0: the focus distance", 1e9),
-        byHand("far-blur-depth", "m behind which all has the largest blur; 0: where the lens reaches it", 1e9),
+        byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
+               1e9),
+        byHand("focal-plane-depth", "Depth in m that is in focus; 0: the focus distance", 1e9),
+        byHand("far-blur-depth", "Depth in m beyond which the blur is at its maximum; 0: computed from the lens", 1e9),
         byHand("blurriness-cutoff",
-               "Largest blur behind the focus, as a share of the largest; 0: the lens's at infinity", 1),
+               "Blur behind the focus, as a fraction of the maximum blur; 0: computed from the lens", 1),
         transparencyBucketsSetting("0"),
         pinholesSetting(),
     };

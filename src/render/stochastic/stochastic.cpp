@@ -81,7 +81,7 @@ private:
 Method stochasticMethod() {
     const std::vector<MethodSetting> settings = {shadingSetting()};
     return {.name = "stochastic",
-            .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
+            .description = "lens space: different lens points for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,
             .drawsShadows = false,
             .settings = settings,

@@ -157,13 +157,13 @@ bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits
     if (!method.needsGl || (!method.drawsTiles && !limits.memory)) return false;
     if (fitsInOnePiece(needsBeforeUpload(world, plan, limits, limit))) return false;
     if (!method.drawsTiles)
-        refuseTiles(plan, limit, fmt::format("method '{}' can't draw tiles; 'accumulation' can", method.name));
+        refuseTiles(plan, limit, fmt::format("method '{}' cannot draw tiles; choose accumulation", method.name));
     return true;
 }
 
 void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& reason) {
-    fail("{} x {} px don't fit into {} in one piece, and {}", plan.view.width, plan.view.height, bytesText(limit),
-         reason);
+    fail("an image of {} x {} px does not fit into {} of memory in one piece, and {}", plan.view.width,
+         plan.view.height, bytesText(limit), reason);
 }
 
 }  // namespace defocus::engine

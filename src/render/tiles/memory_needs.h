@@ -46,7 +46,7 @@ bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limi
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
                      std::uint64_t limit);
 
-// Throws Error, e.g. "640 x 480 px don't fit into 100 MiB in one piece, and REASON".
+// Throws Error: "an image of 640 x 480 px does not fit into 100 MiB of memory in one piece, and REASON".
 [[noreturn]] void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& reason);
 
 }  // namespace defocus::engine

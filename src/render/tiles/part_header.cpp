@@ -22,22 +22,22 @@ SampleRange parseSampleRange(std::string_view text) {
         std::uint32_t value = 0;
         const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (fault != std::errc() || end != part.data() + part.size() || value > maxSamples)
-            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, maxSamples);
+            fail("'{}' is not FIRST:END, with samples from 0 to {}, such as 64:128", text, maxSamples);
         return value;
     };
     const std::size_t colon = std::min(text.find(':'), text.size());
     const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
-    if (range.first >= range.end) fail("'{}': the range holds no sample", text);
+    if (range.first >= range.end) fail("'{}': the range has no samples", text);
     if (range.first % blockSamples != 0)
-        fail("'{}' cuts a block of {} samples: begin at a multiple of {}", text, blockSamples, blockSamples);
+        fail("'{}' splits a block of {} samples; begin at a multiple of {}", text, blockSamples, blockSamples);
     return range;
 }
 
 void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
-    if (range.end > samples) fail("samples {}: the frame has {} (--samples)", rangeText(range), samples);
+    if (range.end > samples) fail("samples {}: the frame has only {} (--samples)", rangeText(range), samples);
     if (range.end % blockSamples != 0 && range.end != samples)
-        fail("samples {} cut a block of {}: end at a multiple of {} or with the last sample, {}", rangeText(range),
-             blockSamples, blockSamples, samples);
+        fail("samples {} split a block of {} samples; end at a multiple of {} or with the last sample, {}",
+             rangeText(range), blockSamples, blockSamples, samples);
 }
 
 TileShare parseTileShare(std::string_view text) {
@@ -48,10 +48,10 @@ TileShare parseTileShare(std::string_view text) {
         share.count =
             static_cast<int>(parseInteger(std::string(text.substr(std::min(slash + 1, text.size()))), 1, maxImageSide));
     } catch (const Error&) {
-        fail("'{}' is not I/N, such as 0/4: tile I, from 0 to N-1, of N", text);
+        fail("'{}' is not I/N, such as 0/4: tile I (0 to N-1) of N", text);
     }
     if (share.index >= share.count)
-        fail("'{}': the tiles of {} are 0 to {} (of a Slurm job: --array=0-{})", text, share.count, share.count - 1,
+        fail("'{}': with {} tiles, the tile must be 0 to {} (Slurm: --array=0-{})", text, share.count, share.count - 1,
              share.count - 1);
     return share;
 }

@@ -22,7 +22,7 @@ RowFileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     const std::string* tile = textAttribute(header.metadata, tileAttribute);
     const std::string* settings = textAttribute(header.metadata, settingsAttribute);
     if (tile == nullptr || settings == nullptr)
-        fail("{}: not a tile of a frame: it doesn't say '{}'", path.string(),
+        fail("{} is not a tile of a frame: the attribute '{}' is missing", path.string(),
              tile == nullptr ? tileAttribute : settingsAttribute);
     header.share = *tile == byMemory ? "" : *tile;
     header.settings = *settings;
@@ -31,7 +31,7 @@ RowFileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     header.height = place.imageHeight;
     header.rows = {place.firstRow, place.firstRow + reader.height()};
     if (header.rows.first < 0 || header.rows.end > header.height)
-        fail("{}: rows {} to {} are no part of a frame of {}", path.string(), header.rows.first, header.rows.end - 1,
+        fail("{}: rows {} to {} are outside a frame of {} rows", path.string(), header.rows.first, header.rows.end - 1,
              header.height);
     dropFileAttributes(header.metadata);
     header.metadata.erase(tileAttribute);
@@ -63,7 +63,7 @@ std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
                 rows.first <= missing.first && missing.first < rows.end)
                 fail("tile {}/{} of the frame is missing: {} of {} (--tile {}/{})", i, *count, rowsText(rows), height,
                      i, *count);
-    fail("{} of the frame's {} are missing", rowsText(missing), height);
+    fail("{} of the frame's {} rows are missing", rowsText(missing), height);
 }
 
 }  // namespace
@@ -109,8 +109,8 @@ std::vector<RowFile> completeRows(const std::vector<fs::path>& paths) {
     for (std::size_t i = 1; i < tiles.size(); ++i) {
         const RowFileHeader& header = tiles[i].header;
         if (header.settings != first.settings || header.width != first.width || header.height != first.height)
-            fail("{} and {} don't belong together: they were rendered with other settings", tiles.front().path.string(),
-                 tiles[i].path.string());
+            fail("{} and {} belong to different frames: they were rendered with different settings",
+                 tiles.front().path.string(), tiles[i].path.string());
         if (header.rows.first < tiles[i - 1].header.rows.end)
             fail("{} and {} overlap: both hold row {}", tiles[i - 1].path.string(), tiles[i].path.string(),
                  header.rows.first);

@@ -52,13 +52,14 @@ template <typename Value>
 Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
     const auto found = metadata.find(name);
     const Value* value = found == metadata.end() ? nullptr : std::get_if<Value>(&found->second);
-    if (value == nullptr) fail("{}: not a part of a frame: it doesn't say '{}'", file, name);
+    if (value == nullptr) fail("{} is not a part of a frame: the attribute '{}' is missing", file, name);
     return *value;
 }
 
 std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const std::string& file) {
     const int value = attribute<int>(metadata, name, file);
-    if (value < 0 || value > static_cast<int>(maxSamples)) fail("{}: '{}' is {}", file, name, value);
+    if (value < 0 || value > static_cast<int>(maxSamples))
+        fail("{}: the attribute '{}' has the invalid value {}", file, name, value);
     return static_cast<std::uint32_t>(value);
 }
 
@@ -75,8 +76,8 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         const auto& [path, part] = parts[i];
         if (part.settings != first.settings || part.width != first.width || part.height != first.height ||
             part.frameSamples != first.frameSamples)
-            fail("{} and {} don't belong together: they were rendered with other settings", parts.front().path.string(),
-                 path.string());
+            fail("{} and {} belong to different frames: they were rendered with different settings",
+                 parts.front().path.string(), path.string());
         if (part.range.first < next)
             fail("{} and {} overlap: both hold sample {}", parts[i - 1].path.string(), path.string(), part.range.first);
         if (part.range.first > next)
@@ -85,7 +86,7 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         next = part.range.end;
     }
     if (next < first.frameSamples)
-        fail("samples {}:{} are missing: the frame has {}", next, first.frameSamples, first.frameSamples);
+        fail("samples {}:{} are missing; the frame has {} samples", next, first.frameSamples, first.frameSamples);
 }
 
 }  // namespace
@@ -119,10 +120,11 @@ FramePart readPart(const fs::path& path) {
     part.width = layers.front().image.width;
     part.height = layers.front().image.height;
     if (part.range.first > part.range.end || part.range.end > part.frameSamples)
-        fail("{}: samples {} of {} are no part of a frame", file, rangeText(part.range), part.frameSamples);
+        fail("{}: samples {} are outside a frame of {} samples", file, rangeText(part.range), part.frameSamples);
     const bool wholeEnd = part.range.end % blockSamples == 0 || part.range.end == part.frameSamples;
     const bool wholeFirst = part.range.first % blockSamples == 0 || part.range.first == part.frameSamples;
-    if (!wholeFirst || !wholeEnd) fail("{}: samples {} cut a block of {}", file, rangeText(part.range), blockSamples);
+    if (!wholeFirst || !wholeEnd)
+        fail("{}: samples {} split a block of {} samples", file, rangeText(part.range), blockSamples);
     for (std::uint32_t first = part.range.first; first < part.range.end; first += blockSamples) {
         const std::uint32_t samples = std::min(blockSamples, part.range.end - first);
         const auto layer = [&](const char* what, float alpha) {

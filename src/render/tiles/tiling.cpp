@@ -60,13 +60,13 @@ int bandCount(int length, int max) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
     const std::uint64_t min = layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
-    // Add 5 % for variations between runs.
-    const std::string enough =
-        needs.shared && needs.elsewhere > 0
-            ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
-            : "";
-    fail("{} x {} px take at least {} beside the scene and the program, and {} is left{}", needs.width, needs.height,
-         bytesText(min), bytesText(needs.deviceMemory), enough);
+    // Adds 5 % for variations between runs.
+    const std::string enough = needs.shared && needs.elsewhere > 0
+                                   ? fmt::format("; give --memory {:.0f}MiB or more",
+                                                 static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
+                                   : "";
+    fail("an image of {} x {} px needs at least {} in addition to the scene and the program, but only {} is left{}",
+         needs.width, needs.height, bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
 // Returns the band for `rows`, which must be within one row of cells.

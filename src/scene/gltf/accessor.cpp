@@ -52,7 +52,7 @@ void checkRange(const Source& source, const std::string& what, int view, std::ui
     const bool inside = count == 0 || (offset <= available && elementBytes <= available - offset &&
                                        (count - 1) <= (available - offset - elementBytes) / stride);
     if (!inside)
-        fault(source.document, "{}: {} elements from byte {} leave buffer view {}, which has {} bytes", what, count,
+        fault(source.document, "{}: {} elements from byte {} exceed buffer view {}, which has {} bytes", what, count,
               offset, view, available);
 }
 
@@ -69,8 +69,8 @@ void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const
         fault(source.document, "{}: sparse indices cannot have component type {}", what, type);
     if (accessor.sparse.count < 1 || static_cast<std::size_t>(accessor.sparse.count) > accessor.count ||
         accessor.sparse.indices.byteOffset < 0 || accessor.sparse.values.byteOffset < 0)
-        fault(source.document, "{}: {} sparse elements of {} are impossible", what, accessor.sparse.count,
-              accessor.count);
+        fault(source.document, "{}: invalid number of sparse elements or offset: {} of {} elements", what,
+              accessor.sparse.count, accessor.count);
     const auto count = static_cast<std::uint64_t>(accessor.sparse.count);
     checkRange(source, what + " (sparse indices)", accessor.sparse.indices.bufferView,
                static_cast<std::uint64_t>(accessor.sparse.indices.byteOffset), count, componentBytes(type),
@@ -132,14 +132,15 @@ void forEachComponent(const Source& source, int index, const std::string& what, 
         const auto element =
             static_cast<std::size_t>(loadComponent(indices + i * componentBytes(indexType), indexType));
         if (element >= accessor.count)
-            fault(source.document, "{}: sparse index {} is beyond its {} elements", what, element, accessor.count);
+            fault(source.document, "{}: sparse index {} is out of range; there are {} elements", what, element,
+                  accessor.count);
         storeElement(element, values + i * layout.elementBytes());
     }
 }
 
 void checkComponents(const Source& source, int accessor, int components, const std::string& what) {
     if (componentCount(source, accessor) != components)
-        fault(source.document, "{}: accessor {} has {} components an element, not {}", what, accessor,
+        fault(source.document, "{}: accessor {} has {} components per element, not {}", what, accessor,
               componentCount(source, accessor), components);
 }
 

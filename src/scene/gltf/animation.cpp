@@ -85,7 +85,7 @@ std::optional<Target> targetOf(Source& source, const nlohmann::json& json) {
     if (!nodePath)
         ignore(source, "animation channel", fmt::format("'{}' cannot be animated", path));
     else if (!json.contains("node"))
-        ignore(source, "animation channel", "it drives no node");
+        ignore(source, "animation channel", "it has no target node");
     else
         return Target{*nodePath, json["node"].get<std::uint64_t>(), ""};
     return std::nullopt;
@@ -108,7 +108,7 @@ std::vector<float> readTimes(Source& source, int accessor, const std::string& wh
     if (times.empty()) fault(source.document, "{}: it has no keys", what);
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
-            fault(source.document, "{}: its times do not increase", what);
+            fault(source.document, "{}: the key times do not increase", what);
     return times;
 }
 
@@ -141,7 +141,7 @@ void readKeys(Source& source, const tinygltf::AnimationSampler& sampler, std::si
         fault(source.document, "{}: {} keys need {} values, not {}", what, channel.times.size(),
               channel.times.size() * perKey * sets, channel.values.size());
     if (!std::all_of(channel.values.begin(), channel.values.end(), [](float value) { return std::isfinite(value); }))
-        fault(source.document, "{}: its values are not finite", what);
+        fault(source.document, "{}: a value is NaN or infinite", what);
     if (channel.path != ChannelPath::rotation || channel.interpolation == Interpolation::cubicSpline) return;
     for (std::size_t i = 0; i < channel.values.size(); i += 4) {
         // Replace a zero quaternion by the identity rotation.
@@ -160,7 +160,7 @@ int keptTarget(const Source& source, const Target& target, const Hierarchy& hier
                               : light ? source.model.lights.size()
                                       : source.model.cameras.size();
     if (target.index >= count)
-        fault(source.document, "{}: it drives {} {}, but the file has {}", what,
+        fault(source.document, "{}: target {} {} does not exist; the file has {}", what,
               node    ? "node"
               : light ? "light"
                       : "camera",
@@ -253,7 +253,7 @@ void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const 
         const auto mesh = static_cast<std::size_t>(node.mesh);
         const std::size_t joints = skins[static_cast<std::size_t>(node.skin)].joints.size();
         if (largest[mesh] >= joints)
-            fault(source.document, "{} uses joint {} of skin {}, which has {}",
+            fault(source.document, "{} uses joint {} of skin {}, which has {} joints",
                   labelOf("mesh", mesh, meshes[mesh].name), largest[mesh], node.skin, joints);
     }
 }

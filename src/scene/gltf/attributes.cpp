@@ -63,8 +63,7 @@ private:
     void checkCount(const std::string& name, int accessor) const {
         const std::size_t elements = elementCount(source_, accessor);
         if (elements != count_)
-            fault(source_.document, "{} has {} elements, but POSITION has {}: unequal counts", label(name), elements,
-                  count_);
+            fault(source_.document, "{} has {} elements, but POSITION has {}", label(name), elements, count_);
     }
 
     [[nodiscard]] std::vector<glm::vec3> displacements(const std::map<std::string, int>& target,
@@ -106,7 +105,7 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     for (const glm::vec4& joints : reader.read<glm::vec4>(name)) {
         for (int i = 0; i < 4; ++i)
             if (!(joints[i] >= 0 && joints[i] <= 65535))
-                fault(source.document, "{}: {} holds no joint indices", what, name);
+                fault(source.document, "{}: {} has values that are not joint indices", what, name);
         result.emplace_back(joints);
     }
     return result;
@@ -120,7 +119,8 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
                                const std::string& what) {
     if (!reader.has(name)) return {};
     if (reader.components(name) != 1)
-        fault(source.document, "{}: {} must hold one number a vertex, not {}", what, name, reader.components(name));
+        fault(source.document, "{}: {} must have one component per vertex, not {}", what, name,
+              reader.components(name));
     std::vector<float> values;
     for (const glm::vec1& value : reader.read<glm::vec1>(name)) {
         if (!(value.x >= min && value.x <= maxBlur))
@@ -137,10 +137,10 @@ std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader,
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
     const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);
     if (reader.has("_COC_0") != reader.has("_COC_1"))
-        fault(source.document, "{}: _COC_0 and _COC_1 are a pair, at the opening and the closing of the shutter", what);
+        fault(source.document, "{}: _COC_0 and _COC_1 must be given together (blur when the shutter opens and closes)",
+              what);
     const bool pair = reader.has("_COC_0");
-    if (pair && reader.has("_COC"))
-        fault(source.document, "{}: it has both _COC and the pair _COC_0 and _COC_1, which stand for the same", what);
+    if (pair && reader.has("_COC")) fault(source.document, "{}: _COC cannot be combined with _COC_0 and _COC_1", what);
     const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", -maxBlur, what);
     const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", -maxBlur, what) : opening;
     if (scales.empty() && offsets.empty() && opening.empty()) return {};
@@ -203,7 +203,7 @@ std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positio
         dropped += (list->size() - kept) / 3;
         list->resize(kept);
     }
-    if (dropped > 0) ignoreDamaged(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
+    if (dropped > 0) ignoreDamaged(source, "triangles", "a vertex position is NaN or infinite", dropped);
     return dropped;
 }
 

@@ -54,12 +54,13 @@ Container splitGlb(const Document& document, Bytes bytes) {
     if (length != bytes.size())
         fault(document, "length mismatch: the header says {} bytes, the file has {}{}", length, bytes.size(),
               bytes.size() < length ? " (truncated)" : "");
-    if (length < headerBytes + chunkHeaderBytes) fault(document, "the length {} is too small for any content", length);
+    if (length < headerBytes + chunkHeaderBytes) fault(document, "the length {} is too small for a GLB file", length);
 
     Container result;
     std::size_t offset = headerBytes;
     for (int chunk = 0; offset < bytes.size(); ++chunk) {
-        if (bytes.size() - offset < chunkHeaderBytes) fault(document, "truncated: chunk {} has no whole header", chunk);
+        if (bytes.size() - offset < chunkHeaderBytes)
+            fault(document, "truncated: the header of chunk {} is incomplete", chunk);
         const std::uint32_t chunkLength = littleEndian32(bytes, offset);
         const std::uint32_t type = littleEndian32(bytes, offset + 4);
         offset += chunkHeaderBytes;
@@ -207,7 +208,7 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
     std::error_code status;
     for (const std::filesystem::path& path : {decoded, asWritten})
         if (std::filesystem::is_regular_file(path, status)) return path;
-    fault(document, "{}: '{}' does not exist beside it", what, uri);
+    fault(document, "{}: '{}' does not exist in the file's folder", what, uri);
 }
 
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what) {
@@ -224,7 +225,7 @@ Document readDocument(const std::filesystem::path& path) {
     // GLB header.
     const std::vector<std::byte> bytes = readFile(path);
     document.fileBytes = bytes.size();
-    if (bytes.empty()) fault(document, "the file is empty: not valid JSON");
+    if (bytes.empty()) fault(document, "the file is empty, so it is not valid JSON");
     const bool glb =
         (bytes.size() >= 4 && littleEndian32(bytes, 0) == glbMagic) || endsWithIgnoringCase(document.file, ".glb");
     const Container container = glb ? splitGlb(document, bytes) : Container{bytes, std::nullopt};

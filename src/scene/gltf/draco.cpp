@@ -49,9 +49,9 @@ DracoPrimitive::DracoPrimitive(Source& source, const nlohmann::json& json, const
             fault(source.document, "{}: the data is damaged ({})", what_, result.status().error_msg_string());
         decoded_->mesh = std::move(result).value();
     } catch (const std::bad_alloc&) {
-        fault(source.document, "{}: the data is damaged (it asks for more memory than there is)", what_);
+        fault(source.document, "{}: the data is damaged (it requests more memory than is available)", what_);
     } catch (const std::length_error&) {
-        fault(source.document, "{}: the data is damaged (it asks for impossibly much memory)", what_);
+        fault(source.document, "{}: the data is damaged (it requests an impossible amount of memory)", what_);
     }
     takeBudget(source, decoded_->mesh->num_points(), 32, what_);
     takeBudget(source, decoded_->mesh->num_faces(), 12, what_);

@@ -56,7 +56,7 @@ std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
         try {
             return metresOfUnit(units.is_string() ? units.get<std::string>() : units.dump());
         } catch (const Error& error) {
-            gltf::fault(source.document, "the extras' units: {}", error.what());
+            gltf::fault(source.document, "extras.units: {}", error.what());
         }
     }
     return {};
@@ -89,7 +89,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     // 4. Checks, unit, extensions and notes.
     if (const std::string placed = placedAtInfinity(scene); !placed.empty())
-        gltf::fault(source.document, "{} is placed at infinity", placed);
+        gltf::fault(source.document, "the transform of {} is not finite", placed);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
     scene.ignored = std::move(source.ignored);
@@ -106,7 +106,7 @@ Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
         // Reached only if checkSchema has missed an error in the JSON.
         gltf::fault(source.document, "not valid glTF: {}", exception.what());
     } catch (const std::bad_alloc&) {
-        gltf::fault(source.document, "it does not fit into memory");
+        gltf::fault(source.document, "the scene does not fit into memory");
     }
 }
 

@@ -54,7 +54,7 @@ TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* n
         return use;
     }
     if (source.model.textures[static_cast<std::size_t>(texture)].source < 0) {
-        ignore(source, "texture", "it has no plain image");
+        ignore(source, "texture", "it has no image in a supported format");
         return use;
     }
     use.texture = texture;
@@ -101,7 +101,7 @@ void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
     glm::dvec3 specular = colorOf(json, "specularFactor");
     if (json.contains("specularGlossinessTexture")) {
-        ignore(source, "texture of specular colours and glossiness", "drawn as a dielectric");
+        ignore(source, "specular-glossiness texture", "not supported; drawn as a dielectric");
         specular = glm::dvec3(dielectricReflectance);
     }
     const double left = 1 - std::max({specular.r, specular.g, specular.b});

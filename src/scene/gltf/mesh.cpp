@@ -62,7 +62,7 @@ std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primiti
     }
     for (const std::uint32_t index : indices)
         if (index >= vertexCount)
-            fault(source.document, "{}: index {} is out of range, there are {} vertices", what, index, vertexCount);
+            fault(source.document, "{}: index {} is out of range; there are {} vertices", what, index, vertexCount);
     return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode, indices);
 }
 
@@ -80,7 +80,7 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
         return false;
     }
     for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_2"})
-        if (primitive.attributes.contains(name)) ignore(source, name, "a further attribute set is not used");
+        if (primitive.attributes.contains(name)) ignore(source, name, "additional attribute sets are not used");
     return true;
 }
 
@@ -125,7 +125,7 @@ public:
         std::sort(primitives.begin(), primitives.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (auto& [order, primitive] : primitives) mesh.primitives.push_back(std::move(primitive));
         if (dropped_ > 0 && mesh.triangleCount() == 0)
-            fault(source_.document, "{}: every triangle has a position that is not finite (NaN or infinite)", label);
+            fault(source_.document, "{}: every triangle has a position that is NaN or infinite", label);
         readMorphWeights(mesh, from, label);
         return mesh;
     }

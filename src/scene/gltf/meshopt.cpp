@@ -30,7 +30,7 @@ CompressedView compressedView(const Source& source, std::size_t index, const nlo
     const auto length = json["byteLength"].get<std::uint64_t>();
     if (!buffer) fault(source.document, "{}: buffer {} has no data", view.what, bufferIndex);
     if (offset > buffer->size() || length > buffer->size() - offset)
-        fault(source.document, "{}: its {} bytes from {} leave buffer {}", view.what, length, offset, bufferIndex);
+        fault(source.document, "{}: {} bytes from byte {} exceed buffer {}", view.what, length, offset, bufferIndex);
     view.bytes = std::span(*buffer).subspan(offset, length);
     return view;
 }
@@ -46,13 +46,13 @@ void checkLimits(const Source& source, const CompressedView& view) {
     if (!strideFits)
         fault(source.document, "{}: {} data cannot have a stride of {}", view.what, view.mode, view.stride);
     if (view.mode == "TRIANGLES" && view.count % 3 != 0)
-        fault(source.document, "{}: {} indices are no whole triangles", view.what, view.count);
+        fault(source.document, "{}: {} indices are not a multiple of 3", view.what, view.count);
     const bool filterFits =
         view.filter == "NONE" ||
         (attributes && ((view.filter == "OCTAHEDRAL" && (view.stride == 4 || view.stride == 8)) ||
                         (view.filter == "QUATERNION" && view.stride == 8) || view.filter == "EXPONENTIAL"));
     if (!filterFits)
-        fault(source.document, "{}: filter '{}' does not go with {} data of stride {}", view.what, view.filter,
+        fault(source.document, "{}: filter '{}' cannot be used with {} data of stride {}", view.what, view.filter,
               view.mode, view.stride);
 }
 
@@ -86,7 +86,7 @@ void unpackMeshoptViews(Source& source) {
         checkLimits(source, view);
         std::vector<std::byte> bytes = unpack(source, view);
         if (bytes.size() < source.model.bufferViews[i].byteLength)
-            fault(source.document, "{}: {} bytes come out, but byteLength is {}", view.what, bytes.size(),
+            fault(source.document, "{}: the decoded data has {} bytes, but byteLength is {}", view.what, bytes.size(),
                   source.model.bufferViews[i].byteLength);
         source.unpackedViews[i] = std::move(bytes);
     }

@@ -110,7 +110,7 @@ std::vector<glm::dmat4> readInstances(Source& source, const nlohmann::json& json
         if (accessor(name) < 0) continue;
         const std::size_t elements = elementCount(source, accessor(name));
         if (count && *count != elements)
-            fault(source.document, "{}: {} has {} elements, another attribute {}", what, name, elements, *count);
+            fault(source.document, "{}: {} has {} elements, but another attribute has {}", what, name, elements, *count);
         count = elements;
     }
     if (!count) return {};
@@ -138,7 +138,8 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     if (extension == nullptr) return -1;
     const auto light = (*extension)["light"].get<std::uint64_t>();
     if (light >= source.model.lights.size())
-        fault(source.document, "{}: it names light {}, but the file has {}", label, light, source.model.lights.size());
+        fault(source.document, "{}: light {} does not exist; the file has {} lights", label, light,
+              source.model.lights.size());
     return static_cast<int>(light);
 }
 
@@ -149,7 +150,7 @@ double cocScaleOf(Source& source, const nlohmann::json& json, const std::string&
     if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
     const nlohmann::json& value = (*extras)["cocScale"];
     if (!value.is_number() || !(value.get<double>() >= 0))
-        fault(source.document, "{}: its extras' cocScale must be a number of 0 or more, not {}", label, value.dump());
+        fault(source.document, "{}: extras.cocScale must be a number of at least 0, not {}", label, value.dump());
     return value.get<double>();
 }
 
@@ -200,7 +201,7 @@ void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::s
     const auto number = [&](const nlohmann::json& value, const char* name) {
         const auto result = value.get<double>();
         if (!(result > 0) || !std::isfinite(result))
-            fault(source.document, "{}: its EXT_camera_physical has an impossible {} of {}", label, name, value.dump());
+            fault(source.document, "{}: EXT_camera_physical has an invalid {}: {}", label, name, value.dump());
         return result;
     };
     PhysicalCamera physical;
@@ -213,7 +214,7 @@ void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::s
     if (physical.focalLength <= longest * millimetres)
         camera.physical = physical;
     else
-        ignore(source, label, "its EXT_camera_physical has a focal length of more than 10 m; is it in millimetres?");
+        ignore(source, label, "the focal length in EXT_camera_physical exceeds 10 m; is it in millimetres?");
 }
 
 // Returns the path of the aperture image from the extras of a camera or a camera's node; empty if there is none.
@@ -294,9 +295,9 @@ std::vector<Camera> readCameras(Source& source) {
             camera.znear = from.perspective.znear;
             if (from.perspective.aspectRatio > 0) camera.aspectRatio = from.perspective.aspectRatio;
             if (!(camera.yfov > 0 && camera.yfov < std::numbers::pi))
-                fault(source.document, "{}: its yfov of {} rad is impossible", label, camera.yfov);
+                fault(source.document, "{}: invalid yfov of {} rad", label, camera.yfov);
             readPhysicalCamera(source, json, label, camera);
-            if (!(camera.znear > 0)) fault(source.document, "{}: its znear of {} m is impossible", label, camera.znear);
+            if (!(camera.znear > 0)) fault(source.document, "{}: invalid znear of {} m", label, camera.znear);
         }
         cameras.push_back(camera);
     }
@@ -326,7 +327,7 @@ std::vector<Light> readLights(Source& source) {
         const bool cone = light.innerConeAngle >= 0 && light.outerConeAngle > light.innerConeAngle &&
                           light.outerConeAngle <= std::numbers::pi_v<float> / 2 + 1e-4f;
         if (light.type == LightType::spot && !cone)
-            fault(source.document, "{}: a cone from {} to {} rad is impossible", labelOf("light", i, from.name),
+            fault(source.document, "{}: invalid spot cone from {} to {} rad", labelOf("light", i, from.name),
                   light.innerConeAngle, light.outerConeAngle);
         lights.push_back(light);
     }

@@ -37,9 +37,9 @@ constexpr std::array<Fallback, 6> fallbacks = {{
     {"KHR_materials_iridescence", "not supported; drawn without iridescence", true},
     {"KHR_materials_anisotropy", "not supported; highlights are round", true},
     {"KHR_materials_variants", "not supported; drawn in the default variant", true},
-    {"KHR_texture_basisu", "not supported; the texture's plain image is used where it has one", false},
-    {"EXT_texture_webp", "not supported; the texture's plain image is used where it has one", false},
-    {"MSFT_texture_dds", "not supported; the texture's plain image is used where it has one", false},
+    {"KHR_texture_basisu", "not supported; the texture's fallback image is used if there is one", false},
+    {"EXT_texture_webp", "not supported; the texture's fallback image is used if there is one", false},
+    {"MSFT_texture_dds", "not supported; the texture's fallback image is used if there is one", false},
 }};
 
 const Fallback* fallbackOf(std::string_view extension) {
@@ -59,7 +59,7 @@ void checkExtensions(Source& source) {
     for (const std::string& name : stringsOf(source.document.json, "extensionsRequired")) {
         const Fallback* fallback = fallbackOf(name);
         if (!supported(name) && (fallback == nullptr || !fallback->mayBeRequired))
-            fault(source.document, "it requires the extension {}, which is not supported", name);
+            fault(source.document, "the file requires the extension {}, which is not supported", name);
     }
     const std::vector<std::string> used = stringsOf(source.document.json, "extensionsUsed");
     for (const std::string& name : std::set<std::string>(used.begin(), used.end())) {
@@ -85,7 +85,7 @@ void readBuffers(Source& source, const Progress& progress) {
             bytes = std::move(source.document.binaryChunk);
         }
         if (bytes && bytes->size() < length)
-            fault(source.document, "{}: byteLength is {}, but it has {} bytes", what, length, bytes->size());
+            fault(source.document, "{}: byteLength is {}, but the data has {} bytes", what, length, bytes->size());
         if (bytes) bytes->resize(length);
         source.buffers.push_back(std::move(bytes));
     }
@@ -141,14 +141,14 @@ std::span<const std::byte> viewBytes(const Source& source, int view) {
     const auto& buffer = source.buffers[static_cast<std::size_t>(bufferView.buffer)];
     if (!buffer) fault(source.document, "buffer view {}: buffer {} has no data", view, bufferView.buffer);
     if (bufferView.byteOffset > buffer->size() || bufferView.byteLength > buffer->size() - bufferView.byteOffset)
-        fault(source.document, "buffer view {}: its {} bytes from {} leave buffer {}, which has {}", view,
+        fault(source.document, "buffer view {}: {} bytes from byte {} exceed buffer {}, which has {} bytes", view,
               bufferView.byteLength, bufferView.byteOffset, bufferView.buffer, buffer->size());
     return std::span(*buffer).subspan(bufferView.byteOffset, bufferView.byteLength);
 }
 
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what) {
     if (!source.budget.take(count, elementBytes))
-        fault(source.document, "{}: {} elements are far more than a file of {} bytes can mean", what, count,
+        fault(source.document, "{}: {} elements are implausible for a file of {} bytes", what, count,
               source.budget.fileBytes());
 }
 

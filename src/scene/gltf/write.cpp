@@ -45,7 +45,7 @@ Written chooseTriangles(const Mesh& mesh) {
             bool proper = true;
             for (int k = 0; k < 3; ++k) {
                 if (corner[k] >= mesh.vertices.count())
-                    fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, corner[k],
+                    fail("mesh \"{}\": index {} is out of range; there are {} vertices", mesh.name, corner[k],
                          mesh.vertices.count());
                 proper = proper && isFinite(mesh.vertices.positions[corner[k]]);
             }
@@ -60,7 +60,7 @@ Written chooseTriangles(const Mesh& mesh) {
         }
         if (!list.empty()) written.triangles.push_back(std::move(list));
     }
-    if (written.triangles.empty()) fail("mesh \"{}\": it has no triangle that a glTF file could hold", mesh.name);
+    if (written.triangles.empty()) fail("mesh \"{}\": the mesh has no triangle that can be written as glTF", mesh.name);
     return written;
 }
 
@@ -160,9 +160,9 @@ void writeGlb(const std::filesystem::path& path, const Mesh& mesh) {
     std::ofstream stream(file.temporaryPath(), std::ios::binary);
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
     if (stream.tellp() > std::streamoff{std::numeric_limits<std::uint32_t>::max()})
-        fail("mesh \"{}\": {} bytes are more than a .glb file can hold", mesh.name, std::streamoff{stream.tellp()});
+        fail("mesh \"{}\": {} bytes exceed the maximum size of a .glb file", mesh.name, std::streamoff{stream.tellp()});
     stream.close();
-    if (!stream) fail("{}: cannot be written: {}", path.string(), std::strerror(errno));
+    if (!stream) fail("cannot write {}: {}", path.string(), std::strerror(errno));
     file.commit();
 }
 

@@ -39,7 +39,7 @@ void readKeptLists(const Document& document, ViewState& state) {
 void sayNotes(const PreparedFrame& frame, ViewState& state) {
     if (frame.scaleNote) say(state, *frame.scaleNote);
     for (const std::string& line : frame.refusedLensValues)
-        sayFault(state, fmt::format("camera '{}': {}; not used", frame.cameraName, line));
+        sayFault(state, fmt::format("camera '{}': {}; the value is ignored", frame.cameraName, line));
 }
 
 void sayCacheFailure(const PreparedFrame& frame, ViewState& state) {
@@ -178,7 +178,7 @@ void actOnDocument(Document& document, ViewState& state, const ViewActions& acti
     if (!document.frame) return;
     if (actions.undo || actions.redo || actions.resetAll) {
         if (exporting)
-            say(state, "Undo waits until the still is written.");
+            say(state, "Undo is available after the still is written.");
         else
             stepThroughHistory(document, state, actions);
     }

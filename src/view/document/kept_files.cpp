@@ -38,7 +38,7 @@ json readKept(const fs::path& file) {
 void writeKept(const fs::path& file, const nlohmann::ordered_json& value) {
     std::error_code fault;
     fs::create_directories(file.parent_path(), fault);
-    if (fault) fail("{}: the folder cannot be made: {}", file.parent_path().string(), fault.message());
+    if (fault) fail("cannot create the folder {}: {}", file.parent_path().string(), fault.message());
     writeFile(file, value.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
@@ -90,7 +90,7 @@ std::optional<SavedView> viewOf(const json& object) try {
 json allViews(const fs::path& file) {
     json object = readKept(file);
     if (object.is_null()) return json::object();
-    if (!object.is_object()) fail("{}: not a JSON object; saved views can't be read", file.string());
+    if (!object.is_object()) fail("cannot read the saved views in {}: not a JSON object", file.string());
     return object;
 }
 
@@ -124,7 +124,7 @@ ViewSettings readViewSettings(const fs::path& file) {
     ViewSettings settings;
     const json object = readKept(file);
     if (object.is_null()) return settings;
-    if (!object.is_object()) fail("{}: not a JSON object; the default settings are used", file.string());
+    if (!object.is_object()) fail("{} is not a JSON object; the default settings are used", file.string());
     settings.dark = flagIn(object, "dark", settings.dark);
     settings.panel = flagIn(object, "panel", settings.panel);
     settings.interfaceScale = numberIn(object, "interfaceScale", 0.5, 3).value_or(1);
@@ -160,7 +160,7 @@ std::vector<SavedView> readSavedViews(const fs::path& file, const std::string& k
 }
 
 void writeSavedViews(const fs::path& file, const std::string& key, const std::vector<SavedView>& views) {
-    if (file.empty()) fail("saved views have no folder: set HOME or XDG_CONFIG_HOME");
+    if (file.empty()) fail("no folder for saved views; set HOME or XDG_CONFIG_HOME");
     json object = allViews(file);
     json& list = object[key] = json::array();
     for (const SavedView& view : views) list.push_back(viewJson(view));

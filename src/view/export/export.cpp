@@ -25,7 +25,7 @@ View exportView(const Document& document, const ViewState& state) {
 
 void startStill(std::optional<StillExport>& still, const Document& document, ViewState& state, bool software) {
     if (document.draft) {
-        sayFault(state, "A still needs the simplified meshes, which are still being built: try again in a moment.");
+        sayFault(state, "The simplified meshes are still being built; export the still again in a moment.");
         return;
     }
     state.playing = false;
@@ -39,7 +39,7 @@ std::string writeShot(const Document& document, ViewState& state) {
     writeFile(state.shotPath, shotJson({state.options, frame.cameraLens, state.shotKeys, state.animationSpeed,
                                         writeOptions(state), frame.scene->metresPerUnit}));
     std::string command = captureCommand(state.shotPath, state.options);
-    say(state, fmt::format("Written: {}; render it with (copied): {}", state.shotPath, command));
+    say(state, fmt::format("{} is written. Render it with this command (copied): {}", state.shotPath, command));
     return command;
 }
 
@@ -56,11 +56,11 @@ std::optional<std::string> actOnExport(std::optional<StillExport>& still, const 
     if (!document.frame) return std::nullopt;
     if (actions.recordKey) {
         state.shotKeys.push_back({exportView(document, state), state.camera.pivotDistance, state.options.time});
-        say(state, fmt::format("Key {} is recorded; save the shot under Export.", state.shotKeys.size()));
+        say(state, fmt::format("Keyframe {} is recorded. Save the shot in the Export panel.", state.shotKeys.size()));
     }
     if (actions.cancelExport && still) {
         still.reset();
-        say(state, "The export is cancelled; no file is written.");
+        say(state, "The export is cancelled. No file is written.");
     }
     if (actions.askExport && still) say(state, "A still is being rendered; Esc cancels it.");
     if (actions.askExport && !still && !state.exportDialog) state.exportDialog.emplace();

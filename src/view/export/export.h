@@ -11,7 +11,7 @@ namespace defocus::engine {
 // Returns the `defocus render` command for the window's picture.
 std::string pictureCommand(const Document& document, const ViewState& state);
 
-// Executes the export actions: records key frames, saves shots, and starts or cancels the export of a still image.
+// Executes the export actions: records keyframes, saves shots, and starts or cancels the export of a still image.
 // Returns a text for the clipboard; none if there is none. Throws Error if an action fails.
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);

@@ -1,5 +1,5 @@
 #pragma once
-// Writes recorded key frames as a shot file for `defocus capture` (docs/shot.schema.json).
+// Writes recorded keyframes as a shot file for `defocus capture` (docs/shot.schema.json).
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ struct ShotRecording {
     double metresPerUnit = 1;  // metres per unit of the scene
 };
 
-// Returns the shot as JSON. Camera and focus, and lens values that differ between the keys, are written as key frames;
+// Returns the shot as JSON. Camera and focus, and lens values that differ between the keys, are written as keyframes;
 // other lens values are constants. The animation starts at the time of the first key. The image has the size of the
 // last key. Needs at least one key.
 std::string shotJson(const ShotRecording& recording);

@@ -19,7 +19,7 @@ std::string shortCount(double count) {
 }
 
 void differenceRow(DisplaySettings& display) {
-    rowLabel("Difference", "Shows the difference of both sides on the right (M)");
+    rowLabel("Difference", "Show the difference between both sides on the right (M)");
     ImGui::Checkbox("##difference", &display.difference);
     if (display.difference) {
         ImGui::SameLine();
@@ -44,7 +44,7 @@ void overlayPanel(const Ui& ui) {
     textRow("Objects drawn", fmt::format("{} of {}", plan.objects.size(), ui.pose().objects.size()));
     textRow("Triangles",
             fmt::format("{}, {:.0f} %", shortCount(drawn / samples), fullDetail > 0 ? 100 * drawn / fullDetail : 100),
-            "Drawn per lens sample, and their share of full detail");
+            "Triangles drawn per lens sample, and their share of full detail");
     if (!ImGui::TreeNode("left out", "Left out (%d)", static_cast<int>(plan.leftOut.size()))) return;
     for (const LeftOut& entry : plan.leftOut) ImGui::TextWrapped("%s: %s", entry.what.c_str(), entry.reason.c_str());
     ImGui::TreePop();
@@ -67,13 +67,13 @@ void comparePanel(const Ui& ui) {
 
 void performancePanel(const Ui& ui) {
     ViewState& state = ui.state;
-    rowLabel("Frame budget", "Time of a frame while the view changes; resolution and samples follow it");
+    rowLabel("Frame budget", "Target time of a frame while the view changes; resolution and samples are adapted to it");
     slider("##budget", state.budget.milliseconds, 4, 250, "%.0f ms");
     const FrameQuality& quality = state.budget.quality();
     textRow("While moving", fmt::format("{} at {:.0f} % size",
                                         quality.samples == 1 ? "no blur" : fmt::format("{} samples", quality.samples),
                                         100 * quality.resolution));
-    rowLabel("Max samples", "A still view gathers samples up to this number");
+    rowLabel("Max samples", "Maximum number of samples while the view does not change");
     if (slider("##samples", state.maxSamples, 64, 16384, ImGuiSliderFlags_Logarithmic))
         state.maxSamples = (state.maxSamples + 63) / 64 * 64;
     settingRow(state.options, "targetError", "0.003");
@@ -86,7 +86,7 @@ void performancePanel(const Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::PlotHistogram("##times", times.data(), static_cast<int>(times.size()), 0, nullptr, 0,
                          2 * static_cast<float>(state.budget.milliseconds), {0, 48 * ui.scale});
-    tooltip("Times of the latest frames; the budget is half the height");
+    tooltip("Times of the latest frames; half the height is the budget");
     const InputLatency::Summary latency = ui.times.latency.summary();
     if (latency.count > 0)
         textRow("Input to picture", fmt::format("{:.0f} ms, at most {:.0f} ms", latency.median, latency.worst),

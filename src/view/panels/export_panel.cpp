@@ -37,7 +37,7 @@ std::string freeName(const std::string& path) {
 void stillRows(ViewState& state) {
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
     std::array<int, 2> edited = {size.x, size.y};
-    rowLabel("Size", "px; default: the size of the picture");
+    rowLabel("Size", "Size of the still in px. Default: the size of the picture");
     if (ImGui::InputInt2("##size", edited.data()))
         state.exportSize = glm::ivec2(std::clamp(edited[0], 1, 16384), std::clamp(edited[1], 1, 16384));
     rowLabel("Samples");
@@ -97,14 +97,14 @@ void exportPanel(const Ui& ui) {
     if (ImGui::Button("Export still…")) actions.askExport = true;
     ImGui::EndDisabled();
     notePlace("export still");
-    tooltip("Choose the file of a still (Ctrl E)");
+    tooltip("Choose a file and export a still (Ctrl E)");
     ImGui::SameLine();
     if (ImGui::Button("Copy as command")) actions.copyCommand = true;
-    tooltip("Copies the 'defocus render' command of this picture (Ctrl C)");
-    rowLabel("Shot", "Key frames for 'defocus capture', 2 s apart");
+    tooltip("Copy the 'defocus render' command of this picture (Ctrl C)");
+    rowLabel("Shot", "Keyframes for 'defocus capture', 2 s apart");
     ImGui::InputText("##shot", &state.shotPath);
     if (ImGui::Button("Record key")) actions.recordKey = true;
-    tooltip("Records camera, lens and focus (K)");
+    tooltip("Record camera, lens and focus as a keyframe (K)");
     if (state.shotKeys.empty()) return;
     ImGui::SameLine();
     if (ImGui::Button(fmt::format("Save {} keys###save", state.shotKeys.size()).c_str())) actions.saveShot = true;

@@ -23,9 +23,9 @@ void fieldRows(ViewState& state, LensSection section) {
 
 void focusPointsRow(ViewState& state) {
     rowLabel("Focus points",
-             "Ctrl click on three points of the picture to lay the focus plane through them (--focus-points)");
+             "Tilt the focus plane through three points: Ctrl click on them in the picture (--focus-points)");
     if (state.focusPoints.empty())
-        ImGui::TextDisabled("Ctrl click on three");
+        ImGui::TextDisabled("Ctrl click on three points");
     else
         ImGui::Text("%d of 3", static_cast<int>(state.focusPoints.size()));
     const bool tilted = state.lens.focusTilt != 0 || state.lens.focusSwing != 0;
@@ -46,7 +46,7 @@ void nodeBlurRow(const Ui& ui) {
     const auto first = std::ranges::find(nodes, node.name, &Node::name);
     if (node.name.empty() || first - nodes.begin() != index) return;
     ImGui::BeginDisabled(ui.still.has_value());
-    rowLabel("Selection's blur", fmt::format("Scale of the blur of {}; 0 keeps it sharp (--node-blur)", node.name));
+    rowLabel("Selection's blur", fmt::format("Factor on the blur of {}; 0 keeps it sharp (--node-blur)", node.name));
     double scale = node.cocScale;
     if (slider("##nodeBlur", scale, 0, 4, "%.2f ×")) ui.state.options.nodeBlur[node.name] = scale;
     ImGui::EndDisabled();
@@ -60,10 +60,10 @@ void focusPanel(const Ui& ui) {
     focusPointsRow(ui.state);
     nodeBlurRow(ui);
     ImGui::Checkbox("Peaking", &ui.state.display.focusPeaking);
-    tooltip("Marks sharp edges in focus (P)");
+    tooltip("Mark sharp edges in focus (P)");
     ImGui::SameLine();
     ImGui::Checkbox("Focus plane", &ui.state.display.focusPlane);
-    tooltip("Tints surfaces in focus (O)");
+    tooltip("Tint surfaces in focus (O)");
 }
 
 void lensPanel(const Ui& ui) {
@@ -74,7 +74,8 @@ void lensPanel(const Ui& ui) {
 void aperturePanel(const Ui& ui) {
     aperturePreview(ui.state.lens, ui.scale);
     ImGui::BeginDisabled(ui.still.has_value());
-    rowLabel("Image", "Replaces blades and rings: bright pixels let light pass (--aperture-image)");
+    rowLabel("Image",
+             "Image of the aperture: bright pixels pass light. Replaces blades and obstruction (--aperture-image)");
     if (pathRow("aperture", "none", "Load", ui.state.aperturePath))
         ui.state.options.lens.apertureImage = ui.state.aperturePath;
     ImGui::EndDisabled();
@@ -90,7 +91,7 @@ void imagePanel(const Ui& ui) {
     if (slider("##exposure", exposure, -8, 8, "%+.2f EV")) state.exposure = exposure;
     ImGui::EndDisabled();
     ImGui::BeginDisabled(setByLens);
-    rowLabel("Auto-exposure", "Meters the scene whenever the view comes to rest (--exposure auto)");
+    rowLabel("Auto-exposure", "Meter the scene whenever the view stops changing (--exposure auto)");
     ImGui::Checkbox("##meters", &state.meters);
     notePlace("auto-exposure");
     ImGui::EndDisabled();

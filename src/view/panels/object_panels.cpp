@@ -176,7 +176,7 @@ void objectsPanel(const Ui& ui) {
 
 void materialPanel(const Ui& ui) {
     if (ui.state.selected < 0) {
-        ImGui::TextDisabled("Click on an object to see its materials");
+        ImGui::TextDisabled("Click an object to show its materials");
         return;
     }
     const Scene& scene = ui.scene();

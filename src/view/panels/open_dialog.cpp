@@ -86,7 +86,7 @@ std::optional<fs::path> FileBrowser::typed() {
     if (!text_.empty() && (isFolder || fs::is_regular_file(path, ignored))) return enterOrChoose({path, "", isFolder});
     const auto first = std::ranges::find_if(entries_, [&](const Entry& entry) { return shows(entry); });
     if (first != entries_.end()) return enterOrChoose(*first);
-    fault_ = "'" + text_ + "' does not exist here";
+    fault_ = "'" + text_ + "' does not exist in this folder";
     return std::nullopt;
 }
 
@@ -119,7 +119,8 @@ std::optional<fs::path> FileBrowser::entryRows() {
         notePlace("file " + entry.name);
         ImGui::PopID();
     }
-    if (rows == 0) ImGui::TextDisabled("%s", entries_.empty() ? "no scenes here" : "no name contains this");
+    if (rows == 0)
+        ImGui::TextDisabled("%s", entries_.empty() ? "no scenes in this folder" : "no file name contains this text");
     return clicked == nullptr ? std::nullopt : enterOrChoose(*clicked);
 }
 

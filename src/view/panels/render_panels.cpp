@@ -26,13 +26,13 @@ void environmentRows(ViewState& state) {
     std::string chosen = state.environmentIsFile || isFile ? names.back()
                          : environment.empty()             ? names.front()
                                                            : environment.string();
-    rowLabel("Environment", "Lights the scene and shows behind it (--environment)");
+    rowLabel("Environment", "Environment map that lights the scene and is its background (--environment)");
     if (combo("##environment", names, chosen)) {
         state.environmentIsFile = chosen == names.back();
         if (!state.environmentIsFile) environment = chosen == names.front() ? "" : chosen;
     }
     if (state.environmentIsFile || isFile) {
-        rowLabel("File", "An equirectangular .hdr or .exr");
+        rowLabel("File", "Equirectangular .hdr or .exr file");
         if (pathRow("environment", "sky.hdr", "Load", state.environmentPath)) environment = state.environmentPath;
     }
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
@@ -61,10 +61,10 @@ void backgroundCombo(Background& background) {
 void surroundingsPanel(const Ui& ui) {
     Request& options = ui.state.options;
     ImGui::BeginDisabled(ui.still.has_value());
-    rowLabel("Background", "What shows behind the scene (--background)");
+    rowLabel("Background", "Background of the scene (--background)");
     backgroundCombo(options.background);
     if (auto* const colour = std::get_if<Color>(&options.background)) {
-        rowLabel("Colour", "Linear; lights the scene too (--background R,G,B)");
+        rowLabel("Colour", "Linear colour of the background, which also lights the scene (--background R,G,B)");
         ImGui::ColorEdit3("##colour", colour->data(),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoLabel);
     } else {

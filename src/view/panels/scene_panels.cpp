@@ -56,9 +56,10 @@ void undoRow(const Ui& ui) {
         ImGui::SameLine();
     };
     const EditHistory& history = ui.document.history;
-    button("Undo", "Ctrl Z: camera, lens, surroundings, levels, exposure", history.undoSteps() > 0, ui.actions.undo);
-    button("Redo", "Ctrl Shift Z", history.redoSteps() > 0, ui.actions.redo);
-    button("Reset all", "Restores settings, camera and lens as the scene was opened; can be undone",
+    button("Undo", "Undo changes of camera, lens, environment, levels and exposure (Ctrl Z)", history.undoSteps() > 0,
+           ui.actions.undo);
+    button("Redo", "Redo (Ctrl Shift Z)", history.redoSteps() > 0, ui.actions.redo);
+    button("Reset all", "Restore the settings, camera and lens with which the scene was opened; can be undone",
            history.undoSteps() > 0, ui.actions.resetAll);
     ImGui::NewLine();
 }
@@ -69,7 +70,7 @@ void ignoredRows(const Scene& scene) {
     const std::vector<std::string> damage = damageWarnings(scene);
     lines.insert(lines.end(), damage.begin(), damage.end());
     if (lines.empty()) return;
-    const bool open = ImGui::TreeNode("ignored", "Not drawn of this file (%d)", static_cast<int>(lines.size()));
+    const bool open = ImGui::TreeNode("ignored", "Not drawn (%d)", static_cast<int>(lines.size()));
     notePlace("ignored");
     if (!open) return;
     for (const std::string& line : lines) ImGui::TextWrapped("%s", line.c_str());
@@ -91,7 +92,8 @@ void shutterRows(Request& request) {
     settingRow(request, "shutter");
     if (!(request.shutter > 0)) return;
     settingRow(request, "shutterPosition");
-    rowLabel("Motion segments", "Straight segments of a vertex's path while the shutter is open (--motion-segments)");
+    rowLabel("Motion segments",
+             "Number of straight segments of a vertex's path while the shutter is open (--motion-segments)");
     std::uint32_t segments = std::get<std::uint32_t>(request.motionSegments);
     if (slider("##segments", segments, 1, 64)) request.motionSegments = segments;
 }
@@ -105,10 +107,10 @@ void scenePanel(const Ui& ui) {
     ignoredRows(ui.scene());
     std::vector<std::string> cameras = cameraNames(ui.scene());
     cameras.insert(cameras.begin(), "auto");
-    rowLabel("Camera", "A camera of the file, or 'auto' to frame the scene (0 and 1 … 9)");
+    rowLabel("Camera", "Camera of the file, or 'auto' to frame the scene (keys 1 … 9 and 0)");
     std::string camera = settingNamed("camera")->text(state.options).value_or(ui.document.frame->cameraName);
     if (combo("##camera", cameras, camera)) ui.actions.chooseCamera = camera;
-    rowLabel("Mouse", "orbit: turns the camera around the point in focus. fly: turns it on the spot (V)");
+    rowLabel("Mouse", "orbit: turn the camera around the point in focus. fly: turn the camera on the spot (V)");
     enumCombo("##navigation", state.navigation, "orbit\0fly\0");
     if (ImGui::Button("Frame all")) frameScene(*ui.document.frame, state);
     ImGui::SameLine();
@@ -122,7 +124,7 @@ void viewsPanel(const Ui& ui) {
     if (pathRow("view", "name of the view", "Save", state.viewName) && !state.viewName.empty())
         actions.saveView = state.viewName;
     notePlace("save view");
-    if (state.savedViews.empty()) ImGui::TextDisabled("Saves camera and lens for this scene");
+    if (state.savedViews.empty()) ImGui::TextDisabled("Save camera and lens for this scene");
     for (std::size_t i = 0; i < state.savedViews.size(); ++i) {
         const SavedView& view = state.savedViews[i];
         ImGui::PushID(static_cast<int>(i));

@@ -102,7 +102,7 @@ void tiltFocus(ViewState& state) {
     }
     state.lens = lens;
     state.pull.reset();
-    say(state, "The focus plane goes through the three points.");
+    say(state, "The focus plane passes through the three points.");
 }
 
 void frameSelection(const PreparedFrame& frame, ViewState& state) {

@@ -171,7 +171,7 @@ void stopRing(double& fStop, float scale) {
     box.list.PopClipRect();
     box.list.AddTriangleFilled({centre - 5 * scale, box.end.y}, {centre + 5 * scale, box.end.y},
                                {centre, box.end.y - 7 * scale}, color(ImGuiCol_CheckMark));
-    tooltip("Aperture ring: drag it, click on it or turn the wheel. Shift wheel over the picture and [ ] do the same.");
+    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the picture: Shift wheel or [ ].");
 }
 
 void aperturePreview(const Lens& lens, float scale) {
@@ -182,7 +182,7 @@ void aperturePreview(const Lens& lens, float scale) {
     for (const LensSample& sample : lensSamples(lens, RenderSettings{}.sequence, 0, 420, 0))
         box.list.AddCircleFilled({centre.x + radius * sample.lens.x, centre.y - radius * sample.lens.y}, 1.6f * scale,
                                  IM_COL32(255, 236, 200, 190), 6);
-    tooltip("The first 420 lens samples. They show the shape of the aperture, and of a blurred point of light.");
+    tooltip("First 420 lens samples. They show the shape of the aperture and of a blurred point of light.");
 }
 
 void depthDiagram(const FramePlan& plan, float scale) {
@@ -219,8 +219,8 @@ void depthDiagram(const FramePlan& plan, float scale) {
     box.list.AddText({box.end.x - width - 6 * scale, box.end.y - ImGui::GetFontSize() - 2 * scale},
                      color(ImGuiCol_Text), text.c_str());
     tooltip(
-        "Side view, camera on the left. Curve: blur over depth, orange in front of the focus and blue behind. Band: "
-        "depths with less than a pixel of blur. Lines: objects, bright where they reach into the band.");
+        "Side view with the camera on the left. Curve: blur over depth, orange in front of the focus and blue behind "
+        "it. Band: depths with less than one pixel of blur. Lines: objects, bright where they are in the band.");
 }
 
 void timeBar(std::span<const PassTime> parts, double budget, float scale) {

@@ -38,7 +38,7 @@ TEST_F(Bench, convergenceRefusesListsThatAreNone) {
     expectOf("0 to 1000", "--threshold-factors", "1,-1");
     expectOf("1 to 1000", "--runs", "0");
     expectOf("2 to 65536", "--reference-samples", "1");
-    expectOf("no method is called", "--methods", "accumulation,nothing");
+    expectOf("there is no method 'nothing'", "--methods", "accumulation,nothing");
     expectOf("x", "--methods", "accumulation:x=1");
     expectOf("lit", "--shading", "dim");
     expectFault(2, "--method",

@@ -79,10 +79,10 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_TRUE(contents() == before) << outcome.err;
     };
-    expectRefused("holds 12 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
-    expectRefused("holds another scene", {"--focus-distance", "3"});
-    expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
-    expectRefused("holds another scene", {"--resume", "--seed", "7"});  // the reference image is the same
+    expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
+    expectRefused("has results of another scene", {"--focus-distance", "3"});
+    expectRefused("has results of another scene", {"--resume", "--focus-distance", "3"});
+    expectRefused("has results of another scene", {"--resume", "--seed", "7"});  // the reference image is the same
 
     // A reference without measured runs, as left by a bench that was killed before the first run.
     fs::remove(folder() / "out/runs.csv");

@@ -73,7 +73,7 @@ TEST_F(Capture, resumeKeepsFinishedFramesOnly) {
     const auto before = fs::last_write_time(folder() / name(3));
     const Outcome outcome = run({"capture", "shot.json", "--resume"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("8 frames, 5 of them there before: 3 rendered"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("8 frames, 5 of them from earlier runs: 3 rendered"), std::string::npos) << outcome.err;
     EXPECT_EQ(fs::last_write_time(folder() / name(3)), before);
     EXPECT_TRUE(bytesOf(name(2)) == second);
     EXPECT_TRUE(bytesOf(name(5)) == fifth);
@@ -96,7 +96,8 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     const std::string first = bytesOf("a0.png");
     const Outcome refused = resumed({"--samples", "9"});
     expectOneLine(refused, 1);
-    EXPECT_NE(refused.err.find("a0.png and 1 more frame were made with other settings: --overwrite"), std::string::npos)
+    EXPECT_NE(refused.err.find("a0.png and 1 more frame were rendered with other settings; replace with --overwrite"),
+              std::string::npos)
         << refused.err;
     EXPECT_TRUE(bytesOf("a0.png") == first);
     EXPECT_EQ(rendered({"--samples", "9", "--overwrite"}), 2);
@@ -186,12 +187,12 @@ TEST_F(Capture, warnsOfOptionsThatDoNothingAndOfClippedPictures) {
     };
     const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
     const std::string unused = warned({"--lod", "off", "--size-threshold", "2"});
-    EXPECT_TRUE(says(unused, "warning: --size-threshold has no effect: with --lod off")) << unused;
-    EXPECT_FALSE(says(unused, "of the picture is")) << unused;
+    EXPECT_TRUE(says(unused, "warning: --size-threshold has no effect: --lod off")) << unused;
+    EXPECT_FALSE(says(unused, "of the image is")) << unused;
     const std::string black = warned({"--exposure", "-20", "-o", "black/####.png"});
-    EXPECT_TRUE(says(black, "of the picture is black at an exposure of -20 EV")) << black;
+    EXPECT_TRUE(says(black, "of the image is black at an exposure of -20 EV")) << black;
     EXPECT_EQ(warned({"--exposure", "-20", "-o", "black/####.png", "--quiet"}), "");
-    EXPECT_FALSE(says(warned({"--exposure", "-20", "-o", "linear/####.exr"}), "of the picture is"));
+    EXPECT_FALSE(says(warned({"--exposure", "-20", "-o", "linear/####.exr"}), "of the image is"));
 }
 
 TEST_F(Capture, dryRunPrintsAndWritesNothing) {
@@ -243,7 +244,7 @@ TEST_F(Capture, fullDiskIsOneLineAndKeepsWhatIsThere) {
     const std::string first = bytesOf(name(0));
     const Outcome outcome = capture({"--resume", "--range", "0:5"}, 600);
     expectOneLine(outcome, 1);
-    EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot write "), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("--resume"), std::string::npos) << outcome.err;
     EXPECT_TRUE(bytesOf(name(0)) == first);
     EXPECT_FALSE(fs::exists(folder() / name(3)));
@@ -256,7 +257,7 @@ TEST_F(Capture, withoutFfmpegAFilmIsRefusedBeforeTheWork) {
     const Outcome outcome = capture({"--video", "film.mp4"});
     ::setenv("PATH", path.c_str(), 1);
     expectOneLine(outcome, 1);
-    EXPECT_NE(outcome.err.find("ffmpeg, which isn't installed"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("ffmpeg, which is not installed"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Capture, filmHasTheFramesAtTheirRate) {

@@ -58,7 +58,7 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     // The merged file counts as a finished frame and is kept.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});
-    EXPECT_NE(resumed.err.find("1 of them there before"), std::string::npos) << resumed.err;
+    EXPECT_NE(resumed.err.find("1 of them from earlier runs"), std::string::npos) << resumed.err;
 }
 
 // The camera turns while the shutter is open. Each sample has its own time, independent of the part that contains it.

@@ -103,10 +103,10 @@ TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
 
     line = rendered({"--target-error", "1e-6", "--samples", "200"});
     EXPECT_NE(line.find("200 samples (error about"), std::string::npos) << line;
-    EXPECT_EQ(facts().at("stopped"), "all samples asked for are drawn");
+    EXPECT_EQ(facts().at("stopped"), "all requested samples are drawn");
 
     line = rendered({"--time-limit", "0.001"});
-    EXPECT_NE(line.find("64 samples (error not estimated; time is up)"), std::string::npos) << line;
+    EXPECT_NE(line.find("64 samples (error not estimated; the time limit is reached)"), std::string::npos) << line;
     EXPECT_TRUE(facts().at("estimatedError").is_null());
 
     line = rendered({"--samples", "64"});
@@ -277,7 +277,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     // --sample-range requires --samples.
     const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
     expectOneLine(part, 2);
-    EXPECT_NE(part.err.find("--samples N"), std::string::npos) << part.err;
+    EXPECT_NE(part.err.find("give --samples"), std::string::npos) << part.err;
 }
 
 TEST_F(Render, statsHaveTheStatedKeys) {
@@ -318,7 +318,7 @@ TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     for (int i = 0; i < 2; ++i) {
         const Outcome outcome = render({"-o", "a.png", "--aov", "work", "--wave", i == 0 ? "1" : "3"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-        EXPECT_NE(outcome.err.find("triangles a pixel and lens sample"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("triangles per pixel and lens sample"), std::string::npos) << outcome.err;
         EXPECT_TRUE(fs::exists(folder() / "a.work.png"));
         images[i] = readImage(folder() / "a.work.exr");
     }
@@ -358,7 +358,7 @@ TEST_F(Render, fullDiskIsOneLineAndKeepsTheFileThatWasThere) {
     std::ofstream(folder() / "a.exr") << "kept";
     const Outcome outcome = render({"-o", "a.exr"}, 512);
     expectOneLine(outcome, 1);
-    EXPECT_NE(outcome.err.find("a.exr: cannot be written"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot write a.exr"), std::string::npos) << outcome.err;
     EXPECT_EQ(textOf(folder() / "a.exr"), "kept");
     EXPECT_EQ(fileCount(), 2u);
 }

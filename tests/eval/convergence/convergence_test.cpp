@@ -80,7 +80,7 @@ TEST(EqualError, isExactForPowersOfTheTime) {
 TEST(EqualError, saysWhatLiesBeyondTheRows) {
     std::vector<ConvergenceRow> rows = {rowOf("a", "standard", 10, 0.02), rowOf("a", "standard", 20, 0.01),
                                         rowOf("b", "standard", 1, 1e-9)};
-    rows[2].fault = "pixels that are no numbers";
+    rows[2].fault = "NaN or infinite pixels";
     const std::vector<double> errors = {0.03, 0.01, 0.005};
     const std::vector<Competitor> competitors = timesToErrors(rows, errors);
     ASSERT_EQ(competitors.size(), 1u);
@@ -128,7 +128,7 @@ TEST(ConvergenceRows, areMediansOfTheirRunsInOrder) {
 TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 10, 0.5), runOf("a", "x", 16, 0, 20, 0.25),
                                         runOf("b", "x", 8, 0, 15, 0.2), runOf("b", "x", 16, 0, 1, 0.001)};
-    runs[3].fault = "pixels that are no numbers";
+    runs[3].fault = "NaN or infinite pixels";
     runs[1].error.flip = 0.01;  // FLIP may rank images differently
     const std::vector<ConvergenceRow> rows = convergenceRows(runs);
     EXPECT_TRUE(rows[0].front);
@@ -137,7 +137,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_TRUE(rows[1].frontByFlip);
     EXPECT_TRUE(rows[2].front);
     EXPECT_FALSE(rows[3].front || rows[3].frontOfMethod || rows[3].frontByFlip);
-    EXPECT_NE(convergenceLine(rows[3]).find("no numbers"), std::string::npos);
+    EXPECT_NE(convergenceLine(rows[3]).find("NaN or infinite"), std::string::npos);
 }
 
 // The reference itself may be off by RMSE 0.1 and FLIP 0.02.

@@ -19,7 +19,7 @@ Image twoParts(int left, float leftValue, float rightValue) {
 TEST(ClippingWarnings, tellOfAPictureThatIsMostlyWhite) {
     const auto lines = clippingWarnings(twoParts(60, 1000, 0.1f), {ToneMap::none, 0});
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_TRUE(lines.front().starts_with("60 % of the picture is white at an exposure of 0 EV")) << lines.front();
+    EXPECT_TRUE(lines.front().starts_with("60 % of the image is white at an exposure of 0 EV")) << lines.front();
     EXPECT_TRUE(lines.front().ends_with("--exposure -12")) << "log2(0.18 / 1000) " << lines.front();
     EXPECT_TRUE(clippingWarnings(twoParts(60, 1000, 0.1f), {ToneMap::none, -12.0}).empty());
     EXPECT_TRUE(clippingWarnings(twoParts(40, 1000, 0.1f), {ToneMap::none, 0}).empty())
@@ -29,7 +29,7 @@ TEST(ClippingWarnings, tellOfAPictureThatIsMostlyWhite) {
 TEST(ClippingWarnings, tellOfAPictureThatIsAllBlack) {
     const auto lines = clippingWarnings(twoParts(100, 1e-4f, 0), {ToneMap::none, 0});
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_TRUE(lines.front().starts_with("100 % of the picture is black")) << lines.front();
+    EXPECT_TRUE(lines.front().starts_with("100 % of the image is black")) << lines.front();
     EXPECT_TRUE(lines.front().ends_with("--exposure 11")) << "log2(0.18 / 1e-4) " << lines.front();
     EXPECT_TRUE(clippingWarnings(twoParts(100, 0, 0), {ToneMap::none, 0}).empty()) << "no exposure can brighten black";
 }

@@ -203,10 +203,10 @@ TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
     };
     expectNone("few samples", 3);
     small->view.lens.axialChromaticAberration = 0.3;
-    expectNone("wavelength");
+    expectNone("its own wavelength");
     small->view.lens.axialChromaticAberration = 0;
     small->world.pose.objects[0].cocScale = 0.5;
-    expectNone("blur of their own");
+    expectNone("their own blur");
     small->world.pose.objects[0].cocScale = 1;
     small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
     expectNone("transparent");

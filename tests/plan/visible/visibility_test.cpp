@@ -337,7 +337,7 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
         EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.625);
         EXPECT_EQ(plan.trianglesDrawn + plan.trianglesFacingAway + plan.trianglesOutside, plan.trianglesAtFullDetail);
         EXPECT_TRUE(std::any_of(plan.leftOut.begin(), plan.leftOut.end(), [](const LeftOut& entry) {
-            return entry.reason == "their clusters show their back to all of the lens";
+            return entry.reason == "their clusters face away from the whole lens";
         }));
     }
 }

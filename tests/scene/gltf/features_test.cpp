@@ -240,7 +240,7 @@ TEST(GltfMaterial, texturesWithoutAPlainImageAreLeftOut) {
     builder.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}}};
     const Scene scene = builder.load();
     EXPECT_FALSE(scene.materials.at(0).emissive.used());
-    EXPECT_EQ(scene.ignored.at(0).reason, "it has no plain image");
+    EXPECT_EQ(scene.ignored.at(0).reason, "it has no image in a supported format");
 }
 
 TEST(GltfMaterial, requiredLooksAreLeftOutWithAWarning) {
@@ -525,8 +525,8 @@ TEST(GltfMesh, scalesOfTheBlurThatAreNoneAreFaults) {
     };
     EXPECT_NE(fault({1, std::nanf(""), 1}, 1).find("_COC_SCALE of vertex 1 is nan"), std::string::npos);
     EXPECT_NE(fault({1, 1, -2}, 1).find("_COC_SCALE of vertex 2 is -2"), std::string::npos);
-    EXPECT_NE(fault({1, 1, 1}, -1).find("cocScale must be a number of 0 or more"), std::string::npos);
-    EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of 0 or more"), std::string::npos);
+    EXPECT_NE(fault({1, 1, 1}, -1).find("cocScale must be a number of at least 0"), std::string::npos);
+    EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of at least 0"), std::string::npos);
 }
 
 // A triangle with additional attributes, one number for each vertex.
@@ -565,8 +565,9 @@ TEST(GltfMesh, blursOfVerticesThatAreNoneAreFaults) {
     EXPECT_NE(fault({{"_COC", {1, 2, INFINITY}}}).find("_COC of vertex 2 is inf; it must be from"), std::string::npos);
     EXPECT_NE(fault({{"_COC_OFFSET", {std::nanf(""), 2, 0}}}).find("_COC_OFFSET of vertex 0 is nan"),
               std::string::npos);
-    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}}).find("_COC_0 and _COC_1 are a pair"), std::string::npos);
-    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}, {"_COC_1", {1, 2, 3}}, {"_COC", {1, 2, 3}}}).find("stand for the same"),
+    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}}).find("_COC_0 and _COC_1 must be given together"), std::string::npos);
+    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}, {"_COC_1", {1, 2, 3}}, {"_COC", {1, 2, 3}}})
+                  .find("cannot be combined with _COC_0"),
               std::string::npos);
 }
 

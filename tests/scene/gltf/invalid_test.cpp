@@ -52,7 +52,7 @@ constexpr InvalidFile invalidFiles[] = {
     {"val_buffer_wrong_bytelength.glb", "byteLength is 17"},
     {"val_buffer_view_invalid_length.gltf", "buffer view 0"},
     {"val_mesh_unresolved_indices.gltf", "indices is 1"},
-    {"val_mesh_accessor_unequal_count.gltf", "unequal counts"},
+    {"val_mesh_accessor_unequal_count.gltf", "but POSITION has"},
     {"val_mesh_data_index_buffer_oob.gltf", "out of range"},
     {"val_node_node_loop.gltf", "loop"},
     {"val_image_invalid_image_data.gltf", "invalid_image_data.jpg"},
@@ -139,7 +139,7 @@ TEST(InvalidGltf, imagesAreCountedBeforeTheyAreDecoded) {
     appendChunk(png, "IEND", {});
     const int view = builder.view(png);
     for (int i = 0; i < 3; ++i) builder.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
-    expectFault(errorOf(builder), "built.glb", "pixels: 268435456 elements are far more than a file of");
+    expectFault(errorOf(builder), "built.glb", "pixels: 268435456 elements are implausible for a file of");
 }
 
 TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
@@ -150,10 +150,10 @@ TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
     }
     GltfBuilder builder = triangle();
     builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // more elements than the real buffer view holds
-    expectFault(errorOf(builder), "built.glb", "leave buffer view 0");
+    expectFault(errorOf(builder), "built.glb", "exceed buffer view 0");
     builder = triangle();
     builder.json["accessors"][0]["byteOffset"] = (std::uint64_t{1} << 53) - 1;
-    expectFault(errorOf(builder), "built.glb", "leave buffer view 0");
+    expectFault(errorOf(builder), "built.glb", "exceed buffer view 0");
 }
 
 TEST(InvalidGltf, manySmallClaimsAddUp) {
@@ -195,7 +195,7 @@ TEST(InvalidGltf, overflowingTransformsAreRefused) {
     GltfBuilder builder = triangle();
     builder.json["nodes"][0]["scale"] = {1e300, 1, 1};
     builder.json["nodes"].push_back({{"children", {0}}, {"scale", {1e300, 1, 1}}});
-    expectFault(errorOf(builder), "built.glb", "infinity");
+    expectFault(errorOf(builder), "built.glb", "not finite");
 }
 
 TEST(InvalidGltf, namesCannotBreakTheLine) {
