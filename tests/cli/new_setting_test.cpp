@@ -16,7 +16,7 @@
 namespace defocus::engine {
 namespace {
 
-// A number without a member in Request; the row stores it in Request::clip.
+// Returns a numeric setting that has no member of its own in Request. Its functions store the value in Request::clip.
 Setting newSetting() {
     Setting setting;
     setting.name = "newSetting";
@@ -39,7 +39,7 @@ Setting newSetting() {
     return setting;
 }
 
-// Runs in a child process, since other tests compare the table with its documentation.
+// Must run in a child process: other tests of this process compare the table of settings with its documentation.
 void checkNewSetting() {
     addSetting(newSetting());
 

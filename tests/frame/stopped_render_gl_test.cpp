@@ -1,4 +1,4 @@
-// Conditions that end a frame with an open number of samples, and conditions that cannot.
+// Frames with an open number of samples end by a target error or a time limit; requests that cannot end so are refused.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LT(renderer.statistics().samples, 64u);
 }
 
-// At full detail, the blocks of an open number of samples equal those of a fixed number, bit for bit.
+// At full detail, a frame with an open number of samples has the bits of a frame with the same fixed number.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
     request.lod = LodMode::off;

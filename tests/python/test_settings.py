@@ -156,7 +156,7 @@ def stub_parameters():
 
 
 def own_parameters(function):
-    """Returns the parameters without settings (the scene is one) and without the catch-all parameter."""
+    """Returns the parameters of a function except settings, such as the scene, and except the catch-all parameter."""
     parameters = inspect.signature(function).parameters.values()
     gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     return [p.name for p in parameters

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// A table at 10 m with a cup on it, and two lamps without unique names.
+// Returns a scene with a table at x = 10 m, a cup on it, and two lamps without unique names.
 Scene furnishedScene() {
     Scene scene;
     Mesh mesh;

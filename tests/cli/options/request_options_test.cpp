@@ -42,7 +42,7 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
     EXPECT_EQ(lens("fStop", {}), 2.8);
     EXPECT_EQ(lens("horizontalAperture", {}), 36);
     EXPECT_EQ(lens("fStop", {"--fstop", "1.4"}), 1.4);
-    // 50 mm at f/2 is 25 mm wide.
+    // The aperture of 50 mm at f/2 is 25 mm wide.
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2"}), 0.025, 1e-9);
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2", "--blur-scale", "3"}), 0.075, 1e-9);
     EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
@@ -70,8 +70,8 @@ TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
-    // The field of view narrows by 1 − f/s: at 2 m Near's left edge moves out to column 512 − 142.2/(1 − 0.025) =
-    // 366.1.
+    // Focus breathing scales tan(θx/2) by 1 − f/s. At 2 m, Near's left edge therefore moves out to column 512 −
+    // 142.2/(1 − 0.025) = 366.1.
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }
 
