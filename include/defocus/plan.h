@@ -36,9 +36,9 @@ struct PlannedObject {
     double projectedEdge = 0;        // px, mean edge length of level 0, projected at the nearest depth
     double lambda = 0;               // fractional level of detail λ
     double pixelRate = 1;            // render resolution per axis with blurred lens cells; 1: full
-    bool blended = false;            // true if it has alpha-blended materials
-    bool transmits = false;          // true if it has transmitting materials
-    bool moves = false;              // true if it moves during the exposure
+    bool blended = false;            // true if the object has alpha-blended materials
+    bool transmits = false;          // true if the object has transmitting materials
+    bool moves = false;              // true if the object moves during the exposure
     std::vector<PlannedDraw> draws;  // 1 or 2, the coarser level first
     // With LodMode::continuous, one sample may mix both levels: fraction of its pixels with the coarser level.
     std::optional<double> boundaryShare;
@@ -101,8 +101,8 @@ struct Plan {
     std::uint64_t trianglesAtFullDetail = 0;
 };
 
-// Returns the plan for a request, without rendering and without a GPU. Throws Error under the conditions of
-// SceneRenderer's constructor.
+// Returns the plan for a request, without rendering and without a GPU. Throws the errors of SceneRenderer's
+// constructor.
 DEFOCUS_API Plan plan(const Request& request, const Progress& progress = {});
 
 // Returns the plan as JSON, like `defocus plan --json`. Infinite values are null.

@@ -40,7 +40,7 @@ struct MeshData {
     std::span<const std::array<float, 3>> positions = {};
     std::span<const std::array<float, 3>> normals = {};  // any length > 0. Default: flat shading
     std::span<const std::array<float, 2>> uvs = {};  // (0, 0) is the texture's top left corner, (1, 1) its bottom right
-    std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiply the base colour
+    std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiplies the base colour
     // Three indices into the arrays per triangle; front faces are counter-clockwise. Default: vertices 0, 1, 2, then 3,
     // 4, 5, and so on.
     std::span<const std::uint32_t> indices = {};
@@ -100,8 +100,9 @@ struct MaterialData {
     float transmission = 0;        // [0, 1]; fraction of light that passes through the surface
     int transmissionTexture = -1;  // data texture: transmission in R
     float thickness = 0;           // ≥ 0, in mesh units; 0: thin wall without refraction
+    // Absorption: after attenuationDistance, white light has the colour attenuationColor.
     float attenuationDistance = std::numeric_limits<float>::infinity();  // > 0; +∞: no absorption
-    std::array<float, 3> attenuationColor = {1, 1, 1};                   // [0, 1], of light after attenuationDistance
+    std::array<float, 3> attenuationColor = {1, 1, 1};                   // [0, 1]
 };
 
 // An object of the scene: a mesh with a transform.
@@ -130,10 +131,10 @@ struct LightData {
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
     float intensity = 1;                     // lux (directional) or candela (point, spot), ≥ 0
     float range = 0;                         // maximum distance of lit surfaces (point, spot); 0: unlimited
-    float innerConeAngle = 0;                // from the axis of a spot light: 0 ≤ inner < outer ≤ π/2
+    float innerConeAngle = 0;                // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
     float outerConeAngle = 0.785398163f;
-    float angularDiameter = 0.00925f;  // of a directional light, [0, π]; softens shadows
-    float radius = 0.03f;              // m, of a point or spot light, ≥ 0; softens shadows
+    float angularDiameter = 0.00925f;  // directional light: [0, π]; softens shadows
+    float radius = 0.03f;              // point or spot light: m, ≥ 0; softens shadows
 };
 
 struct SceneData {

@@ -105,10 +105,10 @@ class Light:
     color: Color = (1, 1, 1)
     intensity: float = 1  # lux (directional) or candela (point, spot)
     range: float = 0  # scene units; 0: unlimited
-    inner_cone_angle: float = 0  # radians from the axis of a spot light
+    inner_cone_angle: float = 0  # spot light: radians from the axis
     outer_cone_angle: float = math.pi / 4
-    angular_diameter: float = 0.00925  # radians, of a directional light; softens shadows
-    radius: float = 0.03  # m, of a point or spot light; softens shadows
+    angular_diameter: float = 0.00925  # directional light: radians; softens shadows
+    radius: float = 0.03  # point or spot light: m; softens shadows
     name: str = ""
 
 

@@ -245,7 +245,7 @@ json valueFor(const Setting& setting) {
     }
 }
 
-// The schema accepts each setting that a shot may give.
+// The schema and the parser accept each setting that a shot may give.
 TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
     const Schema schema = publishedSchema();
     for (const Setting& setting : settings()) {

@@ -248,7 +248,7 @@ TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
     Image image(4, 2, 3);
     *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
     writeImage(folder() / "nan.exr", image);
-    // NaN texels become black, so the file loads and the next error is reported.
+    // NaN texels become black. The environment therefore loads, and the error is the unknown node.
     const Outcome black = run({"render", "quads.gltf", "--environment", "nan.exr", "--focus-node", "None"});
     EXPECT_NE(black.err.find("None"), std::string::npos) << black.err;
     EXPECT_EQ(black.err.find("nan.exr"), std::string::npos) << black.err;

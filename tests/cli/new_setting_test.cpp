@@ -61,7 +61,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
 
-    // Python's keywords and the window's rows are both generated from these.
+    // settingInfos() is the source of Python's keywords and of the window's rows.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());

@@ -300,7 +300,7 @@ struct CommandLine {
     std::string name;
     Words command;
     Words ball = {"ball.glb"};  // selects the ball scene
-    // selects the fish by options, unless a shot selects it
+    // selects the school of fish, by options or by the name of a shot
     Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";
     Words rest;
@@ -342,11 +342,11 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
             ++i;
         else
             line.push_back(given.rest[i]);
-    // Only a lamp has a radius, and only transparent objects use the buckets.
+    // lightRadius needs the scene with the lamp; transparency-buckets needs the scene with the glass pane.
     const std::string scene = name == "lightRadius" ? "lamp" : name == "transparency-buckets" ? "pane" : "ball";
     for (std::string& word : line)
         if (word.starts_with("ball.")) word.replace(0, 4, scene);
-    // The school has no camera with that name.
+    // The school of fish has no camera "Near".
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
     return line;

@@ -88,7 +88,7 @@ protected:
         options_.scene = path;
         options_.units = 1;
         options_.clip = "Walk";
-        options_.time = 0.3;  // in the middle of a step
+        options_.time = 0.3;  // mid-stride
         options_.lens.blurScale = 1000;
     }
 

@@ -44,10 +44,10 @@ protected:
         std::filesystem::remove_all(root_, ignored);
     }
 
-    // Working folder of the program: relative names in `arguments` refer to it.
+    // Working folder of the program; file names in its arguments are relative to this folder.
     [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
 
-    // Folder of the program's pyramids; outside `folder`, so that pyramids do not count as output.
+    // Folder of the program's pyramids; outside folder(), so that pyramids do not count as output.
     [[nodiscard]] std::filesystem::path cacheFolder() const { return root_ / "caches" / "defocus"; }
 
     [[nodiscard]] std::size_t fileCount() const {

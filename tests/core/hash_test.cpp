@@ -54,7 +54,7 @@ TEST(Hash, twoFlippedBitsNeverCancel) {
     EXPECT_EQ(hashes.size(), 1 + bits * (bits + 1) / 2);
 }
 
-// Each input bit flips each output bit about half the time: 2048 trials have a standard deviation of 23.
+// Each input bit flips each output bit in about half of 2048 trials (standard deviation 23).
 TEST(Hash, everyBitOfTheResultDependsOnEveryBit) {
     for (std::size_t bit = 0; bit < 128; ++bit) {
         std::vector<int> flips(64, 0);

@@ -32,8 +32,8 @@ long jump() {
 constexpr unsigned outOfMemory = 0x0505;  // GL_OUT_OF_MEMORY
 constexpr int eglExtensions = 0x3055;     // EGL_EXTENSIONS
 
-// libepoxy's entry points are function pointers. On its first call, an entry point looks up the driver's function and
-// replaces itself by it.
+// libepoxy calls OpenGL through function pointers. On the first call, the function behind a pointer looks up the
+// driver's function and stores it in the pointer.
 using GetError = unsigned (*)();
 GetError* entry = nullptr;
 GetError real = nullptr;

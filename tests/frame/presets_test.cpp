@@ -44,7 +44,7 @@ TEST(Presets, areLeftByAnotherValue) {
     for (const PresetValue& value : jeong().values) {
         Request request;
         applyPreset(jeong(), request);
-        if (value.setting == "lod")  // equals the default
+        if (value.setting == "lod")  // the preset's value is the default
             request.lod = LodMode::nearest;
         else
             settingNamed(value.setting)->clear(request);

@@ -1,4 +1,5 @@
-// Frames with an open number of samples end by a target error or a time limit; requests that cannot end so are refused.
+// A target error or a time limit ends a frame whose number of samples is open. Requests that support neither are
+// refused.
 
 #include <gtest/gtest.h>
 

@@ -162,7 +162,7 @@ std::string furnishedScene() {
 
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
-    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // lamps, and a lens in extras
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // files with lamps, and with a lens in extras
         std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
         seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
     }

@@ -207,7 +207,8 @@ TEST(ImageFile, aMissingFolderIsNamed) {
     expectClearFault(messageOf<Error>([&] { writeImage(path, gradient(2, 2, 3)); }), path.string());
 }
 
-// On a full disk, simulated by a file size limit of 1000 bytes, a write fails, keeps the old file and leaves no other.
+// On a full disk, simulated by a file size limit of 1000 bytes, a write fails, keeps the old file and leaves no other
+// file.
 TEST(ImageFileDeathTest, aFullDiskLeavesTheOldFile) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto writeWithLittleSpace = [](const char* name) {

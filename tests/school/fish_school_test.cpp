@@ -186,7 +186,7 @@ TEST(FishSchool, trianglesAreEvenAndAgreeWithTheirNormals) {
         EXPECT_EQ(shape.degenerate, 0u) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.slivers) / count, 0.02) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.againstNormals) / count, 0.002) << mesh.name;
-        // Lengths of 19 of 20 edges lie within a factor of two of the median.
+        // The lengths of 19 of 20 edges lie within a factor of two of the median.
         std::sort(shape.edges.begin(), shape.edges.end());
         const auto at = [&](double share) {
             return shape.edges[static_cast<std::size_t>(share * (shape.edges.size() - 1.0))];

@@ -66,7 +66,7 @@ private:
 };
 
 TEST_F(OptionsOfView, haveACase) {
-    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // the last test covers these
+    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // tested at the end of this file
     for (const CLI::Option* option : optionsOffered("view"))
         if (const Setting* setting = settingOf(*option))
             EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(From, MethodSettingsOfView,
                              return name;
                          });
 
-// --frames, --screenshot and --stats act. start() always passes --stats.
+// --frames, --screenshot and --stats have their effects. start() always passes --stats.
 TEST_F(OptionsOfView, framesScreenshotAndState) {
     const Words scene = {"ball.glb", "--size", "240x180"};
     const json three = stateAfter(joined(scene, {"--frames", "3"}));

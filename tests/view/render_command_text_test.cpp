@@ -174,7 +174,7 @@ void expectSameOptions(const Request& a, const Request& b) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
             setting.group == SettingGroup::display)
             continue;
-        if (setting.kind == SettingKind::path)  // ./-x equals -x
+        if (setting.kind == SettingKind::path)  // the path -x is written as ./-x
             EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
                       setting.text(b).value_or(""));
         else

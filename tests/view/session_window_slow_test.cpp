@@ -1,4 +1,4 @@
-// defocus view under longer mouse and keyboard input.
+// Tests `defocus view` with longer sequences of mouse and keyboard input.
 
 #include <fmt/format.h>
 
@@ -61,8 +61,8 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     inTurn({"mousemove 201 200", "mousedown 1", "mousemove 250 200", "mousemove 300 200", "mouseup 1"});
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
-    key("x");  // nearest level
-    key("x");  // the reference, which has other samples
+    key("x");  // compares with the nearest level
+    key("x");  // compares with the reference, which has other samples
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();

@@ -1,4 +1,4 @@
-// defocus view under mouse and keyboard input.
+// Tests `defocus view` with mouse and keyboard input.
 
 #include <algorithm>
 #include <cmath>

@@ -199,7 +199,7 @@ protected:
     }
 
 private:
-    // Returns whether this driver can draw a window.
+    // Returns whether `driver` can draw a window.
     bool draws(const std::string& driver) {
         start({"--fish", "1", "--fish-triangles", "200", "--frames", "1"});
         ended();

@@ -52,7 +52,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
 }
 
 TEST_F(BenchConvergence, resumesNothingButTheSame) {
-    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // --runs is given twice
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // bench() already gives --runs
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const std::string journal = textOf(folder() / "out/runs.csv");
     const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
@@ -159,7 +159,7 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
             EXPECT_EQ(both[3 + i][same], plain[i][same]) << same;
     }
     EXPECT_LT(both[5]["triangles"], both[3]["triangles"]);
-    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton and Sobol points
+    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton against Sobol points
     EXPECT_EQ(both[6]["method"], "scheuermann");
 }
 

@@ -314,7 +314,7 @@ TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
         EXPECT_TRUE(bytesOf(name(frame)) == bytesOf("whole/000" + std::to_string(frame) + ".exr")) << frame;
 }
 
-// Puts a shell script as ffmpeg first on PATH, for the lifetime of this object.
+// Puts a shell script named ffmpeg first on PATH, for the lifetime of this object.
 class FakeFfmpeg {
 public:
     FakeFfmpeg(const fs::path& folder, const std::string& script) : path_(std::getenv("PATH")) {

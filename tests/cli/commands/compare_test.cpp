@@ -1,4 +1,4 @@
-// defocus compare, run in this process.
+// Runs `defocus compare` in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// defocus info, run in this process.
+// Runs `defocus info` in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// defocus pyramid, run in this process.
+// Runs `defocus pyramid` in the test process.
 
 #include <gtest/gtest.h>
 

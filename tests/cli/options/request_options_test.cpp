@@ -58,8 +58,8 @@ TEST_F(SceneOptionsTest, focusOnANode) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
-    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's is at column (1 + 3/(8·0.36))/2 · 1024 = 1045,
-    // so that its left part is in the image.
+    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's centre is at column (1 + 3/(8·0.36))/2 · 1024 =
+    // 1045, so that its left part is in the image.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
     // Near's upper edge lies at y = 0.5, row 28.4; its left edge at x = −0.2, column 369.8.

@@ -112,7 +112,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     EXPECT_EQ(scaleOf(request()), 1);
 }
 
-// An object has the same blur in a file in metres and in a file in centimetres, unless the unit is wrong.
+// An object has the same blur in a file in metres and in a file in centimetres. A wrong unit changes the blur.
 TEST_F(SceneScale, blurIsThatOfTheThing) {
     save(squareOf(2));
     const double inMetres = blurOf(request());
