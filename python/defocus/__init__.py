@@ -243,8 +243,8 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
         for image, samples in defocus.progressive("scene.glb", samples=1024):
             ...
 
-    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. The
-    call raises errors of keywords; the first step raises errors of the scene.
+    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. The call
+    raises an error for invalid keywords; the first step raises an error for a faulty scene.
     """
     _request_of(scene, settings)
 
