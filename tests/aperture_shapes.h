@@ -1,6 +1,6 @@
 #pragma once
-// Aperture shapes and their light distribution, computed from the definitions. Tests compare aperture maps, the
-// rasterizer and the ray tracer with them.
+// Reference aperture shapes and their light distributions, computed from the definitions. Tests compare aperture maps,
+// the rasterizer and the ray tracer with these references.
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace defocus::engine {
 
-// Radius of the aperture polygon in the direction of `p`, with the curvature of the blades. The first corner lies at
-// the lens's rotation.
+// Returns the radius of the aperture polygon in the direction of `p`, including the curvature of the blades. The first
+// corner lies at the angle Lens::bladeRotation.
 inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     if (lens.bladeCount == 0) return 1;
     const double width = 2 * std::numbers::pi / lens.bladeCount;
@@ -24,11 +24,11 @@ inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
 }
 
-// Density of the light at a point of the lens, up to a constant factor.
+// Returns the density of the light at a point of the lens, up to a constant factor.
 inline double lightDensity(const Lens& lens, glm::dvec2 p) {
     p.x *= std::max(lens.anamorphicRatio, 1.0);
     p.y /= std::min(lens.anamorphicRatio, 1.0);
-    // Share of the aperture nearer to the centre than p.
+    // Fraction of the aperture's area that the outline, scaled so that it passes through p, encloses.
     const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);
     const double hidden = lens.obstruction * lens.obstruction;
     if (area > 1 || area < hidden) return 0;
@@ -74,7 +74,7 @@ inline const ApertureShape apertureShapes[] = {
     {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
 };
 
-// Value of the aperture image's pixel under a point of the lens; 0 outside the unit disk.
+// Returns the aperture image's pixel at a point of the lens; 0 outside the unit disk.
 inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     const double half = 0.5 * std::max(image.width, image.height);
     const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));
@@ -83,8 +83,8 @@ inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     return *image.at(x, y);
 }
 
-// Light distribution over the lens: the aperture image if the lens has one, else the density of its shape. Rotation and
-// squeeze of the image are ignored.
+// Returns the light distribution over the lens as a function: the aperture image if the lens has one, else
+// lightDensity(). Blade rotation and anamorphic ratio do not apply to the image.
 inline auto lightOf(const Lens& lens) {
     return [lens](const glm::dvec2& p) {
         return lens.apertureImage ? apertureImageAt(*lens.apertureImage, p) : lightDensity(lens, p);

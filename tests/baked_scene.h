@@ -12,7 +12,8 @@
 
 namespace defocus::engine {
 
-// Textured materials get distinct colours from a palette, so that the parts of the scene remain distinguishable.
+// Returns the colour of a material. Textured materials get different colours from a palette, so that the parts of the
+// scene remain distinguishable without textures.
 inline glm::vec4 bakedColor(const Material& material, std::size_t index) {
     constexpr std::array<glm::vec3, 6> palette = {glm::vec3(0.80f, 0.35f, 0.20f), glm::vec3(0.25f, 0.55f, 0.75f),
                                                   glm::vec3(0.70f, 0.65f, 0.25f), glm::vec3(0.35f, 0.65f, 0.35f),

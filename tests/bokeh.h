@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with closed-form images, a small emissive quad on black through a lens, and measurements of their images.
+// Scenes with known images, such as a blurred emissive square on black, and measurements of rendered images.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace defocus::engine {
 
-// A camera at the origin, 50 mm on a 36 mm sensor. Its lens is half a metre wide, so that small images show large
-// blurs: c = 0.694·W·|1/2 − 1/z| px, or 0.231·W at 1.2 m and at 6 m.
+// Returns a camera at the origin: 50 mm on a 36 mm sensor, focused at 2 m. The aperture is 0.5 m wide, so that small
+// images show large blurs: the diameter at depth z is 0.694·W·|1/2 − 1/z| px, which is 0.231·W at 1.2 m and at 6 m.
 inline View bokehView(int width, int height) {
     View view;
     view.width = width;
@@ -32,13 +32,14 @@ inline double tanHalf(const View& view) {
     return view.lens.horizontalAperture / (2 * view.lens.focalLength);
 }
 
-// Blur diameter in px by the formula of DESIGN, c = A·|1/s − 1/z|·W / (2 tan(θx/2)).
+// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with aperture diameter A, focus distance s and
+// depth z in m.
 inline double blurDiameter(const View& view, double depth) {
     const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
     return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width / (2 * tanHalf(view));
 }
 
-// The camera-space point at `depth` that projects to (column, row) in px from the image's top left corner.
+// Returns the camera-space point at `depth` that projects to (column, row) in px from the image's top left corner.
 inline glm::dvec3 pointAt(const View& view, double column, double row, double depth) {
     const double pixel = 2 * tanHalf(view) * depth / view.width;  // m
     return {(column - view.width / 2.0) * pixel, (view.height / 2.0 - row) * pixel, -depth};
@@ -52,7 +53,7 @@ struct Rectangle {  // px from the image's top left corner
     double depth = 1;  // m
 };
 
-// An unlit rectangle facing the camera, at the origin of the scene's space, single-sided.
+// Returns a single-sided rectangle that faces a camera at the origin and covers `area` in its image.
 inline Mesh rectangleMesh(const View& view, const Rectangle& area, int material) {
     Mesh mesh;
     for (const glm::dvec2& corner : {glm::dvec2(area.left, area.bottom), glm::dvec2(area.right, area.bottom),
@@ -80,7 +81,7 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
     return scene;
 }
 
-// World of a scene whose nodes are all roots without children; it has no pyramids.
+// Returns the world of a scene whose nodes are all roots without children. The world has no pyramids.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
     world.scene = std::make_shared<const Scene>(scene);
@@ -101,8 +102,9 @@ inline Environment blackBackground() {
     return environment;
 }
 
-// Expected image of a centred square of `square` px at a depth behind the focus. The light sums to `energy`. `light`, a
-// function of the lens position, is convolved with the square and the pixels.
+// Returns the expected image of a centred square of `square` px at a depth behind the focus plane: the convolution of
+// the lens's light distribution `light`, a function of the lens position, with the square and the pixels. Pixels sum to
+// `energy`.
 template <typename Light>
 Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
     constexpr int size = 400;  // grid points along each side of the lens
@@ -128,7 +130,7 @@ Image expectedBokeh(const View& view, double depth, double square, double energy
     return image;
 }
 
-// Share of the light that lies in different blocks of 2 × 2 px in `a` and `b`, measured in the first channel.
+// Returns the fraction of b's light that must move between blocks of 2 × 2 px to give `a`, in the first channel.
 inline double misplacedLight(const Image& a, const Image& b) {
     double sum = 0;
     double all = 0;

@@ -9,7 +9,7 @@
 
 #include "gl_conduct.h"
 
-// epoxy must precede EGL's own headers
+// libepoxy's headers must precede the system's EGL headers
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ const char* extensionOf(GLenum stage) {
     }
 }
 
-// Redirects a pointer of libepoxy to `mine` and keeps its original value. Initially that is libepoxy's resolver, which
-// must be called through the pointer: it looks up the driver's function and stores it there.
+// Redirects a function pointer of libepoxy to `mine` and keeps its original value. The original value may be libepoxy's
+// resolver, which must be called through the pointer: it looks up the driver's function and stores it there.
 template <typename Function>
 class Detour {
 public:
@@ -123,7 +123,7 @@ void EPOXY_CALLSPEC report(GLenum /*source*/, GLenum type, GLuint id, GLenum sev
     if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
     const std::string_view said(text,
                                 length < 0 ? std::char_traits<char>::length(text) : static_cast<std::size_t>(length));
-    // NVIDIA's driver recompiles a shader for the state of its first draw and reports that.
+    // NVIDIA's driver recompiles a shader for the state of its first draw and reports the recompilation.
     if (type == GL_DEBUG_TYPE_PERFORMANCE && said.find("is being recompiled") != std::string_view::npos) return;
     const std::scoped_lock lock(mutex);
     if (expected > 0) return;
@@ -184,7 +184,7 @@ public:
             std::ofstream(folder / name) << text;
             files[name] = &text;
         }
-        // Validates all shaders at once; after a failure one by one, to find the wrong ones.
+        // Validates all shaders at once. If that fails, validates them one by one to find the invalid ones.
         if (!outputOf(validate + "*.*").second)
             for (const auto& [name, text] : files) {
                 const auto [output, valid] = outputOf(validate + name);

@@ -1,5 +1,5 @@
 #pragma once
-// gl_conduct.cpp watches the OpenGL calls of tests with "_gl" in their names.
+// Controls how gl_conduct.cpp watches the OpenGL calls of tests with "_gl" in their file names.
 
 #include <gtest/gtest.h>
 
@@ -14,12 +14,12 @@ public:
     ExpectedGlMessages& operator=(const ExpectedGlMessages&) = delete;
 };
 
-// Returns whether the tests run on the second OpenGL implementation (zink; DEFOCUS_EXPECTED_DRIVER is set).
+// Returns whether the tests run on the second OpenGL driver (zink): DEFOCUS_EXPECTED_DRIVER is set.
 bool onSecondDriver();
 
 }  // namespace defocus::engine
 
-// Skips a long test on the second OpenGL implementation. In SetUp, skips all tests of a fixture.
+// Skips a long test on the second OpenGL driver. In SetUp, skips all tests of a fixture.
 #define SKIP_ON_SECOND_DRIVER()              \
     if (::defocus::engine::onSecondDriver()) \
     GTEST_SKIP() << "takes hundreds of samples; shorter tests use the same driver features"

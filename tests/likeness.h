@@ -20,7 +20,8 @@ inline bool sameBits(const Image& a, const Image& b) {
     return sameBits(a.pixels, b.pixels);
 }
 
-// Max absolute difference over all channels and pixels; infinite if a value is NaN. The images must have the same size.
+// Returns the max absolute difference over all channels and pixels; infinity if a value is NaN. The images must have
+// the same size.
 inline double largestDifference(const Image& a, const Image& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
-// Finds models for tests. The project's own (meshes/…) and small public ones (tests/data/models) are in the repository.
-// Larger public models lie in $DEFOCUS_MODELS_DIR, or in a folder beside the checkout by default. Tests skip if their
-// model is absent.
+// Finds models for tests. The project's own models (meshes/…) and small public ones (tests/data/models) are in the
+// repository. Larger public models lie in $DEFOCUS_MODELS_DIR; default: a folder beside the checkout. Tests skip if
+// their model is absent.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Folders of public models: those in the repository, and the complete set.
+// Return the folders of public models: the small ones in the repository, and the complete set.
 inline std::filesystem::path keptModelsDirectory() {
     return std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models";
 }
@@ -22,8 +22,8 @@ inline std::filesystem::path modelsDirectory() {
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
 }
 
-// A name that begins with "meshes/" or "tests/" is relative to the repository's root. Other names are those of public
-// models.
+// Returns the path of a model. A name that begins with "meshes/" or "tests/" is relative to the repository's root; all
+// others are names of public models.
 inline std::filesystem::path modelPath(const std::filesystem::path& name) {
     if (!name.empty() && (*name.begin() == "meshes" || *name.begin() == "tests"))
         return std::filesystem::path(DEFOCUS_SOURCE_DIR) / name;

@@ -1,5 +1,5 @@
 #pragma once
-// A scene file at one time, and the same scene with each object's posed vertices baked into a static mesh.
+// Loads a scene file at a time, and bakes the posed vertices of each object into a static mesh.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Models with animated skins and morph targets, and the clip of each.
+// A model with animated skins or morph targets, and the index of its clip.
 struct PosedModel {
     const char* file;
     int clip;
@@ -38,7 +38,7 @@ inline void poseWorld(SmallWorld& small, double time, int clip) {
     small.world.pose = poseAt(small.scene, time, clip);
 }
 
-// Loads a scene at a time of a clip, seen through the camera that frames the scene at that time.
+// Returns a scene at a time of a clip, seen through the camera that frames the scene at that time.
 inline std::unique_ptr<SmallWorld> posedWorld(const std::filesystem::path& path, double time, int clip) {
     auto small = std::make_unique<SmallWorld>();
     small->scene = loadGltf(path);
@@ -57,7 +57,7 @@ inline std::unique_ptr<SmallWorld> posedWorld(const std::filesystem::path& path,
     return small;
 }
 
-// Level `level` of an object's pyramid in world space, relative to `origin` so that float precision suffices.
+// Returns level `level` of an object's pyramid in world space, relative to `origin` so that float precision suffices.
 inline Mesh bakedLevel(const Mesh& mesh, const Pyramid& pyramid, std::uint32_t level, const Object& object,
                        const glm::dvec3& origin) {
     Mesh flat = mesh;
@@ -92,8 +92,8 @@ inline Mesh bakedLevel(const Mesh& mesh, const Pyramid& pyramid, std::uint32_t l
     return flat;
 }
 
-// The same scene without skins and morph targets: one mesh for each object, at level `level` or the object's coarsest
-// level.
+// Returns the same scene without skins and morph targets: one mesh for each object, at level `level` or at the object's
+// coarsest level if that is finer.
 inline std::unique_ptr<SmallWorld> bakedWorld(const SmallWorld& small, std::uint32_t level) {
     auto baked = std::make_unique<SmallWorld>();
     baked->scene = small.scene;

@@ -1,5 +1,5 @@
 #pragma once
-// Memory and handles of a running process, from /proc.
+// Reads memory and handles of a running process from /proc.
 
 #include <sys/types.h>
 
@@ -29,7 +29,7 @@ inline Held heldBy(pid_t process) {
     return held;
 }
 
-// Number of rounds from an environment variable, which scripts/soak sets higher than the default.
+// Returns a number of rounds from an environment variable, else `standard`. scripts/soak sets higher numbers.
 inline int roundsOr(const char* variable, int standard) {
     const char* const text = std::getenv(variable);
     return text != nullptr ? std::atoi(text) : standard;

@@ -28,7 +28,7 @@ private:
     std::filesystem::path path_;
 };
 
-// Returns the message of the Error that `body` throws; empty if it throws none.
+// Returns the message of the exception of type ErrorType that `body` throws; empty if `body` throws none.
 template <typename ErrorType, typename Body>
 std::string messageOf(const Body& body) {
     try {

@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes for tests of plan and renderer: bumpy spheres and quads with pyramids.
+// Small scenes for tests of plans and renderers: bumpy spheres and quads with pyramids.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -25,7 +25,7 @@ private:
     explicit SmallWorld(const std::shared_ptr<Scene>& owned) : scene(*owned) { world.scene = owned; }
 };
 
-// A rippled sphere of radius 1, with about 2 · slices · stacks triangles.
+// Returns a rippled sphere of radius 1 with about 2 · slices · stacks triangles.
 inline Mesh bumpySphere(int slices, int stacks, int material) {
     Mesh mesh;
     mesh.name = "sphere";
@@ -56,7 +56,7 @@ inline Mesh bumpySphere(int slices, int stacks, int material) {
     return mesh;
 }
 
-// The square [−1, 1]² in the plane z = 0, facing +z.
+// Returns the square [−1, 1]² in the plane z = 0, facing +z.
 inline Mesh quad(int material) {
     Mesh mesh;
     mesh.name = "quad";
@@ -85,8 +85,8 @@ inline void finish(SmallWorld& small) {
     small.world.pyramids = buildPyramids(small.scene.meshes);
 }
 
-// Five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient sky.
-// The lens is f/1 at 160 × 120 px, focused at 3 m.
+// Returns five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient
+// sky. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -112,7 +112,7 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     small->view.lens.focusDistance = 3;
     small->view.width = 160;
     small->view.height = 120;
-    // Built once for all tests of a process, since it takes longer than most of them.
+    // Pyramids are built once for all tests of a process, since this takes longer than most tests.
     static const std::vector<Pyramid> pyramids = buildPyramids(small->scene.meshes);
     small->world.pyramids = pyramids;
     return small;

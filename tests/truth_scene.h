@@ -1,6 +1,6 @@
 #pragma once
-// Scenes on which the rasterizer is compared with the ray tracer, baked to unlit materials, each with a view through a
-// wide lens. Further functions compare two images in more detail than a single number.
+// Scenes for comparing the rasterizer with the ray tracer: baked to unlit materials, each with a view through a wide
+// lens. Further functions compare two images in more detail than a single number.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,8 @@ struct TruthScene {
 
 namespace truth_detail {
 
-// Focuses at a third of the scene's depth, and sets the f-number that blurs the nearest or farthest point by `blur` px.
+// Focuses at a third of the scene's depth range, and sets the f-number that blurs the nearest or farthest point by
+// `blur` px. Values of the camera's own lens take precedence.
 inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
     View& view = baked.view;
     const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
@@ -53,8 +54,8 @@ inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
 
 }  // namespace truth_detail
 
-// A scene at full detail, `width` × `height` px. The lens is the camera's own, if it has one. Otherwise the blur is at
-// most 24 px, for a width of 512 px.
+// Returns the scene at full detail in an image of `width` × `height` px. The lens is the camera's own, if it has one;
+// otherwise the blur is at most 24 px at a width of 512 px.
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
     auto baked = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
     baked->world.pose = poseAt(baked->scene, 0, -1);
@@ -80,7 +81,7 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
     return settings;
 }
 
-// Mean signed difference b − a over blocks of 32 × 32 px and three channels.
+// Signed difference b − a of two images, averaged over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
     double mean = 0;     // over the whole image
     double rms = 0;      // RMS of the blocks' means
@@ -110,7 +111,7 @@ inline BlockDifference blockDifference(const Image& a, const Image& b) {
     return result;
 }
 
-// Shift in px (right, down) and relative growth about the centre of `b` against `a`. Least-squares fit of the
+// Shift in px (right, down) and relative growth about the centre of an image `b` against `a`: least-squares fit of the
 // first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade 1981).
 struct Misplacement {
     double right = 0;
@@ -137,7 +138,7 @@ inline Misplacement misplacement(const Image& a, const Image& b) {
     return {solved.x, solved.y, solved.z};
 }
 
-// Share of the change `from` → `to` in the change a → b: the factor of the least-squares fit.
+// Returns the least-squares factor k in b − a ≈ k·(to − from).
 inline double shareOfChange(const Image& a, const Image& b, const Image& from, const Image& to) {
     double along = 0;
     double square = 0;
@@ -149,7 +150,7 @@ inline double shareOfChange(const Image& a, const Image& b, const Image& from, c
     return along / square;
 }
 
-// Signed difference b − a times `gain` around middle grey, for visual inspection.
+// Returns the signed difference b − a times `gain`, around middle grey, for visual inspection.
 inline Image differenceImage(const Image& a, const Image& b, float gain) {
     Image result(a.width, a.height, 3);
     for (int y = 0; y < a.height; ++y) {

@@ -1,5 +1,5 @@
 #pragma once
-// Plan of a frame: the levels of detail that each lens sample draws, and the omitted parts with the reason.
+// Plan of a frame: which levels of detail each lens sample draws, and which parts are omitted for which reason.
 
 #include <cstdint>
 #include <optional>
@@ -35,12 +35,12 @@ struct PlannedObject {
     double largestCoc = 0;
     double projectedEdge = 0;        // px, mean edge length of level 0, projected at the nearest depth
     double lambda = 0;               // fractional level of detail λ
-    double pixelRate = 1;            // fraction of the resolution per axis needed with blurred lens cells
-    bool blended = false;            // true if it has alpha-blended materials
-    bool transmits = false;          // true if it has transmitting materials
-    bool moves = false;              // true if it moves during the exposure
+    double pixelRate = 1;            // render resolution per axis with blurred lens cells; 1: full
+    bool blended = false;            // true if the object has alpha-blended materials
+    bool transmits = false;          // true if the object has transmitting materials
+    bool moves = false;              // true if the object moves during the exposure
     std::vector<PlannedDraw> draws;  // 1 or 2, the coarser level first
-    // With LodMode::continuous, one sample may draw both levels: fraction of its pixels that draw the coarser level.
+    // With LodMode::continuous, one sample may mix both levels: fraction of its pixels with the coarser level.
     std::optional<double> boundaryShare;
 };
 
@@ -63,7 +63,7 @@ struct Plan {
     Vector3 cameraRight{};
     Vector3 cameraUp{};
     Vector3 cameraBack{};
-    // Lens, with the values of the request, the file and the defaults. Limits of the blur without a value are infinite.
+    // Lens settings in effect: from the request, else the file, else the defaults. Unset blur limits are infinite.
     LensSettings lens;
     bool hasApertureImage = false;
     double focusDistance = 0;     // m; +∞ for focus at infinity
@@ -74,7 +74,7 @@ struct Plan {
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // px
-    std::uint64_t moments = 0;        // moments of the exposure at which the scene is posed; 0: nothing moves
+    std::uint64_t moments = 0;        // number of times at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
     // Levels of detail. Thresholds are those of Request, or their defaults.
     LodMode lod = LodMode::fractional;
@@ -88,8 +88,8 @@ struct Plan {
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // px per side
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
-    // Method "multirate": standard deviation of the blur of a sample's image, relative to the circle of confusion. 0 if
-    // images cannot be blurred; lensCellReason is then the reason.
+    // Method "multirate": standard deviation of the blur of each sample's image, relative to the diameter of the circle
+    // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
     std::vector<PlannedObject> objects;  // front to back
@@ -101,8 +101,8 @@ struct Plan {
     std::uint64_t trianglesAtFullDetail = 0;
 };
 
-// Returns the plan for a request, without rendering and without a GPU. Throws Error under the conditions of
-// SceneRenderer's constructor.
+// Returns the plan for a request, without rendering and without a GPU. Throws the errors of SceneRenderer's
+// constructor.
 DEFOCUS_API Plan plan(const Request& request, const Progress& progress = {});
 
 // Returns the plan as JSON, like `defocus plan --json`. Infinite values are null.

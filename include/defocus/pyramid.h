@@ -28,8 +28,8 @@ struct Pyramid {
     std::vector<PyramidLevel> levels;  // level 0 is the full mesh
 };
 
-// Returns the pyramids of a request's scene: builds them or reads them from the cache. Needs no GPU. Throws Error under
-// the conditions of SceneRenderer's constructor.
+// Returns the pyramids of a request's scene: builds them or reads them from the cache. Needs no GPU. Throws the errors
+// of SceneRenderer's constructor.
 DEFOCUS_API std::vector<Pyramid> pyramids(const Request& request, const Progress& progress = {});
 
 // Returns the pyramids as JSON: an object with the array `meshes`.

@@ -38,9 +38,9 @@ DEFOCUS_API Matrix4 lookAt(const Vector3& position, const Vector3& target, const
 struct MeshData {
     std::string name = {};
     std::span<const std::array<float, 3>> positions = {};
-    std::span<const std::array<float, 3>> normals = {};  // of any length > 0. Default: flat shading
+    std::span<const std::array<float, 3>> normals = {};  // any length > 0. Default: flat shading
     std::span<const std::array<float, 2>> uvs = {};  // (0, 0) is the texture's top left corner, (1, 1) its bottom right
-    std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiply the base colour
+    std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiplies the base colour
     // Three indices into the arrays per triangle; front faces are counter-clockwise. Default: vertices 0, 1, 2, then 3,
     // 4, 5, and so on.
     std::span<const std::uint32_t> indices = {};
@@ -49,7 +49,7 @@ struct MeshData {
 
 enum class TextureContent {
     color,  // linear Rec.709 with premultiplied alpha, like an Image: base colour, emission
-    data,   // numbers: metalness and roughness, normals, occlusion, transmission
+    data,   // linear values: metalness and roughness, normals, occlusion, transmission
 };
 enum class TextureWrap { repeat, clampToEdge, mirroredRepeat };
 enum class TextureFilter { nearest, linear };
@@ -76,21 +76,21 @@ enum class AlphaMode {
     blend,   // alpha is coverage
 };
 
-// Metallic-roughness material. A texture multiplies the values beside it. Textures are indices into
-// SceneData::textures; −1: none.
+// Metallic-roughness material. Texture values multiply the factors of the same name. Textures are indices into
+// SceneData::textures; −1: none. Colour textures need TextureContent::color, data textures TextureContent::data.
 struct MaterialData {
     std::string name = {};
     std::array<float, 4> baseColor = {1, 1, 1, 1};  // RGBA in [0, 1], straight alpha
-    int baseColorTexture = -1;                      // colour
+    int baseColorTexture = -1;                      // colour texture
     float metallic = 1;                             // [0, 1]
     float roughness = 1;                            // [0, 1]
-    int metallicRoughnessTexture = -1;              // data: roughness in G, metalness in B
-    int normalTexture = -1;                         // data: tangent space, +y up, (n + 1)/2
+    int metallicRoughnessTexture = -1;              // data texture: roughness in G, metalness in B
+    int normalTexture = -1;                         // data texture: (n + 1)/2 of a normal n in tangent space, +y up
     float normalScale = 1;                          // factor on the x and y of normalTexture
-    int occlusionTexture = -1;                      // data: occlusion in R
+    int occlusionTexture = -1;                      // data texture: occlusion in R
     float occlusionStrength = 1;                    // [0, 1]
     std::array<float, 3> emission = {0, 0, 0};      // emitted radiance, ≥ 0
-    int emissionTexture = -1;                       // colour
+    int emissionTexture = -1;                       // colour texture
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  // ≥ 0
     bool doubleSided = false;
@@ -98,13 +98,14 @@ struct MaterialData {
 
     float ior = 1.5f;              // index of refraction, ≥ 1; 0: reflects all light
     float transmission = 0;        // [0, 1]; fraction of light that passes through the surface
-    int transmissionTexture = -1;  // data: transmission in R
+    int transmissionTexture = -1;  // data texture: transmission in R
     float thickness = 0;           // ≥ 0, in mesh units; 0: thin wall without refraction
-    float attenuationDistance = std::numeric_limits<float>::infinity();  // > 0, at which light is attenuationColor
+    // Absorption: after attenuationDistance, white light has the colour attenuationColor.
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // > 0; +∞: no absorption
     std::array<float, 3> attenuationColor = {1, 1, 1};                   // [0, 1]
 };
 
-// A mesh at a place in the scene.
+// An object of the scene: a mesh with a transform.
 struct InstanceData {
     std::string name = {};  // name of the node. Default: the mesh's name
     int mesh = 0;           // index into SceneData::meshes
@@ -114,10 +115,10 @@ struct InstanceData {
 struct CameraData {
     std::string name = {};
     Matrix4 transform = identityMatrix;
-    double yfov = 0.6911112;                   // full vertical angle, in (0, π); replaced by lens.focalLength
+    double yfov = 0.6911112;                   // full vertical angle, in (0, π); unused with lens.focalLength
     double znear = 0.01;                       // > 0; surfaces that are nearer are invisible
     std::optional<double> focusDistance = {};  // along the view axis, > 0. Default: FocusAuto
-    LensSettings lens = {};                    // in its own units. Default: the library's; apertureImage must be empty
+    LensSettings lens = {};                    // units and defaults of LensSettings; apertureImage must be empty
 };
 
 enum class LightType { directional, point, spot };
@@ -126,14 +127,14 @@ enum class LightType { directional, point, spot };
 struct LightData {
     std::string name = {};
     LightType type = LightType::directional;
-    Matrix4 transform = identityMatrix;      // its scale has no effect
+    Matrix4 transform = identityMatrix;      // scale has no effect
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
     float intensity = 1;                     // lux (directional) or candela (point, spot), ≥ 0
     float range = 0;                         // maximum distance of lit surfaces (point, spot); 0: unlimited
-    float innerConeAngle = 0;                // from the axis of a spot light: 0 ≤ inner < outer ≤ π/2
+    float innerConeAngle = 0;                // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
     float outerConeAngle = 0.785398163f;
-    float angularDiameter = 0.00925f;  // of a directional light, [0, π]; softens shadows
-    float radius = 0.03f;              // m, of a point or spot light, ≥ 0; softens shadows
+    float angularDiameter = 0.00925f;  // directional light: [0, π]; softens shadows
+    float radius = 0.03f;              // point or spot light: m, ≥ 0; softens shadows
 };
 
 struct SceneData {

@@ -11,7 +11,7 @@ a point or a colour is a tuple, and `node_blur` is a dictionary. None leaves a s
 
 Images are C-contiguous float32 arrays: H×W×4 (or H×W×3, or H×W for data), row 0 at the top, linear Rec.709, alpha
 premultiplied. Rendered arrays are writable and own the renderer's pixels without a copy. Functions that take images
-read such arrays without a copy.
+read such arrays in place.
 
 Calls release the GIL, so that other threads run, and Ctrl-C cancels them. A function passed as `progress` is called as
 progress(stage, done, total). An exception that it raises cancels the call and propagates to the caller.
@@ -88,7 +88,7 @@ class Aovs(NamedTuple):
     """Per-pixel data of the nearest surface at the pixel's centre in a pinhole view: H×W each."""
 
     depth: numpy.ndarray  # m along the view axis; infinity for pixels without a surface
-    coc: numpy.ndarray  # signed diameter of the circle of confusion in px, > 0 behind the focus plane
+    coc: numpy.ndarray  # diameter of the circle of confusion in px; > 0 behind the focus plane, < 0 in front of it
     level: numpy.ndarray  # fractional level of detail of the object; −1 for pixels without a surface
 
 
@@ -120,15 +120,15 @@ def settings() -> List[Setting]:
 
 
 class Renderer:
-    """Renders frames of one scene, whose meshes are loaded and simplified once.
+    """Renders frames of one scene. Loads and simplifies its meshes once.
 
         with defocus.Renderer("scene.glb", samples=128) as renderer:
             for f_stop in (1.4, 2.8, 5.6):
                 image = renderer.render(f_stop=f_stop)
 
     Settings given to `render` and `start` replace those of the constructor for that frame; None unsets a setting.
-    Threads may share a renderer; its calls run one after another. `close()`, or the end of the `with` block, frees its
-    memory.
+    Threads may share a renderer; its calls run one after another. `close()`, or the end of the `with` block, frees the
+    renderer's memory.
     """
 
     @_takes_settings
@@ -165,7 +165,7 @@ class Renderer:
 
     @_takes_settings
     def start(self, **settings: Any) -> None:
-        """Starts a frame, which advance() draws."""
+        """Starts a frame; each call of advance() then draws some of its samples."""
         self._native.start(self._request(settings))
         self._warn()
 
@@ -184,7 +184,7 @@ class Renderer:
 
     @property
     def sample_total(self) -> int:
-        """Number of samples of the complete frame."""
+        """Number of samples in the complete frame."""
         return self._native.sample_total()
 
     @property
@@ -207,7 +207,7 @@ class Renderer:
         return Aovs(*self._native.aovs())
 
     def plan(self) -> Dict[str, Any]:
-        """Returns the plan of the latest frame, as `defocus plan --json` prints it."""
+        """Returns the plan of the latest frame as a dictionary with the keys of `defocus plan --json`."""
         return json.loads(self._native.plan_json())
 
     def write(self, path: Path, image: Any) -> None:
@@ -243,8 +243,8 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
         for image, samples in defocus.progressive("scene.glb", samples=1024):
             ...
 
-    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. Invalid
-    keywords raise in the call; errors in the scene raise in the first step.
+    Each image is a new array. The renderer is freed with the generator, or by the generator's `close()`. The call
+    raises an error for invalid keywords; the first step raises an error for a faulty scene.
     """
     _request_of(scene, settings)
 
@@ -257,19 +257,20 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
 
 @_takes_settings
 def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
-    """Returns the plan of a frame as `defocus plan --json` prints it: blur, levels and samples of each object, and
-    omitted parts with the reason. Needs no GPU and renders nothing."""
+    """Returns the plan of a frame as a dictionary with the keys of `defocus plan --json`: blur, levels and samples of
+    each object, and omitted parts with the reason. Needs no GPU and renders nothing."""
     return json.loads(_defocus.plan_json(_request_of(scene, settings), _listener(progress)))
 
 
 @_takes_settings
 def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
-    """Returns the levels of detail of each mesh of a scene: number of triangles; mean edge and error in mesh units."""
+    """Returns the levels of detail of each mesh of a scene, each with its number of triangles, and its mean edge length
+    and error in mesh units."""
     return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
 
 
 def compare(reference: Any, test: Any) -> Difference:
-    """Returns the difference between two linear images of the same size, each an array or a file."""
+    """Returns the difference between two linear images of the same size, each an array or a path."""
     native = _defocus.compare(_pixels(reference), _pixels(test))
     return Difference(*(getattr(native, name) for name in Difference._fields))
 
@@ -294,7 +295,7 @@ def _listener(progress: Optional[Progress]) -> Optional[Progress]:
 
 
 def _pixels(image: Any) -> numpy.ndarray:
-    """Returns an image (array or path) as float32 pixels that C++ can read in place; copies only if necessary."""
+    """Returns an image (array or path) as float32 pixels that C++ can read in place. Copies arrays of other layouts."""
     if isinstance(image, (str, os.PathLike)):
         return read_image(image)
     array = numpy.asarray(image)

@@ -1,4 +1,4 @@
-"""Scenes made of NumPy arrays: the parts that Scene.create takes, and their conversion to C++."""
+"""Scenes made of NumPy arrays: the parts that Scene.create takes, and the conversion of these parts to C++."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Texture:
     channel."""
 
     image: Any
-    content: str = "color"  # "color": linear Rec.709 with premultiplied alpha; "data": numbers, such as normals
+    content: str = "color"  # "color": linear Rec.709 with premultiplied alpha; "data": linear values, such as normals
     straight_alpha: bool = False  # True: the alpha of the colours is straight, not premultiplied
     wrap_u: str = "repeat"  # or "clamp_to_edge", "mirrored_repeat"
     wrap_v: str = "repeat"
@@ -35,16 +35,17 @@ class Texture:
 
 @dataclasses.dataclass(eq=False)
 class Material:
-    """A metallic-roughness material of glTF. A texture multiplies the values beside it."""
+    """A metallic-roughness material of glTF. Texture values multiply the factors of the same name. Base colour and
+    emission need textures with the content "color"; all others need "data"."""
 
     base_color: Color = (1, 1, 1, 1)  # RGB or RGBA in [0, 1], linear
     base_color_texture: Optional[Texture] = None
     metallic: float = 1
     roughness: float = 1
-    metallic_roughness_texture: Optional[Texture] = None  # data: roughness in G, metalness in B
-    normal_texture: Optional[Texture] = None  # data: (n + 1)/2 in tangent space, +y up
+    metallic_roughness_texture: Optional[Texture] = None  # roughness in G, metalness in B
+    normal_texture: Optional[Texture] = None  # (n + 1)/2 of a normal n in tangent space, +y up
     normal_scale: float = 1
-    occlusion_texture: Optional[Texture] = None  # data: occlusion in R
+    occlusion_texture: Optional[Texture] = None  # occlusion in R
     occlusion_strength: float = 1
     emission: Color = (0, 0, 0)  # emitted radiance, ≥ 0
     emission_texture: Optional[Texture] = None
@@ -54,7 +55,7 @@ class Material:
     unlit: bool = False  # True: the base colour is shown without lighting
     ior: float = 1.5
     transmission: float = 0
-    transmission_texture: Optional[Texture] = None  # data: transmission in R
+    transmission_texture: Optional[Texture] = None  # transmission in R
     thickness: float = 0  # in mesh units; 0: thin wall without refraction
     attenuation_distance: float = math.inf
     attenuation_color: Color = (1, 1, 1)
@@ -63,11 +64,11 @@ class Material:
 
 @dataclasses.dataclass(eq=False)
 class Mesh:
-    """Triangles with one material, as arrays with a row per vertex."""
+    """Triangles with one material. Arrays of vertex attributes have one row per vertex."""
 
     positions: Any  # N×3
-    indices: Any = None  # integers, M×3; front faces are counter-clockwise. Default: each three positions
-    normals: Any = None  # N×3, of any length. Default: flat shading
+    indices: Any = None  # M×3 integers; front faces are counter-clockwise. Default: 0, 1, 2, then 3, 4, 5 …
+    normals: Any = None  # N×3, any length > 0. Default: flat shading
     uvs: Any = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
     colors: Any = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
     material: Optional[Material] = None  # None: glTF's default material
@@ -76,11 +77,11 @@ class Mesh:
 
 @dataclasses.dataclass(eq=False)
 class Instance:
-    """A mesh at a place in the scene."""
+    """An object of the scene: a mesh with a transform."""
 
     mesh: Mesh
     transform: Any = None  # 4×4, with the translation in the last column. Default: the identity
-    name: str = ""  # of the node. Default: the mesh's name
+    name: str = ""  # name of the node. Default: the mesh's name
 
 
 @dataclasses.dataclass(eq=False)
@@ -88,9 +89,9 @@ class Camera:
     """A camera that looks along the −z axis of its transform; see look_at."""
 
     transform: Any = None  # 4×4. Default: the identity
-    yfov: float = 0.6911112  # radians, full vertical angle; replaced by a focal length
+    yfov: float = 0.6911112  # radians, full vertical angle; unused if lens has a focal length
     znear: float = 0.01  # scene units; nearer surfaces are invisible
-    focus_distance: Optional[float] = None  # scene units along the view axis. Default: as with focus_auto
+    focus_distance: Optional[float] = None  # scene units along the view axis. Default: automatic, like focus_auto
     lens: Mapping[str, Any] = dataclasses.field(default_factory=dict)  # settings of the lens, such as {"f_stop": 1.4}
     name: str = ""
 
@@ -104,10 +105,10 @@ class Light:
     color: Color = (1, 1, 1)
     intensity: float = 1  # lux (directional) or candela (point, spot)
     range: float = 0  # scene units; 0: unlimited
-    inner_cone_angle: float = 0  # radians from the axis of a spot light
+    inner_cone_angle: float = 0  # spot light: radians from the axis
     outer_cone_angle: float = math.pi / 4
-    angular_diameter: float = 0.00925  # radians, of a directional light; softens shadows
-    radius: float = 0.03  # m, of a point or spot light; softens shadows
+    angular_diameter: float = 0.00925  # directional light: radians; softens shadows
+    radius: float = 0.03  # point or spot light: m; softens shadows
     name: str = ""
 
 
@@ -120,8 +121,8 @@ def look_at(position: Sequence[float], target: Sequence[float], up: Sequence[flo
 
 def create(instances: Iterable[Union[Instance, Mesh]], *, cameras: Iterable[Camera] = (), lights: Iterable[Light] = (),
            name: str = "", metres_per_unit: float = 1) -> _defocus.Scene:
-    """Creates a scene from arrays, which are copied. A Mesh among the instances stands at the origin. Without cameras,
-    a camera frames the scene; without lights, it has studio lights."""
+    """Creates a scene and copies its arrays. A Mesh among the instances is placed at the origin. Without cameras, the
+    renderer adds a camera that frames the scene; without lights, it adds studio lights."""
     instances = [Instance(item) if isinstance(item, Mesh) else _checked(item, Instance) for item in _items(instances)]
     meshes = _distinct((_checked(instance.mesh, Mesh) for instance in instances), Mesh)
     materials = _distinct((mesh.material for mesh in meshes), Material)
@@ -145,7 +146,7 @@ _choices = {"content": _defocus.TextureContent, "wrap_u": _defocus.TextureWrap, 
 
 
 def _items(parts: Any) -> list:
-    """The parts as a list; a single part is a list of one."""
+    """Returns the parts as a list; a single part becomes a list of one part."""
     single = (Instance, Mesh, Camera, Light)
     try:
         return [parts] if isinstance(parts, single) else list(parts)
@@ -160,7 +161,7 @@ def _checked(part: Any, kind: type) -> Any:
 
 
 def _distinct(parts: Iterable[Optional[Part]], kind: type) -> Dict[Part, int]:
-    """The parts without repetition, in order of first use, with their indices."""
+    """Returns a dictionary from each distinct part to its index, in order of first use. Skips None."""
     return {part: index for index, part in
             enumerate(dict.fromkeys(_checked(part, kind) for part in parts if part is not None))}
 
@@ -172,7 +173,8 @@ def _label(part: Any, index: int) -> str:
 
 def _plain(native: Any, part: Any, index: int, indices: Optional[Mapping[Any, int]] = None,
            skip: Sequence[str] = ()) -> Any:
-    """Copies the fields of a part to the C++ struct with the same members. `indices` numbers the parts it refers to."""
+    """Copies the fields of `part` to `native`, the C++ struct with the same members, and returns `native`. `indices`
+    maps referenced textures or meshes to their indices."""
     label = _label(part, index)
     for field in dataclasses.fields(part):
         key, value = field.name, getattr(part, field.name)
@@ -253,7 +255,7 @@ _snake_case = {re.sub("_(.)", lambda match: match[1].upper(), name): name
 
 
 def _native(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Calls a C++ function. Its errors name members in snake_case."""
+    """Calls a C++ function and returns its result. Replaces camelCase members in its error messages by snake_case."""
     try:
         return function(*arguments)
     except _defocus.UsageError as error:
@@ -276,7 +278,7 @@ def _float32(array: numpy.ndarray) -> numpy.ndarray:
 
 
 def _rows(label: str, name: str, value: Any, *columns: int) -> numpy.ndarray:
-    """An N×columns array of float32."""
+    """Returns `value` as an array of float32 with one of the numbers of `columns`."""
     array = numpy.asarray(value)
     if array.ndim != 2 or array.shape[1] not in columns:
         wanted = " or ".join(f"N×{count}" for count in columns)
@@ -311,7 +313,7 @@ def _indices(label: str, value: Any) -> numpy.ndarray:
 
 
 def _transform(label: str, value: Any) -> list:
-    """The matrix in column-major order."""
+    """Returns the matrix as 16 numbers in column-major order."""
     array = numpy.eye(4) if value is None else numpy.asarray(value)
     if array.shape != (4, 4) or array.dtype.kind not in "fiu":
         raise _defocus.UsageError(f"{label}: transform is {_shape(array)} of {array.dtype}, not 4×4 numbers")

@@ -22,7 +22,7 @@ SCHOOL = ("fish_count", "triangles_per_fish")
 
 
 def text(value: Any, separator: str = ",") -> str:
-    """Returns a value in the command line's syntax; `separator` is put between elements of a sequence."""
+    """Returns a value in the command line's syntax, with `separator` between the elements of a sequence."""
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
@@ -65,7 +65,7 @@ def set_value(request: _defocus.Request, keyword: str, value: Any) -> None:
 
 
 def check_exclusions(given: Mapping[str, Any]) -> None:
-    """Raises UsageError if settings are given that exclude each other."""
+    """Raises UsageError if two of the given settings exclude each other."""
     by_name = {info.name: keyword for keyword, info in INFOS.items()}
     for keyword in given:
         for name in INFOS[keyword].excludes if keyword in INFOS else ():
@@ -74,7 +74,7 @@ def check_exclusions(given: Mapping[str, Any]) -> None:
 
 
 def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
-    """Returns the request for a scene (a path, a Scene or None) and keywords. Keywords with the value None are ignored."""
+    """Returns the request for a scene (a path, a Scene or None) and keywords. Ignores keywords with the value None."""
     request = _defocus.Request()
     given = {keyword: value for keyword, value in settings.items() if value is not None}
     if scene is not None:
@@ -94,7 +94,7 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
 
 
 def takes_settings(function: Function) -> Function:
-    """Decorates a function with **settings: adds all keywords to its signature, for help() and completion."""
+    """Decorator for functions with **settings: adds all keywords to the signature that help() and completion show."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     names = {parameter.name for parameter in own}

@@ -1,16 +1,16 @@
 #pragma once
-// Access to the pixels of an ImageView as one contiguous block.
+// Gives access to the pixels of an ImageView as one contiguous block.
 
 #include "image/image.h"
 
 namespace defocus::engine {
 
-// Returns whether all pixels of a view, by its sizes and strides, lie within ImageView::pixels. Returns false for
-// negative sizes.
+// Returns whether the size and strides of a view keep all its pixels within ImageView::pixels. Returns false for sizes
+// below 1.
 bool coversItsPixels(const ImageView& view);
 
-// Pixels of a view without gaps between rows or pixels. A view without gaps is not copied, so its pixels must outlive
-// this object.
+// Pixels of a view, without gaps between rows or pixels. Pixels are copied only if the view has gaps; otherwise the
+// view's pixels must outlive this object.
 class PackedPixels {
 public:
     // Throws Error if the view extends beyond ImageView::pixels.

@@ -17,7 +17,7 @@ bool normalise(glm::vec3& vector) {
     const glm::dvec3 wide = vector;
     const double length = glm::length(wide);
     if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // Vectors of unit length within single precision stay unchanged.
+    // Vectors whose length is 1 within float precision keep their bits.
     if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
     return true;
 }
@@ -43,7 +43,7 @@ void repairTangents(VertexBlock& block) {
     }
 }
 
-// Sets negative and non-finite weights to 0 and returns the sum of the others.
+// Sets negative and non-finite weights to 0 and returns the sum of the remaining weights.
 double usableSum(glm::vec4& weight) {
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
@@ -53,7 +53,7 @@ double usableSum(glm::vec4& weight) {
     return sum;
 }
 
-// Normalises the weights of all influences to sum 1. Vertices without a positive weight follow their first joint.
+// Scales the skin weights of each vertex to the sum 1. Vertices without a positive weight follow their first joint.
 void repairWeights(VertexBlock& block) {
     Vertices& vertices = block.vertices;
     bool furtherCount = false;

@@ -1,4 +1,5 @@
-// glTF 2.0 specification: meshes (3.7.2), textures (3.8), materials (3.9), cameras (3.10); KHR_lights_punctual.
+// Defaults and ranges follow the glTF 2.0 specification (meshes 3.7.2, textures 3.8, materials 3.9, cameras 3.10) and
+// KHR_lights_punctual.
 #include "scene/scene_from_data.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ void checkRange(const std::string& label, const char* name, const std::array<flo
     for (const float value : values) checkRange(label, name, value, min, max);
 }
 
-// Throws UsageError unless the value is an enumerator; `last` is the last one.
+// Throws UsageError unless the value is an enumerator; `last` is the type's last enumerator.
 template <typename Choice>
 void checkChoice(const std::string& label, const char* name, Choice value, Choice last) {
     if (static_cast<int>(value) >= 0 && value <= last) return;
@@ -72,7 +73,8 @@ glm::dmat4 checkedTransform(const std::string& label, const Matrix4& transform) 
 
 // ---- meshes ---------------------------------------------------------------------------------------------------------
 
-// Returns a vertex attribute as vectors; empty if it is absent. Throws UsageError for NaN, infinity and a wrong count.
+// Returns a vertex attribute as vectors; empty if the attribute is absent. Throws UsageError for NaN, infinity, or a
+// count other than `vertices`.
 template <typename Vector, std::size_t count>
 std::vector<Vector> attribute(const std::string& label, const char* name,
                               std::span<const std::array<float, count>> values, std::size_t vertices) {
@@ -139,7 +141,8 @@ Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
 
 // ---- materials ------------------------------------------------------------------------------------------------------
 
-// Returns the use of a texture. Throws UsageError if it doesn't exist or holds the other kind of content.
+// Returns a reference to texture number `texture`. Throws UsageError if the texture doesn't exist or its content is not
+// `content`.
 TextureUse textureUse(const std::string& label, const char* name, int texture, TextureContent content,
                       std::span<const TextureData> textures) {
     checkIndex(label, "texture", texture, textures.size());
@@ -248,7 +251,7 @@ void addCamera(const std::string& label, const CameraData& data, Scene& scene) {
 }
 
 void addLight(const std::string& label, const LightData& data, Scene& scene) {
-    constexpr double rightAngle = std::numbers::pi / 2 + 1e-4;  // as of files, whose values are rounded
+    constexpr double rightAngle = std::numbers::pi / 2 + 1e-4;  // tolerance as for files, which round the angle
     checkChoice(label, "type", data.type, LightType::spot);
     checkRange(label, "color", data.color, 0, maxFloat);
     checkRange(label, "intensity", data.intensity, 0, maxFloat);
@@ -290,7 +293,7 @@ Scene sceneFromData(const SceneData& data) {
     scene.name = data.name.empty() ? "scene" : shortLine(data.name);
     scene.ownMetresPerUnit = data.metresPerUnit;
 
-    // Materials come before meshes, because their normal maps decide which meshes need tangents.
+    // Add materials before meshes: meshes with normal-mapped materials need tangents.
     each("texture", data.textures, [&](const auto& label, const auto& part) { addTexture(label, part, scene); });
     each("material", data.materials, [&](const auto& label, const auto& part) {
         scene.materials.push_back(materialOf(label, part, data.textures));

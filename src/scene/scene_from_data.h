@@ -9,8 +9,9 @@
 
 namespace defocus::engine {
 
-// Returns the scene with Scene::ownMetresPerUnit set. CameraData::lens is ignored. Throws UsageError that names the
-// faulty part: sizes that don't match, indices and values out of range, NaN or infinity, or a scene without instances.
+// Returns the scene with Scene::ownMetresPerUnit set. CameraData::lens is ignored. Throws UsageError, with the label of
+// the faulty part, for sizes that don't match, indices or values out of range, NaN, infinity, or a scene without
+// instances.
 Scene sceneFromData(const SceneData& data);
 
 // Returns a label for messages, such as "mesh 'Body' (0)", or "mesh 0" without a name.

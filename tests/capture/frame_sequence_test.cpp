@@ -81,7 +81,7 @@ TEST_F(FrameSequence, cameraKeysLookFromPositionToTarget) {
                  Error);
 }
 
-// Rolled by 90°, counter-clockwise seen from +z, the camera's right axis points up.
+// A positive roll is counter-clockwise, seen from behind the camera: at 90°, the camera's right axis points up.
 TEST_F(FrameSequence, cameraKeysRoll) {
     const char* shot = R"({"camera": {"interpolation": "linear", "keys": [
         {"frame": 0, "position": [0, 0, 2], "target": [0, 0, 0]},
@@ -102,7 +102,8 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
 }
 
-// A dolly moves 0.3 m per frame and a node climbs 0.1 m per frame; the test compares both ends of the shutter.
+// The exposure is centred on the frame's time, or begins at it with ShutterPosition::start. The dolly moves 0.3 m per
+// frame, and the node climbs 0.1 m per frame.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
@@ -143,7 +144,7 @@ TEST_F(FrameSequence, focusFollowsNodesAndPullsInDioptres) {
                  Error);
 }
 
-// A focus key's node may lie behind the camera at frames that the key does not affect.
+// The node of a focus key may lie behind the camera at frames that this key does not affect.
 TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     const char* shot =
         R"({"range": [0, 100], "camera": {"dolly": {"distance": 3, "frames": [50, 51]}}, "focus": {"keys": [
@@ -152,7 +153,8 @@ TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     EXPECT_NEAR(frame(shot, 60).view.lens.focusDistance, 1, 1e-9);
 }
 
-// A wall moves from 4 m to 8 m in 2 s. A post stands still at 2 m in front of its left part.
+// Focus on a pixel and automatic focus find the surface that is visible in each frame. A wall recedes from 4 m to 8 m
+// in 2 s; a post at 2 m hides its left part.
 TEST_F(FrameSequence, focusFindsWhatThePictureShowsInEachFrame) {
     Mesh square;
     square.vertices.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -223,7 +225,7 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
     EXPECT_EQ(frame(shot, 0).view.methodValues.at("blurriness-cutoff"), 0.5);
     EXPECT_TRUE(frame("{}", 0).view.methodValues.empty());
 
-    // Keys are checked against the method that is finally chosen.
+    // The keys must fit the method of the request, which overrides the shot's method.
     Shot other = parseShot(shot, "x.json");
     Request request;
     applyShot(other, request);
@@ -239,7 +241,7 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
 }
 
 TEST_F(FrameSequence, lensFollowsTheCamerasOwnValues) {
-    scene_.cameras[0].yfov = 2 * std::atan(0.375);  // 4:3: tan(θx/2) = 0.5
+    scene_.cameras[0].yfov = 2 * std::atan(0.375);  // tan(θx/2) = 0.5 at 4:3
     scene_.cameras[0].lens = {{"fStop", 8}, {"focusDistance", 7}};
     EXPECT_EQ(frame("{}", 0).view.lens.fStop, 8);
     EXPECT_EQ(frame("{}", 0).view.lens.focusDistance, 7);
@@ -277,8 +279,8 @@ TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
     EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
 }
 
-// Exposure time and ISO interpolate by ratios, and each frame is exposed by its own lens. An exposure in EV applies to
-// all frames.
+// Exposure time and ISO are interpolated geometrically, and each frame is exposed by its own lens. An exposure in EV
+// applies to all frames.
 TEST_F(FrameSequence, exposureFollowsTheLens) {
     const char* text = R"({"output": "x/####.png", "lens": {"fStop": 2, "iso": 400, "exposureTime":
         {"interpolation": "linear", "keys": [{"frame": 0, "value": 0.01}, {"frame": 2, "value": 0.04}]}}})";

@@ -27,7 +27,8 @@ TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
     EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
 }
 
-// The file holds every member that version 0.1 could write, except those that exclude each other.
+// Shots of version 0.1 can still be loaded. The file has every member that version 0.1 could write, except members that
+// exclude each other.
 TEST(ShotJson, shotsOfVersion01StillLoad) {
     const std::filesystem::path source = DEFOCUS_SOURCE_DIR;
     const Shot shot = loadShot(source / "tests/data/shots/version-0.1.json");
@@ -52,7 +53,7 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     for (const char* name : {"shots/fish-pull.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
 }
 
-// The order is irrelevant: members of a JSON object are unordered.
+// Settings beside a preset override the preset's values, whatever their order: members of a JSON object are unordered.
 TEST(ShotJson, whatIsGivenBesideAPresetWins) {
     for (const char* text :
          {R"({"preset": "jeong2011", "sequence": "r2"})", R"({"sequence": "r2", "preset": "jeong2011"})"}) {
@@ -82,8 +83,8 @@ TEST(ShotJson, exposureIsANumberOrAuto) {
     EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
 }
 
-// A shot with positions or distances is in metres unless it names other units. A shot without lengths leaves the
-// scene's units to a guess.
+// A shot with positions or distances is in metres unless it names another unit. For a shot without lengths, the scene's
+// unit is guessed.
 TEST(ShotJson, lengthsInAShotAreMetres) {
     const auto unitsOf = [](const char* text) {
         Shot shot = parseShot(text, "x.json");

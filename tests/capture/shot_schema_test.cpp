@@ -1,5 +1,5 @@
-// The published schema and the parser accept and reject the same variations of a complete shot. The validator below
-// implements the keywords that the schema uses (JSON Schema 2020-12) and fails for others.
+// The published schema and the parser accept and reject the same variations of a complete shot. The Schema class below
+// implements the keywords that the schema uses (JSON Schema 2020-12) and fails for all others.
 
 #include <gtest/gtest.h>
 
@@ -228,7 +228,7 @@ TEST(ShotSchema, forbidsWhatDoesNotGoTogether) {
     }
 }
 
-// A value that the setting accepts.
+// Returns a value that the setting accepts.
 json valueFor(const Setting& setting) {
     if (const std::optional<std::string> standard = setting.text(Request{}))
         return json(settingJson(setting, *standard));
@@ -245,7 +245,7 @@ json valueFor(const Setting& setting) {
     }
 }
 
-// The documentation of a shot's keys is generated from these parts of the schema.
+// The schema and the parser accept each setting that a shot may give.
 TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
     const Schema schema = publishedSchema();
     for (const Setting& setting : settings()) {
@@ -258,7 +258,7 @@ TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
     }
 }
 
-// Each field of a lens, at the ends of its range and beyond them.
+// The schema and the parser agree on each lens field at both ends of its range and beyond them.
 TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
     const Schema schema = publishedSchema();
     EXPECT_EQ(schema.root().at(json::json_pointer("/properties/lens/properties")).size(), lensFields().size());
@@ -278,9 +278,9 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
     }
 }
 
-// ---- what an editor shows -------------------------------------------------------------------------------------------
+// ---- descriptions in editors ----------------------------------------------------------------------------------------
 
-// Calls `visit` with each property in the schema and its path.
+// Calls `visit` with the path and the schema of each property.
 void eachProperty(const json& schema, const std::string& place,
                   const std::function<void(const std::string&, const json&)>& visit) {
     if (schema.is_array())

@@ -1,4 +1,4 @@
-// Every input error yields one line on stderr and an exit code, and leaves no file behind.
+// Every input error yields one line on stderr and a nonzero exit code, and leaves no file behind.
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -26,8 +26,7 @@ protected:
         writeTwoQuads(folder() / "quads.gltf");
     }
 
-    // Expects that rendering the quads with `arguments` fails before it writes a file, with a line that contains
-    // `part`.
+    // Expects that `defocus render` with `arguments` fails before it writes a file, with one line that contains `part`.
     void expectFault(int exitCode, const std::string& part, std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), {"render", "quads.gltf"});
         const Outcome outcome = run(arguments);
@@ -37,8 +36,8 @@ protected:
         EXPECT_EQ(fileCount(), 1u);
     }
 
-    // Expects that `plan` and `info` either refuse the file with one line that names it, or succeed with output.
-    // Returns whether `info` refuses.
+    // Expects that `plan` and `info` either refuse the file with one line that contains its name, or succeed with
+    // output. Returns whether `info` refuses.
     bool expectRefusedOrLoaded(const fs::path& model) const {
         SCOPED_TRACE(model);
         bool refused = false;
@@ -72,7 +71,7 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
     expectFault(2, "--blades", {"--blades", "1"});
     expectFault(2, "--blades", {"--blades", "2"});
-    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // a focus plane through the camera
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // the focus plane would contain the view axis
     expectFault(2, "--focus-swing", {"--focus-swing=-90"});
     expectFault(2, "--exposure-time", {"--exposure-time=-1"});
     expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
@@ -177,8 +176,8 @@ TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
 TEST_F(BadInput, focusPlanesThatNoLensHas) {
     expectFault(1, "line", {"--focus-points", "512,160,512,170,512,180"});
     expectFault(1, "no surface", {"--focus-points", "0,767,512,170,512,180"});
-    // One point lies 0.3 m above the view axis on the near quad, two at the same height on the far quad: the plane
-    // never meets the axis.
+    // All three points lie 0.3 m above the view axis, one on the near quad and two on the far quad: their plane is
+    // parallel to the axis.
     expectFault(1, "view axis", {"--focus-points", "512,170,956,330,832,330"});
     expectFault(2, "--focus-points", {"--focus-points", "1,2,3,4"});
 }
@@ -249,7 +248,7 @@ TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
     Image image(4, 2, 3);
     *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
     writeImage(folder() / "nan.exr", image);
-    // NaN texels become black, so the file loads and the next error is reported.
+    // NaN texels become black. The environment therefore loads, and the error is the unknown node.
     const Outcome black = run({"render", "quads.gltf", "--environment", "nan.exr", "--focus-node", "None"});
     EXPECT_NE(black.err.find("None"), std::string::npos) << black.err;
     EXPECT_EQ(black.err.find("nan.exr"), std::string::npos) << black.err;
@@ -301,7 +300,7 @@ TEST_F(BadInput, devicesAndPipesAreNoFiles) {
     }
 }
 
-// Outputs never overwrite inputs, and two outputs with the same name are refused.
+// An output never overwrites an input, and two outputs with the same name are refused.
 TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
     const std::string scene = textOf(folder() / "quads.gltf");
     expectOneLine(run({"render", "quads.gltf", "-o", "a.png", "--stats", "quads.gltf"}), 1);
@@ -318,7 +317,8 @@ TEST_F(BadInput, switchesTakeNoValue) {
         expectFault(2, std::string(word).substr(0, std::string(word).find('=')), {word});
 }
 
-// Aperture images in the scene must be regular files inside its folder: pipes, devices and outside paths are refused.
+// An aperture image that the scene names must be a regular file inside the scene's folder: pipes, devices and outside
+// paths are refused.
 TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
     fs::create_directory(folder() / "scenes");
     writeImage(folder() / "outside.png", Image(4, 4, 3));
@@ -343,7 +343,7 @@ TEST_F(BadInput, shaderFolderThatIsNone) {
     expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
 }
 
-// The exit code is correct even without stderr; an incomplete standard output is an error.
+// The exit code is correct even if stderr is closed or full. A closed or full standard output is an error.
 TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     const auto exitCode = [&](const std::string& words) {
         const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
@@ -372,7 +372,8 @@ TEST_F(BadInput, hostileModels) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// Damaged copies of one of the project's fish: truncated at many places, and with each word of the headers changed.
+// No damage to a model file crashes the program: copies of a fish are truncated at many lengths, and each word of their
+// headers is changed.
 TEST_F(BadInput, damagedCopiesOfAModel) {
     const std::string full = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
     ASSERT_GT(full.size(), 10'000u);
@@ -398,7 +399,7 @@ TEST_F(BadInput, damagedCopiesOfAModel) {
     }
 }
 
-// The intact triangles of a damaged file are drawn, and the others are counted in a warning.
+// The program draws the intact triangles of a damaged file and counts the damaged triangles in a warning.
 TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     GltfBuilder builder;

@@ -1,5 +1,5 @@
 // Every setting that a command offers has the effect that the table of settings names: on the linear image, only on PNG
-// and JPEG, or only on time and memory. Commands without an image print or measure something else with it. A setting
+// and JPEG, or only on time and memory. Commands without an image must print or measure something else. A setting
 // without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single commands;
 // tests/view covers the window.
 
@@ -31,12 +31,12 @@ Results printed(const Folder&, const Outcome& outcome) {
     return {{}, {}, outcome.out};
 }
 
-// Output of pyramid without the times of the levels.
+// Returns the output of `defocus pyramid` without build times.
 Results printedPyramids(const Folder&, const Outcome& outcome) {
     return {{}, {}, withoutTimes(json::parse(outcome.out)).dump()};
 }
 
-// Returns "limited " for the memory limit of option_cases.h. Any other limit depends on the machine's free memory.
+// Returns "limited " for the memory limit that option_cases.h sets, else "". The default limit depends on free memory.
 std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
@@ -99,7 +99,7 @@ const std::vector<Watched>& watched() {
 
 class EveryOption : public OptionTest {
 protected:
-    // Runs each line once, however many options are compared with it.
+    // Returns the results of a command line, which runs only once however many options are compared with it.
     const Results& resultsOf(const Watched& command, const Words& line) {
         const auto known = results_.find(line);
         return known != results_.end() ? known->second
@@ -137,8 +137,8 @@ private:
     std::map<Words, Results> results_;
 };
 
-// Returns the effect of the case. The table counts two settings as `run` because other settings record their effect: a
-// preset sets other settings, and a time limit draws fewer samples.
+// Returns the effect that the setting's case must have. The table gives `preset` and `timeLimit` the effect `run`, but
+// here both change pixels: a preset sets other settings, and a time limit draws fewer samples.
 SettingEffect effectOf(const Setting& setting) {
     const bool drawsOtherwise = setting.name == "preset" || setting.name == "timeLimit";
     return drawsOtherwise ? SettingEffect::pixels : setting.effect;
@@ -167,7 +167,7 @@ class EverySetting : public EveryOption, public testing::WithParamInterface<Aske
 TEST_P(EverySetting, hasItsEffect) {
     const auto& [command, group] = GetParam();
     for (const Setting* setting : settingsOffered(command->line.name, group)) {
-        // The time limit ends a film between two frames (capture_gl_test.cpp); this shot has one frame.
+        // A time limit ends a capture between two frames (capture_gl_test.cpp), but this shot has one frame.
         if (setting->name == "timeLimit" && command->line.name == "capture") continue;
         expectEffect(*command, setting->name, settingCases().at(setting->name), effectOf(*setting));
     }
@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([
 
 class EveryCommand : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
-// Without repeatable output, a difference would prove nothing.
+// Each command repeats its results. Otherwise a difference between two runs would prove nothing.
 TEST_P(EveryCommand, repeatsItsResults) {
     const Words line = lineOfCase(GetParam()->line, "", {}, false);
     EXPECT_TRUE(newResults(*GetParam(), line) == newResults(*GetParam(), line)) << GetParam()->line.name;
@@ -207,7 +207,7 @@ TEST_P(EveryCommand, repeatsItsResults) {
 INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::ValuesIn(watchedThat([](const Watched&) { return true; })),
                          [](const auto& each) { return lettersOf(each.param->line.name); });
 
-// The cache commands have no picture to compare, so their output must name the cache folder.
+// The cache commands print the path of the cache folder, so --cache-dir has a visible effect.
 TEST_F(EveryOption, cacheFolderIsNamed) {
     for (const Words& line : std::vector<Words>{{"cache", "list", "--cache-dir", "kept"},
                                                 {"cache", "clear", "--cache-dir", "kept"},

@@ -1,5 +1,5 @@
-// Every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the settings. Every
-// option of every command has a case in one of the two files.
+// Every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the settings. Each
+// option of each command has a case in one of the two files.
 
 #include <set>
 
@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// ---- all have a case ------------------------------------------------------------------------------------------------
+// ---- every option has a case ----------------------------------------------------------------------------------------
 
-// Options that the separate tests below cover.
+// Options that have a test of their own below.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",
@@ -68,7 +68,7 @@ TEST(OptionsOfAllCommands, haveACase) {
     for (const std::string& option : triedAlone) EXPECT_TRUE(own.contains(option)) << option;
 }
 
-// ---- two lines each -------------------------------------------------------------------------------------------------
+// ---- options with a case: a line with the option and one without it -------------------------------------------------
 
 class OwnOption : public OptionTest {
 protected:
@@ -87,7 +87,7 @@ protected:
             given_.insert(entry.path().filename());
     }
 
-    // Returns the exit code, the output, and the files that the command left beside those of the tests.
+    // Returns the exit code, the output, and the files that the command created.
     [[nodiscard]] std::string leftBy(const Words& line) const {
         const Outcome outcome = run(line);
         std::string text = std::to_string(outcome.exitCode) + " ";
@@ -145,7 +145,7 @@ std::vector<std::string> commandsWithCases() {
 INSTANTIATE_TEST_SUITE_P(Of, EveryOwnOption, testing::ValuesIn(commandsWithCases()),
                          [](const auto& each) { return lettersOf(each.param); });
 
-// ---- one by one -----------------------------------------------------------------------------------------------------
+// ---- options with a test of their own -------------------------------------------------------------------------------
 
 const Words quickRender = {"render", "ball.glb", "--size", "16x12", "--samples", "4"};
 
@@ -182,7 +182,8 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
     }
 }
 
-// The program may be built from changed sources or not; the test covers the result for the present build.
+// A bench that was built from changed sources refuses to write results without --allow-changed. The test checks the
+// build at hand, whether its sources are changed or not.
 TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
@@ -196,11 +197,11 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// The shortest axis takes seconds. Two runs show the effect of all options except --large, whose triangles take
-// minutes.
+// `bench scaling` runs the axis that --axes names; this one takes seconds. --large needs the triangle axis, which takes
+// minutes, so only its error and its larger number of points are checked.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
-    // The default is three runs.
+    // The default of --runs is three.
     ASSERT_EQ(run(joined(line, {"--runs", "1", "-o", "rows"})).exitCode, 0);
     ASSERT_EQ(run(joined(line, {"--runs", "1", "--report", "page"})).exitCode, 0);
     for (const char* made : {"rows", "page"}) {
@@ -215,7 +216,7 @@ TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     EXPECT_GT(scalingPoints(ScalingAxis::triangles, true).size(), scalingPoints(ScalingAxis::triangles, false).size());
 }
 
-// All cases take minutes, so the command checks the output file before the first.
+// `bench stability` checks its output file before the first case, since all cases together take minutes.
 TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
     for (const Words& output : std::vector<Words>{{"-o", "ball.glb/none.json"}, {"--report", "ball.glb/none"}}) {
         const Outcome outcome = run(joined({"bench", "stability", "--allow-changed"}, output));

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// A square that recedes from 2 m to 6 m in 4 s. A second clip holds it at 3 m.
+// Returns a glTF file with a square that recedes from 2 m to 6 m in 4 s. A second clip holds the square at 3 m.
 std::string movingSquare() {
     GltfBuilder builder;
     const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});

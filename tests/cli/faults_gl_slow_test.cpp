@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 class Faults : public Capture {
 protected:
-    // Turns a forked process into the program. `environment` selects the faults (tests/faults).
+    // Replaces a forked process by the program. `environment` selects the faults (tests/faults/faults.cpp).
     void become(Words words, const std::vector<std::pair<std::string, std::string>>& environment = {},
                 int out = -1) const {
         const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);
@@ -41,7 +41,7 @@ protected:
     [[nodiscard]] TracedChild traced(const Words& words, const std::string& writesInto) const {
         return {[this, words] { become(words); }, writesInto};
     }
-    // Returns the exit code, or 128 + the signal's number.
+    // Runs the program and returns its exit code, or 128 + the number of the signal that ended it.
     int ran(const Words& words, const std::vector<std::pair<std::string, std::string>>& environment = {},
             int out = -1) const {
         const pid_t child = ::fork();
@@ -57,7 +57,8 @@ protected:
         EXPECT_NE(text.find(about), std::string::npos) << text;
     }
 
-    // Kills `words` repeatedly, each time before a random call that writes into `folder`, and calls `look` after each.
+    // Runs the command `words` repeatedly and kills each run before a random call that writes into the folder
+    // `writesInto`. Calls `look` after each run.
     template <typename Look>
     void killed(const Words& words, const std::string& writesInto, const Look& look) const {
         TracedChild undisturbed = traced(words, writesInto);
@@ -102,7 +103,7 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
     }
 }
 
-// A pyramid's file is complete or absent.
+// A program that is killed leaves each pyramid file in the cache complete or absent.
 TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
     std::set<std::string> complete;
     const auto clear = [&] { fs::remove_all(cacheFolder()); };
@@ -136,7 +137,7 @@ TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
            });
 }
 
-// Killing a bench while its child process draws the plots leaves the previous report page or a complete new one.
+// A bench that is killed while its child process draws the plots leaves the previous report page or a complete new one.
 TEST_F(Faults, aReportThatIsKilledIsWhole) {
     if (std::system("python3 -c 'import matplotlib, PIL' 2>/dev/null || "
                     "/usr/bin/python3 -c 'import matplotlib, PIL' 2>/dev/null") != 0)
@@ -185,7 +186,8 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
 }
 
-// The render would take minutes; a second is enough to print its progress.
+// A render that a signal stops prints one line and leaves no file. The complete render would take minutes; its first
+// progress line comes after a second.
 TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
     for (const int signal : {SIGTERM, SIGINT}) {
         fs::remove(folder() / "said");
@@ -248,7 +250,8 @@ TEST_F(Faults, aReaderThatGoesAwayIsNoCrash) {
 
 #ifdef DEFOCUS_FAULTS_LOADABLE
 
-// Two programs share a cache of older files without locks. Complete files are used; damaged files are rebuilt.
+// Two programs can share a cache on a file system without locks. They use complete files of earlier runs and rebuild
+// damaged ones.
 TEST_F(Faults, aCacheOnAFileSystemWithoutLocksServesAllTheSame) {
     const Words words = {"render", "--quiet",   "--fish", "2", "--fish-triangles", "400", "--size",
                          "16x12",  "--samples", "1",      "-o"};
@@ -288,7 +291,8 @@ TEST_F(Faults, aClockThatGoesBackChangesNothing) {
         << said();
 }
 
-// The driver runs out of memory at any of its allocations: the program prints one line and keeps the finished frames.
+// If the driver runs out of memory at any of its allocations, the program prints one line and keeps the finished
+// frames.
 TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     const Words film = {"capture", "shot.json", "--quiet", "--range", "0:7", "--resume"};
     ASSERT_EQ(run({"capture", "shot.json", "--quiet", "--range", "0:7", "-o", "whole/####.exr"}).exitCode, 0);
@@ -312,7 +316,8 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     EXPECT_GT(partly, 0) << "some runs must fail after the first frames";
 }
 
-// The program names each missing extension, whether a fallback produces a picture or none exists.
+// The program names each extension that the driver lacks, both where a fallback renders the picture and where no
+// fallback exists.
 TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "GPU drivers lack other extensions";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
@@ -333,7 +338,8 @@ TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
 
 #endif
 
-// The folder is mounted read-only, which root cannot bypass.
+// A read-only output folder yields one line and no crash. The folder is mounted read-only, since file permissions do
+// not stop root.
 TEST_F(Faults, aReadOnlyFolderIsOneLineAndNeverACrash) {
     fs::create_directory(folder() / "locked");
     writeImage(folder() / "locked/0.exr", Image(3, 2, 4));

@@ -16,8 +16,8 @@ protected:
     }
 
 private:
-    // Returns why no context can be created; empty on success. A child process tries it, so that a driver's crash stays
-    // there.
+    // Returns why no OpenGL context can be created; empty on success. A child process makes the attempt, so that a
+    // crash of the driver does not end the tests.
     static std::string whyNoContext() {
         int ends[2];
         if (::pipe(ends) != 0) return "no pipe";

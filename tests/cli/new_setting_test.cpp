@@ -16,7 +16,7 @@
 namespace defocus::engine {
 namespace {
 
-// A number without a member in Request; the row stores it in Request::clip.
+// Returns a numeric setting that has no member of its own in Request. Its functions store the value in Request::clip.
 Setting newSetting() {
     Setting setting;
     setting.name = "newSetting";
@@ -39,7 +39,7 @@ Setting newSetting() {
     return setting;
 }
 
-// Runs in a child process, since other tests compare the table with its documentation.
+// Must run in a child process: other tests of this process compare the table of settings with its documentation.
 void checkNewSetting() {
     addSetting(newSetting());
 
@@ -61,7 +61,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
 
-    // Python's keywords and the window's rows are both generated from these.
+    // settingInfos() is the source of Python's keywords and of the window's rows.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());

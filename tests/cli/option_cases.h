@@ -1,6 +1,6 @@
 #pragma once
-// Cases for every setting of the table and of the methods: a value that must change what a command prints, draws or
-// measures. The file also builds the small scene of the cases.
+// For every setting of the table and of the methods: a value that must change what a command prints, draws or measures.
+// Also builds the small scene of these cases.
 
 #include <algorithm>
 #include <filesystem>
@@ -25,8 +25,8 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// `words`: the option with its value. `with`: further options that it needs, as far as the command offers them.
-// `against`: the option with the value that it is compared with; empty: no option.
+// `words`: the option with its value. `with`: further options that it needs, as far as the command has them. `against`:
+// the same option with another value to compare with; empty: compares with a line without the option.
 struct OptionCase {
     Words words;
     Words with;
@@ -36,9 +36,9 @@ struct OptionCase {
 
 namespace option_cases {
 
-// A ball of 700 triangles that recedes within 2 s and turns right half-way, in front of a board. A second clip holds
-// the ball still. A second camera is closer and has its own focus distance. Light comes from a lamp above, or from the
-// default lights. The board may be a glass pane.
+// Returns a glTF file: a ball of 700 triangles recedes within 2 s and turns right half-way, in front of a board. A
+// second clip holds the ball still. A second camera is closer and has its own focus distance. With `lamp`, a lamp above
+// lights the scene; with `pane`, the board is a glass pane.
 inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
@@ -91,7 +91,7 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Options that select the only method with the setting of a case, and a wide aperture.
+// Returns options for cases of settings that only `method` has: they select the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }
@@ -114,7 +114,7 @@ inline void writeOptionScene(const std::filesystem::path& folder) {
     writeImage(folder / "half.png", half);
 }
 
-// Cases by the setting's name in the table.
+// Cases by the setting's name in the table of settings.
 inline const std::map<std::string, OptionCase>& settingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -207,7 +207,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     return table;
 }
 
-// Cases by the setting's name in its method.
+// Cases of method settings, by the setting's name.
 inline const std::map<std::string, OptionCase>& methodSettingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -248,7 +248,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
 
 // ---- the commands ---------------------------------------------------------------------------------------------------
 
-// Returns the App of a command such as "bench speedup". Its program lives as long as the tests.
+// Returns the CLI::App of a command such as "bench speedup"; the object lives until the process ends.
 inline const CLI::App& commandNamed(const std::string& names) {
     struct AllCommands {
         CLI::App app;
@@ -265,20 +265,20 @@ inline const CLI::App& commandNamed(const std::string& names) {
     return *found;
 }
 
-// Name of an option in --help: "--fstop", "SCENE", "-o".
+// Returns the name of an option in --help: "--fstop", "SCENE", "-o".
 inline std::string nameOf(const CLI::Option& option) {
     if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
     return option.get_single_name();
 }
 
-// All options of a command except its help.
+// Returns all options of a command except its help options.
 inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
     std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });
     return options;
 }
 
-// Rows of one group of the table that a command offers.
+// Returns the settings of one group that a command offers.
 inline std::vector<const Setting*> settingsOffered(const std::string& command, SettingGroup group) {
     std::vector<const Setting*> offered;
     for (const CLI::Option* option : optionsOffered(command))
@@ -287,7 +287,7 @@ inline std::vector<const Setting*> settingsOffered(const std::string& command, S
     return offered;
 }
 
-// Names of the method settings that a command offers.
+// Returns the names of the method settings that a command offers.
 inline Words methodSettingsOffered(const std::string& command) {
     Words names;
     for (const CLI::Option* option : optionsOffered(command))
@@ -295,18 +295,18 @@ inline Words methodSettingsOffered(const std::string& command) {
     return names;
 }
 
-// A command and the arguments that every line of it gets.
+// A command, and the arguments that all of its tested lines share.
 struct CommandLine {
     std::string name;
     Words command;
     Words ball = {"ball.glb"};  // selects the ball scene
-    // selects the fish by options, unless a shot selects it
+    // selects the school of fish, by options or by the name of a shot
     Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";
     Words rest;
 };
 
-// Returns those of `words` that the command offers as options, each with its value.
+// Returns the options in `words` that the command has, each with its values.
 inline Words taken(const std::string& command, const Words& words) {
     Words known;
     for (const CLI::Option* option : optionsOffered(command))
@@ -342,11 +342,11 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
             ++i;
         else
             line.push_back(given.rest[i]);
-    // Only a lamp has a radius, and only transparent objects use the buckets.
+    // lightRadius needs the scene with the lamp; transparency-buckets needs the scene with the glass pane.
     const std::string scene = name == "lightRadius" ? "lamp" : name == "transparency-buckets" ? "pane" : "ball";
     for (std::string& word : line)
         if (word.starts_with("ball.")) word.replace(0, 4, scene);
-    // The school has no camera with that name.
+    // The school of fish has no camera "Near".
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
     return line;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs lines of the program and returns their results without the parts that vary from run to run.
+// Runs command lines and returns their results without the parts that vary from run to run.
 
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -25,7 +25,7 @@ inline nlohmann::json withoutTimes(const nlohmann::json& value) {
     return rest;
 }
 
-// Pixels of an image; "no picture" for the samples of a part of a frame, which only `merge` reads.
+// Returns the pixels of an image as bytes, or "no picture" for a file of partial samples, which only `merge` reads.
 inline std::string pixelsIn(const std::filesystem::path& path) try {
     const Image image = readImage(path);
     std::string text = std::to_string(image.width) + " ";

@@ -1,5 +1,5 @@
 #pragma once
-// Two command lines for each option that belongs to a single command, which differ by that option. option_cases.h has
+// For each option that belongs to a single command: two command lines that differ by this option. option_cases.h has
 // the settings of the table and of the methods.
 
 #include "cli/option_cases.h"
@@ -13,7 +13,8 @@ struct OwnOptionCase {
     std::vector<Words> before = {};  // lines that run first
 };
 
-// A short-running line for each command, without the command's name. Options of a case replace the same options here.
+// A command line that runs quickly for each command, without the command's name. Options of a case replace the same
+// options here.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};
@@ -49,7 +50,7 @@ inline Words usualLine(const std::string& command) {
     return found == usualLines().end() ? line : joined(line, found->second);
 }
 
-// Removes an option and the words after it up to the next option.
+// Removes an option and the words after it, up to the next option.
 inline Words withoutOption(Words line, const std::string& option) {
     const auto begin = std::ranges::find(line, option);
     if (begin == line.end()) return line;
@@ -57,8 +58,8 @@ inline Words withoutOption(Words line, const std::string& option) {
     return line;
 }
 
-// Returns the line of a case. A name without a dash, "A" or "SHOT", is a positional argument: the case then gives all
-// words.
+// Returns the command line of a case. A case whose name has no dash, "A" or "SHOT", is a positional argument and gives
+// all words of the line.
 inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& tried, bool with) {
     Words line = usualLine(command);
     for (const std::string& option : tried.without) line = withoutOption(line, option);
@@ -70,7 +71,7 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// Cases by command and option, such as "render -o". The key of an option of the program itself begins with a space.
+// Cases by command and option, such as "render -o". Keys of the program's own options begin with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),

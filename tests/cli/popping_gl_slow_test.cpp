@@ -1,11 +1,11 @@
-// Split samples avoid popping in a focus pull, a dolly and a walk cycle: from frame to frame they change the image by a
-// small part of a full level's change. The tests measure the part of each movement with the most changes of level;
-// eval/popping/popping.h defines the measurements.
+// Fractional levels avoid popping in a focus pull, a dolly and a walk cycle: from frame to frame, they change the image
+// by a small fraction of the change that a full level would cause. The tests measure the part of each movement with the
+// most level changes; eval/popping/popping.h defines the measurements.
 //
-// For a blur of c px and a level deviation of w px, one sample's step is √(c/w)/N of a full level's step. Here c/w is
-// at most about 30/0.4, so a step is at most 8.7/N. Steps of k samples of an object in the same frame add up like
-// noise, by √k. Movements of 480 frames change at most three of 64 samples per frame. A walk at 24 frames per second
-// changes at most twelve of 128: 0.23 of a level's pop.
+// If one of N samples changes its level, the image changes by √(c/w)/N of a full level's change, for a blur of c px and
+// a level deviation of w px. Here c/w is at most about 30/0.4, so a step is at most 8.7/N. Steps of k samples of an
+// object in the same frame add up like noise, by √k. Movements of 480 frames change at most three of 64 samples per
+// frame. A walk at 24 frames per second changes at most twelve of 128: 0.23 of a full level's change.
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // Size-based levels, as coarse as few samples allow and independent of the sample count, so that changes are
-        // visible.
+        // Size-based levels with the thresholds for 32 samples: coarse enough for visible changes, and independent of
+        // the sample count.
         popping.plan.metric = LodMetric::size;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
@@ -68,7 +68,7 @@ protected:
         EXPECT_LT(fractional, maxPop);
     }
 
-    // The busiest part of a movement that takes 20 s.
+    // Expects no popping in the eight frames with the most level changes of a movement of 480 frames (20 s).
     void expectNoneAlong(Movement movement) const {
         PoppingOptions popping;
         popping.movements = {movement};
@@ -80,15 +80,15 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens.blurScale = 4;  // the blur of a larger image at this image size
+        options_.lens.blurScale = 4;  // small image with the blur of a larger one
     }
 
-    // A fox of 576 triangles, 100 m long. Few pixels and much blur bring its levels into use.
+    // Sets up a fox of 576 triangles, 100 m long. Few pixels and strong blur make coarse levels visible.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
         options_.units = 1;
         options_.clip = "Walk";
-        options_.time = 0.3;  // in the middle of a step
+        options_.time = 0.3;  // mid-stride
         options_.lens.blurScale = 1000;
     }
 
@@ -126,8 +126,8 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
     expectNoneAlong(Movement::dolly);
 }
 
-// The full cycle at 24 frames per second, focused in front of the fox. Each step changes the distance of its nearest
-// part, and so its blur and its level.
+// A walk cycle at 24 frames per second does not pop. The focus lies in front of the fox, and each stride changes the
+// distance of its nearest part, and so its blur and its level.
 TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);

@@ -24,7 +24,8 @@ struct Outcome {
     std::string err;  // without progress lines
 };
 
-// Removes lines such as "pyramids: 65 %, 3 s left". Their number is random, since they appear after a second of work.
+// Removes progress lines such as "pyramids: 65 %, 3 s left". Their number is random, since progress is printed only
+// after a second of work.
 inline std::string withoutProgress(const std::string& text) {
     static const std::regex line("(frame [0-9]+(, [^\n]*)?|[a-z ]+): [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
     return std::regex_replace(text, line, "");
@@ -43,10 +44,10 @@ protected:
         std::filesystem::remove_all(root_, ignored);
     }
 
-    // Working folder of the program: relative names in `arguments` refer to it.
+    // Working folder of the program; file names in its arguments are relative to this folder.
     [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
 
-    // Folder of the program's pyramids; outside `folder`, so that pyramids do not count as output.
+    // Folder of the program's pyramids; outside folder(), so that pyramids do not count as output.
     [[nodiscard]] std::filesystem::path cacheFolder() const { return root_ / "caches" / "defocus"; }
 
     [[nodiscard]] std::size_t fileCount() const {
@@ -54,7 +55,7 @@ protected:
         return static_cast<std::size_t>(std::distance(Files(folder()), Files()));
     }
 
-    // `maxFileBytes`: writes beyond this size fail, as on a full disk; 0: no limit.
+    // Runs the program. Writes beyond a file size of `maxFileBytes` fail, as on a full disk; 0: no limit.
     Outcome run(const std::vector<std::string>& arguments, std::size_t maxFileBytes = 0) const {
         const std::filesystem::path out = root_ / "stdout";
         const std::filesystem::path err = root_ / "stderr";
@@ -77,7 +78,7 @@ private:
     std::filesystem::path root_;
 };
 
-// Expects the exit code, and one line on stderr that begins with the program's name as the only output.
+// Expects this exit code, and as the only output one line on stderr that begins with the program's name.
 inline void expectOneLine(const Outcome& outcome, int exitCode) {
     EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -1,7 +1,7 @@
 #pragma once
-// Runs the program in forks of this process, taken before the first test. A fork skips the loading of hundreds of
-// shared libraries, which takes longer than most tests. Forks do not copy threads, and tests start some: those of GL
-// drivers, image readers and pyramid builds. A separate process without threads therefore makes the forks.
+// Runs the program in forks of the test process. A fork skips the loading of hundreds of shared libraries, which takes
+// longer than most tests. Forks do not copy threads, and GL drivers, image readers and pyramid builds start threads in
+// the test process. Therefore a separate process without threads, forked before the first test, makes the forks.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #pragma once
-// Short, small shots of the two squares of two_quads.h: a focus pull from one to the other, and a turn.
+// Short shots of the two squares of two_quads.h with small frames: a focus pull from one square to the other, and a
+// turn of the camera.
 
 #include <filesystem>
 #include <fstream>

@@ -32,9 +32,9 @@ protected:
     }
 };
 
-// Compares frames 90 to 109 with the last 20: the median memory and the min number of handles at each write. Files of
-// other frames may be open at any time, so a few extra handles are allowed. A leak in every twentieth frame would add
-// ten.
+// A long film does not grow in memory or open handles from frames 90 … 109 to the last 20 frames. The test compares the
+// median memory and the min number of handles at each write. Other files may be open at a write, so four extra handles
+// are allowed; a leak in every twentieth frame would add ten.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();
@@ -73,7 +73,8 @@ TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     EXPECT_LT(fewestAfter, fewestBefore + 5);
 }
 
-// All programs build or read the same pyramids, draw the same picture, and leave no temporary file.
+// Eight programs that share a cache folder build or read the same pyramids, draw the same picture, and leave no
+// temporary file.
 TEST_F(Soak, eightProgramsShareACacheFolder) {
     for (int round = 0; round < roundsOr("DEFOCUS_SOAK_ROUNDS", 2); ++round) {
         fs::remove_all(cacheFolder());

@@ -1,5 +1,5 @@
-// Frames with more pixels than memory can hold at once. Drawn in tiles, they have the bits of a frame in one piece, and
-// memory stays within the given limit.
+// A frame whose pixels exceed the memory limit is drawn in tiles. It has the bits of a frame without tiles, and memory
+// stays within the limit.
 
 #include <algorithm>
 
@@ -11,11 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames with more pixels than memory can hold at once.
+// Renders frames that need tiles to stay within the memory limit.
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
-    // In one piece, the pixels take 880 MB, and a single layer takes 50 MB.
+    // Without tiles, the pixels take 880 MB, of which a single layer takes 50 MB.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");
@@ -41,8 +41,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// The memory limit counts meshes and the driver's copies of their triangles before they are allocated. The scene has
-// 400,000 triangles per layer, drawn in one piece.
+// Meshes and the driver's copies of their triangles count towards the memory limit before they are allocated. The scene
+// has 400,000 triangles per layer and is drawn without tiles.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
@@ -53,7 +53,7 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
-// A run with enough memory resumes from the tiles of a run that was short of memory.
+// A run with enough memory resumes from the tiles of a run with little memory.
 TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
     fs::create_directory(folder() / "a.tiles");
     ASSERT_EQ(run(line({"--resume", "-o", "a.exr"})).exitCode, 0);
@@ -74,7 +74,7 @@ TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
     EXPECT_EQ(outcome.exitCode, 0) << enough << ": " << outcome.err;
 }
 
-// Frames of a film are also drawn in tiles; their files have the same bytes as those in one piece.
+// Frames of a film are also drawn in tiles, and their files have the same bytes as without tiles.
 TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     const auto film = [&](const std::string& name, std::vector<std::string> more) {
         more.insert(more.begin(), {"--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o", name + "/#.exr",
@@ -86,7 +86,7 @@ TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     ASSERT_EQ(tiles.exitCode, 0) << tiles.err;
     for (const char* name : {"0.exr", "0.png", "0.jpg", "1.exr", "1.png", "1.jpg"})
         EXPECT_TRUE(bytesOf(std::string("tiles/") + name) == bytesOf(std::string("whole/") + name)) << name;
-    // Frames count as finished whether or not memory forced tiles.
+    // --resume counts frames as finished, whether or not they were drawn in tiles.
     EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o",
                    "tiles/#.exr", "--memory", "350MiB", "--resume"})
                   .err.find("2 of them from earlier runs"),

@@ -1,5 +1,5 @@
-// Frames that the program draws in tiles have the bits of a frame in one piece, also when machines share the rows.
-// Tiles that do not belong together are refused.
+// Frames that are drawn in tiles have the bits of a frame without tiles, even if several machines draw the tiles. Tiles
+// of different frames are not merged.
 
 #include "cli/tile_command.h"
 #include "image/image_io.h"
@@ -33,7 +33,7 @@ TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
     }
 }
 
-// Without --samples, each tile takes the number that the blur of the entire frame requires.
+// Without --samples, each tile has the number of samples that the blur of the entire frame requires.
 TEST_F(TileCommand, tilesAgreeOnTheNumberOfSamples) {
     std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr"};
     for (const std::string index : {"0", "1"}) {

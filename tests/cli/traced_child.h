@@ -1,6 +1,6 @@
 #pragma once
-// Stops a child process at a chosen call that changes a file, by ptrace(2). Tests act at a point of the child's work,
-// independent of time.
+// Stops a child process at a chosen call that changes a file, by ptrace(2). Tests can thus act at a defined point of
+// the child's work, independent of time.
 
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
@@ -20,8 +20,8 @@ namespace defocus::engine {
 
 class TracedChild {
 public:
-    // `run` is the child's work, including exec. Counted calls are writes to files of the folder named `folder`, and
-    // every call that renames a file. Calls by a driver that stores a shader are excluded.
+    // Forks a child that executes `run`. Counted calls are writes to files in folders named `folder`, and all renames
+    // of files. Calls of the driver's shader cache do not count.
     TracedChild(const std::function<void()>& run, std::string folder) : folder_("/" + std::move(folder) + "/") {
         child_ = ::fork();
         if (child_ == 0) {
@@ -47,9 +47,9 @@ public:
     [[nodiscard]] bool traced() const { return traced_; }  // false if the system does not allow tracing
     [[nodiscard]] int calls() const { return calls_; }     // counted calls so far
 
-    // Continues to the child's end. The child gets `signal` before its counted call number `call`, from 1, is executed.
-    // Before each counted call, while the calling thread is stopped, `look` gets the child. Returns the exit code, or
-    // 128 + the number of the signal that ended the child.
+    // Continues the child to its end. Sends `signal` to the child before counted call number `call` (1 is the first) is
+    // executed. Calls `look` with the child's process id before each counted call, while the calling thread is stopped.
+    // Returns the exit code, or 128 + the number of the signal that ended the child.
     int end(int call = 0, int signal = 0, const std::function<void(pid_t)>& look = {}) {
         while (exitCode_ < 0) {
             int status = 0;
@@ -65,7 +65,7 @@ public:
                 if (++calls_ == call) ::kill(child_, signal);
                 if (look) look(child_);
             }
-            // signals of the tracing itself; all others go to the child
+            // ptrace's own signals are dropped; all others go to the child
             const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;
             ::ptrace(PTRACE_SYSCALL, thread, nullptr, own ? 0 : static_cast<long>(reason));
         }
@@ -91,7 +91,7 @@ private:
         return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
     }
 
-    // Returns whether the path at this address of the thread's memory lies in Mesa's shader cache.
+    // Returns whether the path at `address` in the thread's memory lies in Mesa's shader cache.
     static bool ofTheDriver(pid_t thread, std::uint64_t address) {
         std::ifstream memory("/proc/" + std::to_string(thread) + "/mem", std::ios::binary);
         memory.seekg(static_cast<std::streamoff>(address));

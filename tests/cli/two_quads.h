@@ -1,6 +1,5 @@
 #pragma once
-// A glTF file with two squares that face the camera at the origin, and the camera's lens: a 4:3 image of 50 mm on 36
-// mm.
+// A glTF file with two squares that face the camera at the origin: 50 mm on a 36 mm sensor, at 4:3.
 //   "Near", 0.4 m wide, centre (0, 0.3, −2): in the upper half of the image.
 //   "Far", 3 m wide, centre (3, 0, −8): at the right.
 
@@ -30,7 +29,7 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-// The two triangles of a unit square in the plane z = 0.
+// Returns the vertex positions of a unit square in the plane z = 0, as bytes: two triangles without indices.
 inline std::string unitSquare() {
     const std::array<float, 18> positions = {-.5f, -.5f, 0, .5f, -.5f, 0, .5f,  .5f, 0,
                                              -.5f, -.5f, 0, .5f, .5f,  0, -.5f, .5f, 0};

@@ -64,7 +64,7 @@ TEST_F(Files, uncommittedFileLeavesTheTargetAndNothingElse) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-// Temporary files of running processes stay; those of killed processes are removed.
+// Temporary files of running processes are kept; those of killed processes are removed.
 TEST_F(Files, onlyAbandonedTemporaryFilesAreRemoved) {
     const fs::path path = folder_ / "frame.exr";
     fs::path left;
@@ -129,7 +129,8 @@ TEST_F(Files, aPipeGetsAllBytesAndStaysAPipe) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-// A rename by root would replace the device for the whole system.
+// A file written to the path of a device goes into the device. A rename would replace the device, for the whole system
+// if root runs the program.
 TEST_F(Files, aDeviceStaysADevice) {
     if (!fs::is_character_file("/dev/null")) GTEST_SKIP() << "no /dev/null";
     writeFile("/dev/null", std::string_view("gone"));
@@ -141,7 +142,7 @@ TEST_F(Files, aDeviceStaysADevice) {
     EXPECT_NE(messageOf([] { writeFile("/dev/full", std::string_view("lost")); }).find("No space"), std::string::npos);
 }
 
-// A path to an open descriptor is written through the descriptor; the file behind it is not replaced.
+// A file written to the path of an open descriptor goes through the descriptor; the file behind it is not replaced.
 TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
     const int descriptor = ::open((folder_ / "kept.txt").c_str(), O_CREAT | O_RDWR, 0600);
     ASSERT_GE(descriptor, 0);
@@ -154,7 +155,8 @@ TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
     ::close(descriptor);
 }
 
-// Simulates a process with the same number on another machine that shares the folder and writes the same file.
+// Temporary files of another process are never overwritten, even if it has the same process id on another machine that
+// shares the folder.
 TEST_F(Files, temporaryNamesThatAreTakenAreLeftAlone) {
     const fs::path path = folder_ / "frame.exr";
     const auto numberOf = [&](const fs::path& temporary) {
@@ -182,7 +184,7 @@ TEST_F(Files, errorsNameThePathAndTheReason) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-// Devices and pipes may block or never end, so they are refused. Descriptors that the shell passes are read.
+// Devices and pipes are not read, because reading may block or never end. Descriptors that the shell passes are read.
 TEST_F(Files, devicesAndPipesAreNotRead) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     fs::create_symlink("/dev/zero", folder_ / "link");
@@ -196,7 +198,7 @@ TEST_F(Files, devicesAndPipesAreNotRead) {
     ::close(ends[0]);
 }
 
-// Files of a memory file system below /dev are regular files.
+// Regular files below /dev, in a memory file system, are replaced like any other file.
 TEST_F(Files, aFileBelowDevIsReplacedAsAnyOther) {
     const fs::path folder = fmt::format("/dev/shm/defocus-test-{}", ::getpid());
     std::error_code status;
@@ -253,8 +255,8 @@ TEST(ParallelFor, passesOnTheFirstFailure) {
                  Error);
 }
 
-// A body that waits for an inner loop works on that loop only, not on another index of the outer one. Another index
-// might need a lock that this body holds, and would double the memory.
+// A loop body that waits for an inner loop works only on that loop, not on another index of the outer loop. The other
+// index might need a lock that this body holds, and would double the memory.
 TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
     static thread_local int inside = 0;
     std::vector<std::atomic<int>> visits(64 * 64);

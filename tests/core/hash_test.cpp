@@ -1,5 +1,4 @@
-// Properties that keys and checksums need beyond core_test's basics: regular changes in several words must not cancel
-// out.
+// Hashes of keys and checksums: regular changes in several words do not cancel out.
 
 #include "core/hash.h"
 
@@ -15,12 +14,12 @@ std::uint64_t hashOf(const std::vector<std::uint64_t>& words) {
     return hashBytes(std::as_bytes(std::span(words)));
 }
 
-// Test vectors of the XXH3 library: stored keys stay valid only while the values do not change.
+// The hash is XXH3, with the library's test vectors. Stored keys stay valid only while the values do not change.
 TEST(Hash, isXxh3) {
     EXPECT_EQ(hashBytes({}, 0), 0x2d06800538d394c2ull);
 }
 
-// Images and the school of fish are reproducible only while the values do not change.
+// Images and the school of fish are reproducible only while these values do not change.
 TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(fmix32(1), 0x514e28b7u);
     EXPECT_EQ(fmix32(0xffffffffu), 0x81f16f39u);
@@ -28,7 +27,8 @@ TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(lowbias32(0xffffffffu), 0x6768824au);
 }
 
-// Distinct inputs have distinct hashes: 10^5 random 64-bit values collide with a probability below 3e-10.
+// All combinations of flipped signs have different hashes: among 10^5 random 64-bit values, a collision has a
+// probability below 3e-10.
 TEST(Hash, flippedSignsOfFloatsNeverCancel) {
     constexpr std::size_t floats = 16;
     std::vector<float> values(floats, 1.5f);
@@ -54,7 +54,7 @@ TEST(Hash, twoFlippedBitsNeverCancel) {
     EXPECT_EQ(hashes.size(), 1 + bits * (bits + 1) / 2);
 }
 
-// Each input bit flips each output bit about half the time: 2048 trials have a standard deviation of 23.
+// Each input bit flips each output bit in about half of 2048 trials (standard deviation 23).
 TEST(Hash, everyBitOfTheResultDependsOnEveryBit) {
     for (std::size_t bit = 0; bit < 128; ++bit) {
         std::vector<int> flips(64, 0);
@@ -75,7 +75,7 @@ TEST(Hash, zerosAndLengthsCount) {
     for (std::size_t length = 0; length <= zeros.size(); ++length)
         hashes.insert(hashBytes(std::span(zeros).first(length)));
     EXPECT_EQ(hashes.size(), zeros.size() + 1);
-    // The boundaries between pieces count: "ab" + "" differs from "a" + "b".
+    // The boundaries between successively hashed blocks matter: "ab" + "" differs from "a" + "b".
     const auto pieces = [&](std::size_t first) {
         return hashBytes(std::span(zeros).first(16 - first), hashBytes(std::span(zeros).first(first)));
     };

@@ -48,7 +48,7 @@ std::string where(const Line& line) {
     return line.file + ":" + std::to_string(line.number) + ": " + line.text;
 }
 
-// Layers from the bottom up, with the other layers that each may include.
+// Returns the layers from the bottom up, with the other layers that each layer may include.
 const std::map<std::string, std::vector<std::string>>& allowed() {
     static const std::map<std::string, std::vector<std::string>> table = [] {
         std::map<std::string, std::vector<std::string>> modules = {
@@ -71,7 +71,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
-        modules["stability"] = {};  // bench/stability, which only a command includes
+        modules["stability"] = {};  // in bench/stability; only a command includes it
         addOver("capture", "frame", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
@@ -106,7 +106,8 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
     EXPECT_GT(checked, 100u);  // the sources were found
 }
 
-// Programs that embed the library see only its public headers.
+// Public headers include only public headers and the standard library, since programs that embed the library see no
+// other header.
 TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
     const std::regex include(R"re(^\s*#\s*include\s*(["<][^">]*[">]))re");
     const std::regex standard(R"(^<[a-z_]+>$)");
@@ -143,7 +144,7 @@ TEST(Layering, foreignLibrariesStayInTheirPlace) {
         {R"(#\s*include\s*<epoxy/|\bgl[A-Z][A-Za-z]+\(|\bGL_[A-Z])", "^(gl|render)/"},
         {R"(#\s*include\s*<EGL/|\begl[A-Z][A-Za-z]+\()", "^gl/"},
         {R"(#\s*include\s*<CLI/|\bCLI::)", "^cli/"},
-        // A build without the viewer omits these files.
+        // A build without the viewer omits the files that match these patterns.
         {R"(#\s*include\s*[<"](imgui|backends/imgui))", "^view/"},
         {R"(#\s*include\s*<GLFW/|\bglfw[A-Z])", "^(gl/window|view/window/interface)\\."},
         {R"(#\s*include\s*"gl/window\.h")", "^(gl/window\\.|view/)"},

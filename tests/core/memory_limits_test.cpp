@@ -25,7 +25,8 @@ TEST(MemoryLimits, anAmountIsShownInTheUnitThatSuits) {
     EXPECT_EQ(bytesText(std::uint64_t{3} << 29), "1.5 GiB");
 }
 
-// A limit of 1,000 bytes with 900 in use, 300 of them for cached file pages.
+// Cached file pages of a control group count as free memory. The limit is 1,000 bytes with 900 in use; 300 of these are
+// inactive file pages.
 TEST(MemoryLimits, filesThatWereReadDoNotUseUpAControlGroup) {
     const ScratchFolder folder;
     const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text << '\n'; };
@@ -45,7 +46,7 @@ TEST(MemoryLimits, filesThatWereReadDoNotUseUpAControlGroup) {
     EXPECT_FALSE(left(true));
 }
 
-// Pages that this process touches count as resident and no longer as free.
+// Memory that this process writes to counts as resident and no longer as free.
 TEST(MemoryLimits, residentMemoryGrowsByWhatIsTouched) {
     const std::uint64_t before = residentMemory();
     constexpr std::size_t bytes = std::size_t{64} << 20;

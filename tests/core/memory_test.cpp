@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// A growing or shrinking vector moves its values between small blocks and whole pages.
+// A vector keeps its values while it grows and shrinks, which moves them between small blocks and whole pages.
 TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
     struct alignas(64) Line {
         std::uint32_t number = 0;
@@ -34,7 +34,7 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
     }
 }
 
-// Frees three quarters of a vector. Returns the share of its pages that the system still counts as resident.
+// Frees three quarters of a vector. Returns the fraction of its pages that the system still counts as resident.
 double shareLeftOfAQuarter() {
     constexpr std::size_t page = 4096;
     constexpr std::size_t max = 4 * PageAllocator<std::uint32_t>::fewestBytes / sizeof(std::uint32_t);
@@ -55,7 +55,7 @@ double shareLeftOfAQuarter() {
 }
 
 TEST(Memory, roomIsGivenBackAndValuesStay) {
-    // The system may merge pages into a huge page meanwhile, which makes freed pages resident again.
+    // Repeat: the system may merge pages into a huge page in the meantime, which makes freed pages resident again.
     double min = 1;
     for (int attempt = 0; attempt < 20 && min > 0.26; ++attempt) min = std::min(min, shareLeftOfAQuarter());
     EXPECT_LE(min, 0.26);

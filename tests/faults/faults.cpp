@@ -32,8 +32,8 @@ long jump() {
 constexpr unsigned outOfMemory = 0x0505;  // GL_OUT_OF_MEMORY
 constexpr int eglExtensions = 0x3055;     // EGL_EXTENSIONS
 
-// Epoxy's entry points are variables. On its first call, an entry point looks up the driver's function and replaces
-// itself.
+// libepoxy calls OpenGL through function pointers. On the first call, the function behind a pointer looks up the
+// driver's function and stores it in the pointer.
 using GetError = unsigned (*)();
 GetError* entry = nullptr;
 GetError real = nullptr;
@@ -56,7 +56,7 @@ const char* withoutExtensions(void* display, int name) {
     const char* const text = realQuery(display, name);
     realQuery = std::exchange(*queryEntry, &withoutExtensions);
     if (text == nullptr || name != eglExtensions) return text;
-    static std::set<std::string> kept;  // returned strings must stay valid
+    static std::set<std::string> kept;  // keeps the returned strings valid
     const std::string hidden = "," + std::string(std::getenv("FAULT_EGL")) + ",";
     std::istringstream words(text);
     std::string left;

@@ -1,4 +1,4 @@
-// A file with the sun of a clear day, rendered without exposure settings.
+// Exposure metering of a file with the sun of a clear day, rendered without exposure settings.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 class MeteredRender : public OwnContextTest {
 protected:
-    // A matt grey wall in front of the camera, with light at normal incidence.
+    // The scene is a matt grey wall in front of the camera, with light at normal incidence.
     void SetUp() override {
         OwnContextTest::SetUp();
         GltfBuilder builder;
@@ -36,7 +36,7 @@ protected:
         request_.toneMap = ToneMap::none;
     }
 
-    // Linear value of the middle pixel of the written image.
+    // Renders and writes the image. Returns the linear value of its middle pixel.
     [[nodiscard]] float written() {
         SceneRenderer renderer(request_);
         renderer.write(folder_ / "a.png", renderer.render());
@@ -47,7 +47,7 @@ protected:
     Request request_;
 };
 
-// The meter brings a uniform surface to 40 %, however bright the sun is.
+// The meter shows a uniform surface at a linear value of 0.4, however bright the sun is.
 TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
     request_.exposure = ExposureValue{0};

@@ -1,5 +1,5 @@
 #pragma once
-// Base for tests of renderers that create their own GL context; they skip where none can be created.
+// Fixture for tests of renderers that create their own OpenGL context. The tests skip where no context can be created.
 
 #include <gtest/gtest.h>
 

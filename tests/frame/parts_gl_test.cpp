@@ -35,7 +35,7 @@ protected:
         return settings;
     }
 
-    // Draws all samples, or those of `range`, in waves of `wave` samples.
+    // Draws all samples, or only those in `range`, in waves of `wave` samples (0: default).
     static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
                              std::uint32_t wave = 0) {
         FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
@@ -54,7 +54,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // A separate driver with its own waves renders each part, which then passes through a file.
+        // Each part is rendered by its own driver with its own wave size, then written to a file and read back.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -67,7 +67,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// A part stores its finished blocks only: their numbers, their sample counts and their sums.
+// A part stores only its finished blocks: their numbers, sample counts and sums.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

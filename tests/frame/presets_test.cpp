@@ -1,5 +1,5 @@
-// Tests what presets set, and that the plan of jeong2011 follows the paper's formulas. The tests repeat the formulas,
-// computed from scene and camera alone.
+// Tests which settings presets change, and that the plan of jeong2011 follows the paper's formulas. The tests repeat
+// the formulas, computed from scene and camera alone.
 
 #include "frame/settings/presets.h"
 
@@ -44,7 +44,7 @@ TEST(Presets, areLeftByAnotherValue) {
     for (const PresetValue& value : jeong().values) {
         Request request;
         applyPreset(jeong(), request);
-        if (value.setting == "lod")  // equals the default
+        if (value.setting == "lod")  // the preset's value is the default
             request.lod = LodMode::nearest;
         else
             settingNamed(value.setting)->clear(request);
@@ -58,7 +58,8 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// Recomputes each object's score from the plan's bounding boxes and the circle-of-confusion formula.
+// The plan draws the level nearest to each object's score. The test recomputes the score from the plan's bounding boxes
+// and the circle-of-confusion formula.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -75,7 +76,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        const double growth = 0.25 * object.coc.smallest / edge;  // of the edge length
+        const double growth = 0.25 * object.coc.smallest / edge;  // relative to the edge length
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {
             const double middle = std::sqrt(pyramid.levels[l - 1].meanEdge * pyramid.levels[l].meanEdge);
@@ -115,14 +116,14 @@ protected:
     static inline PreparedFrame* frame_ = nullptr;
 };
 
-// Radical inverse of `index`: its digits in the base, mirrored at the radix point (Halton 1960).
+// Returns the radical inverse of `index`: its digits in `base`, mirrored at the radix point (Halton 1960).
 double mirrored(std::uint32_t index, std::uint32_t base) {
     double result = 0;
     for (double weight = 1.0 / base; index > 0; index /= base, weight /= base) result += (index % base) * weight;
     return result;
 }
 
-// Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// Maps the unit square to the unit disk (Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square).
 glm::dvec2 onDisk(double x, double y) {
     const double a = 2 * x - 1;
     const double b = 2 * y - 1;
@@ -136,7 +137,7 @@ glm::dvec2 onDisk(double x, double y) {
 TEST_F(JeongPlan, samplesAreHaltonsPointsFrom1On) {
     const FramePlan plan = planOf(64);
     ASSERT_EQ(plan.samples.size(), 64u);
-    // All points shift together, so that the first lies at the centre of the lens.
+    // The Halton points are shifted together, modulo 1, so that the first lies at the centre of the lens.
     const auto moved = [](std::uint32_t i, std::uint32_t base) {
         const double x = mirrored(i + 1, base) - 1.0 / base + 0.5;
         return x - std::floor(x);

@@ -1,5 +1,5 @@
-// The table of settings: each row reads what it writes, accepts what its description says, and every value of a request
-// has a row.
+// The table of settings: each setting reads back the value that it writes and accepts the values of its description,
+// and each member of Request has a setting.
 
 #include "frame/settings/settings.h"
 
@@ -19,7 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-// A value that the setting accepts and that differs from the default.
+// Returns a value that the setting accepts and that differs from the default.
 std::string otherValue(const Setting& setting) {
     static const std::map<std::string, std::string> own = {
         {"background", "0.25,0.5,1"},
@@ -139,7 +139,7 @@ std::string textOf(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// LensSettings and lens_fields.cpp contain the same values.
+// LensSettings and lens_fields.cpp have the same members.
 TEST(Settings, everyLensValueHasItsRow) {
     const std::string header = textOf("include/defocus/lens.h");
     const std::regex member(R"(std::optional<\w+>\s+(\w+);)");

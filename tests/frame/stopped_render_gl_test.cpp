@@ -1,4 +1,5 @@
-// Conditions that end a frame with an open number of samples, and conditions that cannot.
+// A target error or a time limit ends a frame whose number of samples is open. Requests that support neither are
+// refused.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LT(renderer.statistics().samples, 64u);
 }
 
-// At full detail, the blocks of an open number of samples equal those of a fixed number, bit for bit.
+// At full detail, a frame with an open number of samples has the bits of a frame with the same fixed number.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
     request.lod = LodMode::off;

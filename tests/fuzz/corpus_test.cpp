@@ -36,7 +36,7 @@ TEST_P(FuzzCorpus, doesNoHarm) {
     for (const auto& seed : seeds) EXPECT_NO_THROW(target.run(seed));
 }
 
-// Every seed, truncated at eight places.
+// Seeds that are truncated at eight lengths cause no fault.
 TEST_P(FuzzCorpus, cutFilesDoNoHarm) {
     const FuzzTarget& target = GetParam();
     for (const auto& seed : target.seeds()) {

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
         std::fprintf(stderr, "DEFOCUS_FUZZ_TARGET: %s\n", error.what());
         std::exit(2);
     }
-    // By default libFuzzer generates no input longer than the longest seed.
+    // By default, libFuzzer generates no input longer than the longest seed.
     static std::string length = "-max_len=" + std::to_string(target->maxBytes);
     static std::vector<char*> words(*arguments, *arguments + *count);
     words.insert(words.begin() + 1, length.data());

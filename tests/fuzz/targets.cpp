@@ -47,7 +47,7 @@ std::string_view textOf(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Writes the bytes for readers that take a path, to a folder that lives as long as the process.
+// Writes the bytes to a file, for readers that take a path. The folder lives as long as the process.
 std::filesystem::path written(const std::string& name, std::span<const std::byte> bytes) {
     static const ScratchFolder folder;
     const std::filesystem::path path = folder / name;
@@ -97,11 +97,11 @@ void runGltf(std::span<const std::byte> bytes) {
     }
 }
 
-// A scene with lights, every material extension, a texture transform, and animations of them. Other models have too few
-// of these, or are too large to fuzz.
+// Returns a glTF file with lights, every material extension, a texture transform, and animations of them. Models either
+// lack some of these or are too large to fuzz.
 std::string furnishedScene() {
     GltfBuilder file;
-    // A grey PNG of one pixel.
+    // A grey PNG of 1 × 1 px.
     const std::vector<std::uint8_t> png = {
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
         0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
@@ -162,7 +162,7 @@ std::string furnishedScene() {
 
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
-    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // lamps, and a lens in the project's own extras
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // files with lamps, and with a lens in extras
         std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
         seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
     }
@@ -190,7 +190,7 @@ const Mesh& cachedMesh() {
     return mesh;
 }
 
-// Reads the bytes as a file with a correct key and checksum, which no mutation would ever find.
+// Reads the bytes as a cache file after correcting its key and checksum, which mutations would never match.
 void runCache(std::span<const std::byte> bytes) {
     const PyramidKey key = pyramidKey(cachedMesh(), {});
     Bytes file(bytes.begin(), bytes.end());
@@ -210,7 +210,7 @@ void runCache(std::span<const std::byte> bytes) {
 
     const std::optional<Pyramid> pyramid = decodePyramid(file, cachedMesh(), key);
     if (!pyramid) return;
-    // Every accepted pyramid can be drawn: all indices are in the range of their level.
+    // All indices of an accepted pyramid are in the range of their level, so that the pyramid can be drawn.
     for (const PyramidLevel& level : pyramid->levels)
         for (const IndexRange& range : level.primitives)
             for (std::uint32_t i = 0; i < range.count; ++i)
@@ -227,7 +227,7 @@ std::vector<Bytes> cacheSeeds() {
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
 constexpr std::size_t maxImagePixels = 1 << 14;
 
-// Reads the file as a tile of a frame: first its rows, then the frame that it completes.
+// Reads the file as a tile of a frame: first its rows, then the frame that the tile completes.
 void runRows(const std::filesystem::path& path) {
     static_cast<void>(isRowFile(path));
     try {
@@ -284,7 +284,7 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
-    // Two tiles, one of them the whole frame, and the samples of a part of a frame.
+    // Two tiles, of which one is the whole frame, and a file with the samples of a part of a frame.
     const auto add = [&](const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);
         seeds.push_back(bytesOf(std::string(1, 0) + std::string(std::istreambuf_iterator<char>(file), {})));
@@ -309,7 +309,7 @@ std::vector<Bytes> imageSeeds() {
 
 // ---- settings
 
-// Parsers of options outside the table of settings.
+// Runs the parsers of options outside the table of settings.
 void runParsers(std::string_view text) {
     const auto parse = [&](auto parser) {
         try {
@@ -321,7 +321,7 @@ void runParsers(std::string_view text) {
     parse(parseSampleRange);
     parse(parseFrameRange);
     parse(parseShotOverride);
-    // The printed form of an amount of memory parses to the same amount, within its three digits.
+    // Printing and parsing an amount of memory preserves it within three digits.
     parse([](std::string_view amount) {
         const auto bytes = static_cast<double>(parseBytes(amount));
         if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();
@@ -343,9 +343,9 @@ void runSettings(std::span<const std::byte> bytes) {
         } catch (const Error&) {
             continue;
         }
-        // a setting of a method other than the request's
+        // skip settings of methods other than the request's
         if (settingNamed(line.substr(0, equals)) == nullptr) continue;
-        // Every accepted value is written in a form that reads back.
+        // Every accepted value is printed in a form that parses to the same value.
         for (const Setting& setting : settings()) {
             if (setting.repeated || setting.name == "method") continue;
             const std::optional<std::string> text = setting.text(request);

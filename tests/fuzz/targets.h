@@ -26,7 +26,7 @@ struct FuzzTarget {
 //   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 
-// Throws Error if no target has this name.
+// Returns the target with this name. Throws Error if there is none.
 const FuzzTarget& fuzzTargetNamed(const std::string& name);
 
 }  // namespace defocus::engine

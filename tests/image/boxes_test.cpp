@@ -27,7 +27,8 @@ TEST(BoxDifference, seesNothingOfWhatABlurHides) {
     EXPECT_EQ(boxDifference(reference, checkered, 16), 0);
 }
 
-// One of 2 × 2 boxes differs by 0.4 in one of three channels.
+// The box difference is the root mean square over boxes and channels. Here one of 2 × 2 boxes differs by 0.4 in one of
+// three channels.
 TEST(BoxDifference, isTheRootOfTheMeanSquare) {
     const Image reference = evenImage(37, 32, 0);
     Image test = reference;

@@ -48,7 +48,7 @@ struct KnownValue {
 
 class KnownFlip : public testing::TestWithParam<KnownValue> {};
 
-// Compares with the authors' own implementation, to a tenth of the tolerance that they allow.
+// FLIP agrees with the authors' implementation within a tenth of the tolerance that the authors allow.
 TEST_P(KnownFlip, agrees) {
     const KnownValue& known = GetParam();
     const std::filesystem::path folder = std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/flip";
@@ -81,18 +81,19 @@ TEST(Flip, isSymmetricAndBounded) {
     for (const float value : ab.pixels) EXPECT_TRUE(value > 0 && value <= 1);
 }
 
-// The colour difference is normalised by the one between green and blue, whose FLIP is therefore 1.
+// FLIP normalises colour differences by the difference between green and blue, whose FLIP is therefore 1.
 TEST(Flip, betweenGreenAndBlueIsOne) {
     for (const float value : flipErrorMap(constant(0, 1, 0), constant(0, 0, 1)).pixels) EXPECT_NEAR(value, 1, 1e-4);
 }
 
-// Greys have no chroma, so HyAB is the difference in lightness: 100 between black and white and, in the linear part of
-// L*, 903.3·Y.
+// The HyAB difference of greys is their difference in lightness, since they have no chroma: 100 between black and
+// white, and 903.3·Y to black in the linear part of L*.
 TEST(Flip, betweenDarkGreysFollowsLightness) {
     const double blackWhite = meanOf(flipErrorMap(constant(0, 0, 0), constant(1, 1, 1)));
     const double lightness = 0.008 * 24389.0 / 27.0;
     const double dark = meanOf(flipErrorMap(constant(0, 0, 0), constant(0.008f, 0.008f, 0.008f)));
-    // Above the knee: 0.95 + (e − 0.4 m)/(0.6 m)·0.05 with e = 100^0.7. Below: e·0.95/(0.4 m).
+    // FLIP compresses the colour difference e, whose max is M: 0.95·e/(0.4·M) up to 0.4·M, and 0.95 + 0.05·(e −
+    // 0.4·M)/(0.6·M) above. For black and white, e = 100^0.7.
     const double largest = std::pow(100.0, 0.7) * 0.05 / 0.6 / (blackWhite - 0.95 + 0.4 * 0.05 / 0.6);
     EXPECT_NEAR(dark, std::pow(lightness, 0.7) * 0.95 / (0.4 * largest), 1e-4);
 }

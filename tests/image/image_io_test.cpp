@@ -91,7 +91,7 @@ TEST(ImageFile, exrKeepsMetadataUnderStandardNames) {
         ASSERT_TRUE(read.contains(name)) << name;
         EXPECT_TRUE(read[name] == value) << name;
     }
-    // The file contains the attribute's name and type as the OpenEXR standard defines them.
+    // The file has the attributes with the names and types of the OpenEXR standard.
     const std::string text = readText(folder / "a.exr");
     using namespace std::string_literals;
     for (const std::string& attribute :
@@ -133,8 +133,8 @@ TEST(ImageFile, pngKeepsAll256Levels) {
 TEST(ImageFile, pngHoldsStraightAlpha) {
     const ScratchFolder folder;
     Image image(2, 1, 4);
-    // A pixel with coverage 0.2 and the colour 0.5 where covered; then emission without coverage, which PNG cannot
-    // represent.
+    // The first pixel has coverage 0.2 and, where covered, the colour 0.5. The second has emission without coverage,
+    // which PNG cannot represent.
     for (int c = 0; c < 4; ++c) image.at(0, 0)[c] = c == 3 ? 0.2f : 0.2f * 0.5f;
     image.at(1, 0)[0] = 0.7f;
     writeImage(folder / "a.png", image);
@@ -209,7 +209,8 @@ TEST(ImageFile, aMissingFolderIsNamed) {
     expectClearFault(messageOf<Error>([&] { writeImage(path, gradient(2, 2, 3)); }), path.string());
 }
 
-// On a disk with room for 1000 bytes the write must fail, keep the old file and leave no other.
+// On a full disk, simulated by a file size limit of 1000 bytes, a write fails, keeps the old file and leaves no other
+// file.
 TEST(ImageFileDeathTest, aFullDiskLeavesTheOldFile) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto writeWithLittleSpace = [](const char* name) {
@@ -275,7 +276,7 @@ TEST(BadImageFile, aFlippedBitInAPngIsFound) {
     }
 }
 
-// Damage outside the checksums may change the picture but causes no other effect.
+// Damaged EXR and JPEG files never crash the reader. Damage outside the checksums may change the picture.
 TEST(BadImageFile, damagedExrAndJpegNeverCrash) {
     const ScratchFolder folder;
     for (const char* name : {"a.exr", "a.jpg"}) {
@@ -353,7 +354,7 @@ TEST(Texture, realTexturesDecode) {
     EXPECT_EQ(texture.rgba.size(), std::size_t(texture.width) * std::size_t(texture.height) * 4);
 }
 
-// A file with only the two bytes that begin a JPEG.
+// A file that begins like a JPEG but has no image is refused.
 TEST(Texture, aJpegOfNothingIsRefused) {
     const ScratchFolder folder;
     const std::filesystem::path path = folder / "nothing.jpg";
@@ -368,7 +369,8 @@ TEST(Texture, anInvalidJpegIsRefused) {
     expectClearFault(readFault(path), path.string());
 }
 
-// A header of 16,000 × 16,000 px with the data of 8 × 8: libjpeg would fill in the rest for half a minute.
+// A JPEG with too little data for its size is refused. Here the header says 16,000 × 16,000 px, but the data are those
+// of 8 × 8 px: libjpeg would fill in the rest for half a minute.
 TEST(ImageFiles, aJpegTooShortForItsPixelsIsRefused) {
     const ScratchFolder folder;
     const fs::path path = folder / "a.jpg";

@@ -1,4 +1,5 @@
-// Files written row by row equal files written whole; files with some of the rows hold them at the right place.
+// Files written row by row equal files written at once. Files with some of a frame's rows have these rows at the right
+// position.
 
 #include "image/image_rows.h"
 
@@ -101,7 +102,7 @@ TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     }
 }
 
-// Writes beyond a limit of the file size fail, as on a full disk.
+// A full disk, simulated by a limit of the file size, causes an Error with the file's name.
 TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -122,12 +123,12 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
-// OpenEXR trusts a damaged size and allocates memory for it.
+// Attributes with damaged sizes are refused. OpenEXR itself would trust the size and allocate memory for it.
 TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> full = readFile(path);
-    // Replaces the size of an attribute, or the number `offset` bytes after the size.
+    // Replaces the size of an attribute, or the 32-bit number `offset` bytes after the size.
     const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
                                 std::size_t offset = 0) {
         std::string bytes(reinterpret_cast<const char*>(full.data()), full.size());
@@ -153,7 +154,7 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     expectRefused("'owner'");
     withNumber("dataWindow", "box2i", 12);
     expectRefused("'dataWindow'");
-    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // the last column
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // the window's last column
     expectRefused("its rows have 10000000 pixels");
     withNumber("channels", "chlist", 54);
     expectRefused("'channels'");

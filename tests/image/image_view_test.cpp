@@ -1,4 +1,4 @@
-// Pixels in memory outside an Image are written and compared like those of an Image.
+// Pixels that an ImageView refers to are written and compared like those of an Image.
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(ImageView, ofTooFewPixelsIsRefused) {
     EXPECT_NE(messageOf<Error>([&] { compareImages(full, ImageView(9, 5, 1, pixels)); }), "");
 }
 
-// A crop of RGBA without its alpha has gaps between pixels and between rows.
+// Strides select a part of an image. Here an RGB crop of an RGBA image has gaps between pixels and between rows.
 TEST(ImageView, stridesSelectAPartOfAnImage) {
     const ScratchFolder folder;
     const Image full = gradient(4);

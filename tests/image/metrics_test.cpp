@@ -19,7 +19,7 @@ Image constant(int width, int height, int channels, float value) {
     return image;
 }
 
-// Smooth structure plus a little noise.
+// Returns an image with smooth structure and a little noise.
 Image pattern(int width, int height, int channels, unsigned seed) {
     Image image(width, height, channels);
     std::uint32_t state = seed;
@@ -33,7 +33,7 @@ Image pattern(int width, int height, int channels, unsigned seed) {
     return image;
 }
 
-// SSIM computed directly from the paper: one 2D window per pixel, for windows inside the image.
+// Returns SSIM computed directly by the paper's definition: one 2D window per pixel, for windows inside the image.
 double directSsim(const Image& a, const Image& b) {
     const auto luma = [](const Image& image, int x, int y) {
         const float* p = image.at(x, y);
@@ -88,7 +88,7 @@ TEST(Difference, ofConstantImagesIsClosedForm) {
     EXPECT_NEAR(difference.rmse, 0.1, 1e-6);
     EXPECT_NEAR(difference.psnr, 20, 1e-4);
     EXPECT_NEAR(difference.maxError, 0.1, 1e-6);
-    // Without structure only SSIM's luminance term remains.
+    // For uniform images, SSIM consists only of its luminance term.
     EXPECT_NEAR(difference.ssim, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 1e-6);
 }
 

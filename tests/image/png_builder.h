@@ -1,6 +1,6 @@
 #pragma once
-// Builds PNG files of any colour type by hand, with stored deflate blocks. Tests read bytes that no library has
-// written.
+// Builds PNG files of any colour type byte by byte, with stored deflate blocks, so that tests read files that no
+// library has written.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +30,8 @@ inline void appendChunk(Bytes& png, const std::string& type, const Bytes& data) 
     appendBigEndian(png, ~crc);
 }
 
-// `samples`: the bytes of the rows without filter bytes, 16-bit samples in big-endian order. The total with filter
-// bytes must be below 65,535 bytes.
+// Returns a PNG file. `samples`: the bytes of the rows without filter bytes; 16-bit samples are big-endian. Rows and
+// filter bytes together must be below 65,535 bytes.
 inline Bytes buildPng(int width, int height, int bits, PngColour colour, const Bytes& samples,
                       const Bytes& palette = {}) {
     Bytes rows;

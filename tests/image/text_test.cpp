@@ -64,13 +64,12 @@ TEST_F(TextInImages, StandsOnItsLineAndGrowsWithItsSize) {
 }
 
 TEST_F(TextInImages, ReadsUtf8) {
-    // The degree sign is one glyph, not one for each UTF-8 byte: a ring above the line, higher than a letter of that
-    // size.
+    // The two UTF-8 bytes of the degree sign give one glyph: a ring that stays in the upper half of a capital letter.
     const Ink degree = written(40, 150, "°", 40);
     EXPECT_LT(degree.bottom, 150 - 0.35 * 40);
     EXPECT_GT(degree.sum, 20);
     EXPECT_LT(degree.right - degree.left, 20);
-    // Identical letters of two alphabets.
+    // Greek Alpha and Latin A have the same shape.
     EXPECT_NEAR(written(40, 150, "Α", 40).sum, written(40, 150, "A", 40).sum, 1);
     // An invalid UTF-8 byte is drawn as a question mark.
     EXPECT_NEAR(written(40, 150, "\xff", 40).sum, written(40, 150, "?", 40).sum, 1e-6);

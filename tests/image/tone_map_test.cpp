@@ -17,7 +17,8 @@ std::vector<float> shown(std::vector<float> rgb, ToneMap toneMap, double exposur
     return displayEncoded(image, toneMap, exposure).pixels;
 }
 
-// Hill's rational curve. The matrices around it are the identity on greys, as their rows sum to 1.
+// Returns Hill's rational fit of ACES for a grey. The matrices before and after the curve keep greys, as their rows sum
+// to 1.
 double hillCurve(double v) {
     return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
 }
@@ -65,7 +66,7 @@ TEST(ToneMapped, acesOnGreysIsHillsCurve) {
 }
 
 TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
-    // AgX's sigmoid has its pivot at 10 of the 16.5 stops, where 0.18 lies, and at half the display range.
+    // AgX's sigmoid maps its pivot, stop 10 of 16.5, to half the display range. Middle grey 0.18 lies at the pivot.
     for (const float channel : shown({0.18f, 0.18f, 0.18f}, ToneMap::agx)) EXPECT_NEAR(channel, 0.5f, 0.005);
     for (const float value : {0.001f, 0.02f, 0.5f, 3.0f, 12.0f}) {
         const auto rgb = shown({value, value, value}, ToneMap::agx);
@@ -74,8 +75,8 @@ TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
     }
 }
 
-// Properties that the specification states. A colour from 8 % to 80 % in each channel only loses the mirrored 4 %.
-// Beyond that, the curve stays below 1 and has no step.
+// Properties that the specification of Khronos PBR Neutral states. Colours from 8 % to 80 % in each channel only lose
+// the 4 % of Fresnel reflection. Above, the curve stays below 1 and is continuous.
 TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     const auto kept = shown({0.5f, 0.3f, 0.1f}, ToneMap::neutral);
     EXPECT_NEAR(kept[0], srgbEncode(0.46f), 1e-5);

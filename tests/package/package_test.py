@@ -44,8 +44,8 @@ def check_headers(prefix, source):
 
 
 def check_package_files(prefix, kind):
-    """Checks the dependencies of consumers: none for a shared library, the linked libraries for a static one, and never
-    the window's.
+    """Checks the dependencies in the package files: none for the shared library, the linked libraries for the static
+    library, and never the libraries of the window.
     """
     files = list(prefix.rglob("*.cmake")) + list(prefix.rglob("*.pc"))
     check(len(files) >= 4, f"package files: {files}")
@@ -64,7 +64,7 @@ def check_shared_library(prefix, version):
     check(f"[libdefocus.so.{'.'.join(version.split('.')[:2])}]" in dynamic, dynamic)
     for needed in re.findall(r"\(NEEDED\).*\[(.*)\]", dynamic):
         check(not re.search("glfw|imgui|X11", needed), f"the library needs {needed}")
-    # Weak symbols belong to templates of the standard library; all others are the API's.
+    # Weak symbols belong to templates of the standard library; all other symbols must belong to the API.
     for line in run("nm", "-D", "-C", "--defined-only", libraries[0]).splitlines():
         kind, name = line.split(None, 2)[1:]
         api = re.match(r"((typeinfo|vtable|typeinfo name) for )?defocus::", name)
@@ -104,7 +104,7 @@ def render_all(programs, output, scene, environment):
 
 
 def check_documentation(source):
-    """Checks that docs/library.md shows the example of a scene from memory as it is."""
+    """Checks that docs/library.md shows examples/scene_data.cpp unchanged."""
     example = (source / "examples" / "scene_data.cpp").read_text()
     check(example[example.index("#include"):] in (source / "docs" / "library.md").read_text(),
           "docs/library.md shows another program than examples/scene_data.cpp")

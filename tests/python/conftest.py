@@ -15,13 +15,13 @@ SMALL_OPTIONS = ["--fish", "2", "--fish-triangles", "500", "--size", "64x48", "-
 
 @pytest.fixture(autouse=True, scope="session")
 def own_cache(tmp_path_factory):
-    """Sets a pyramid cache for this process and its children."""
+    """Sets a temporary cache folder for this process and its children."""
     os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.mktemp("cache"))
 
 
 @pytest.fixture(scope="session")
 def gl(own_cache):
-    """Skips tests that render where OpenGL is not available."""
+    """Skips the tests that use this fixture where OpenGL is not available."""
     try:
         defocus.render(**{**SMALL, "size": (8, 8), "samples": 1})
     except defocus.Error as error:

@@ -20,7 +20,7 @@ def test_equal_images_have_no_difference(gradient):
     assert difference.pixel_count == 24 * 32 and difference.non_finite == 0
 
 
-# Black against white: every error is 1, and PSNR with peak 1 is 0 dB.
+# Between black and white, every error is 1, and PSNR with peak 1 is 0 dB.
 def test_black_and_white_differ_by_one():
     black = numpy.zeros((16, 20, 4), numpy.float32)
     white = numpy.ones((16, 20), numpy.float32)
@@ -45,7 +45,7 @@ def test_float32_arrays_are_read_where_they_lie(gradient):
     assert defocus._pixels(read_only) is read_only
     for part in (gradient[2:, ::2], gradient[..., :3]):
         assert numpy.shares_memory(defocus._pixels(part), gradient)
-    # C++ rejects other types and layouts, so that no array is converted implicitly.
+    # The C++ functions reject other types and layouts, so that no array is converted implicitly.
     for other in (gradient.astype(numpy.float64), gradient[::-1], numpy.asfortranarray(gradient)):
         with pytest.raises(TypeError):
             defocus._defocus.compare(other, other)

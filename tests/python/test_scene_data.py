@@ -1,4 +1,4 @@
-"""Tests that scenes made of arrays render, keep nothing of the arrays, and refuse wrong ones."""
+"""Tests that scenes made of arrays render, hold no references to the arrays, and refuse invalid arrays."""
 
 import gc
 import math
@@ -74,11 +74,11 @@ def test_transforms_move_instances_cameras_and_lights():
     assert scene.nodes == ["Square", "Right", ""] and scene.triangles == 2
     image = defocus.render(scene, **SETTINGS)
     assert image[20, 16:48, 3].min() == 1 and image[20, 48:, 3].max() == 0
-    # The camera looks from behind, where the front faces are invisible.
+    # From behind the square, its front faces are invisible.
     behind = defocus.Camera(defocus.look_at((0, 0, -4), (0, 0, -2)))
     image = defocus.render(defocus.Scene.create([mesh], cameras=[behind]), **SETTINGS)
     assert image[..., 3].max() == 0
-    # A lamp lights its own side.
+    # A lamp on the camera's side of the square lights what the camera sees.
     lamp = defocus.Light("point", moved, intensity=50)
     grey = square(material=defocus.Material(metallic=0))
     lit = defocus.render(defocus.Scene.create([grey], cameras=[CAMERA], lights=[lamp]), **SETTINGS)

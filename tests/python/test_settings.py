@@ -50,7 +50,7 @@ def test_what_is_given_beside_a_preset_wins():
         assert plan["lod"]["metric"] == "halving" and plan["lod"]["vertices"] == "surviving"
 
 
-# Every row of the table is a keyword that accepts its own default.
+# Every setting is a keyword that accepts the setting's own default.
 @pytest.mark.parametrize("setting", [s for s in defocus.settings() if s.default is not None], ids=lambda s: s.keyword)
 def test_every_setting_takes_its_default(setting):
     defocus._settings.request_of(None, {setting.keyword: setting.default})
@@ -156,7 +156,7 @@ def stub_parameters():
 
 
 def own_parameters(function):
-    """Returns the parameters without settings (the scene is one) and without the catch-all parameter."""
+    """Returns the parameters of a function except settings, such as the scene, and except the catch-all parameter."""
     parameters = inspect.signature(function).parameters.values()
     gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     return [p.name for p in parameters

@@ -41,8 +41,9 @@ def test_what_progress_raises_ends_the_work_and_reaches_the_caller(small):
         assert numpy.array_equal(renderer.render(), defocus.render(**small))
 
 
-# With an endless switch interval, a thread runs only if another thread releases Python's lock. The progress function
-# does not release it, so the counter advances between two calls only if C++ works without the lock.
+# Rendering releases the GIL. With an endless switch interval, a thread runs only if another thread releases the GIL.
+# The progress function does not release it, so the counter advances between two calls only if C++ works without the
+# GIL.
 def test_python_goes_on_while_c_plus_plus_renders(small):
     count = 0
     finished = threading.Event()
@@ -53,7 +54,7 @@ def test_python_goes_on_while_c_plus_plus_renders(small):
         started.set()
         while not finished.is_set():
             count += 1
-            time.sleep(1e-4)  # releases the lock
+            time.sleep(1e-4)  # releases the GIL
 
     interval = sys.getswitchinterval()
     other = threading.Thread(target=counting)
@@ -131,8 +132,8 @@ def test_a_renderer_is_not_used_from_its_own_progress_function(small):
         assert renderer.render().shape == (48, 64, 4)
 
 
-# A frame that takes minutes, with a signal soon after its start and no progress function. The test checks that the
-# frame stays unfinished, not when the signal arrives.
+# Ctrl-C ends a render without a progress function. The signal comes soon after the start of a frame that would take
+# minutes. The test checks that the frame stays unfinished, not when the signal arrives.
 def test_ctrl_c_ends_a_render(small):
     script = textwrap.dedent(f"""
         import signal

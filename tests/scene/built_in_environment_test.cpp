@@ -1,4 +1,4 @@
-// Compares computed environment maps with integrals and symmetries.
+// Compares the built-in environment maps with integrals and symmetries.
 
 #include "scene/built_in_environment.h"
 
@@ -15,8 +15,8 @@ protected:
     const Image map = builtInEnvironment(std::string(GetParam()));
 };
 
-// ∫ L cos θ dω over the upper hemisphere. The integral of cos θ sin θ over a row is half the difference of sin² θ at
-// the row's edges.
+// Each map lights a level white surface to white: ∫ L cos θ dω over the upper hemisphere is π. The integral of cos θ
+// sin θ over a row is half the difference of sin² θ at the row's edges.
 TEST_P(BuiltInEnvironment, lightsALevelWhiteSurfaceToWhite) {
     double illuminance = 0;
     for (int y = 0; y < map.height / 2; ++y) {
@@ -32,7 +32,7 @@ TEST_P(BuiltInEnvironment, lightsALevelWhiteSurfaceToWhite) {
     for (const float value : map.pixels) ASSERT_TRUE(std::isfinite(value) && value > 0);
 }
 
-// The map is continuous behind the camera: its first and last columns differ no more than other neighbours.
+// The map has no seam behind the camera: its first and last columns differ no more than other adjacent columns.
 TEST_P(BuiltInEnvironment, hasNoSeam) {
     const auto step = [&](int a, int b) {
         double sum = 0;
@@ -46,7 +46,7 @@ TEST_P(BuiltInEnvironment, hasNoSeam) {
 
 TEST_P(BuiltInEnvironment, turnsByWholeColumnsAndBack) {
     const Image quarter = turnedEnvironment(map, std::numbers::pi / 2);
-    // The centre column, ahead at −z, moves to the left, at −x: a quarter of the map towards the first column.
+    // The centre column, in direction −z, moves to direction −x: a quarter of the map's width to the left.
     for (int y = 0; y < map.height; y += 17)
         EXPECT_EQ(quarter.at(map.width / 4, y)[0], map.at(map.width / 2, y)[0]) << y;
     EXPECT_EQ(turnedEnvironment(quarter, -std::numbers::pi / 2).pixels, map.pixels);
@@ -64,7 +64,7 @@ TEST_P(BuiltInEnvironment, turnsByWholeColumnsAndBack) {
 INSTANTIATE_TEST_SUITE_P(All, BuiltInEnvironment, testing::Values("studio", "overcast", "sunset"),
                          [](const auto& tested) { return std::string(tested.param); });
 
-// CIE: L(h) = Lz (1 + 2 sin h) / 3.
+// The overcast sky follows the CIE formula L(h) = Lz (1 + 2 sin h) / 3, with elevation h and zenith luminance Lz.
 TEST(BuiltInEnvironments, anOvercastSkyIsThatOfTheCie) {
     const Image map = builtInEnvironment("overcast");
     const int row = 100;

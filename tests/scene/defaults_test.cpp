@@ -1,4 +1,4 @@
-// Checks the framing camera by projection and the default light by integration over a grey ball.
+// Checks the framing camera by projection, and the default light by integration over a grey ball.
 
 #include "scene/defaults.h"
 
@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// A scene whose bounds are the box from `minimum` to `maximum`.
+// Returns a scene whose bounds are the box from `minimum` to `maximum`.
 Scene boxScene(const glm::vec3& minimum, const glm::vec3& maximum) {
     Scene scene;
     Mesh mesh;
@@ -130,7 +130,7 @@ TEST(DefaultLights, giveWayToTheScenesOwn) {
     EXPECT_EQ(count(), 1u);
 }
 
-// Irradiance / π of the default sky on a surface with the normal `normal`, by brute-force integration.
+// Returns the irradiance / π of the default sky on a surface with the normal `normal`, by brute-force integration.
 glm::dvec3 skyLight(const Environment& sky, const glm::dvec3& normal) {
     glm::dvec3 sum(0);
     double weight = 0;

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// A table at 10 m with a cup on it, and two lamps without unique names.
+// Returns a scene with a table at x = 10 m, its child node "cup" at 30 m, and two nodes named "lamp" at 30 m and 40 m.
 Scene furnishedScene() {
     Scene scene;
     Mesh mesh;
@@ -50,7 +50,7 @@ TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
     EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 41);
     hideNodes(scene, std::vector<std::string>{"3"}, pose);
     EXPECT_DOUBLE_EQ(pose.bounds.minimum.x, 10);
-    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup is 10 m beyond the table, the lamp at 30 m
+    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup and the first lamp begin at 30 m
 }
 
 TEST(HiddenNodes, callingsAreReadBackAsTheirNodes) {

@@ -25,8 +25,8 @@ TEST(Mesh, boundsAreOfWhatTrianglesUse) {
 }
 
 TEST(SmoothNormals, weighByAreaAcrossEqualPositions) {
-    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each has its own copy of the edge, one
-    // with −0. One triangle of area 1 faces y; the other, of area 2, faces x.
+    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each has its own vertices on the edge, and
+    // one of these has −0. One triangle of area 1 faces y; the other, of area 2, faces x.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {-0.0f, 0, 0}, {0, 4, 0}, {0, 0, 1}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
     const std::vector<glm::vec3> normals = smoothNormals(positions, indices);
@@ -41,7 +41,7 @@ TEST(SmoothNormals, vertexWithoutProperTriangleFacesUp) {
     for (const glm::vec3& normal : smoothNormals(positions, {0, 1, 2})) EXPECT_EQ(normal, glm::vec3(0, 1, 0));
 }
 
-// A square in the plane z = 0 with an upright texture: u points right, v (down in glTF) starts at the top.
+// Returns a square in the plane z = 0 with an upright texture: u points right, and v (down in glTF) starts at the top.
 VertexBlock uprightSquare() {
     VertexBlock block;
     block.vertices.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -80,7 +80,7 @@ TEST(Tangents, withoutTextureCoordinatesAreStillPerpendicular) {
     }
 }
 
-// A torus whose u runs about the axis and whose v runs down around the ring, so that ∂p/∂u is known.
+// The tangents of a torus follow ∂p/∂u, which is known: u runs about the axis and v down around the ring.
 TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     constexpr int around = 64, ring = 32;
     VertexBlock block;
@@ -106,14 +106,14 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::vec4& tangent = made.vertices.tangents[indices[i]];
-        // Chords of the outermost circle deviate from the tangent by π/64; at a seam a vertex has a chord on one side
+        // Chords of the outermost circle deviate from the tangent by π/64. A vertex at a seam has a chord on one side
         // only.
         ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
         ASSERT_EQ(tangent.w, 1) << i;
     }
 }
 
-// Another implementation computed the tangents in the model's file.
+// Tangents agree with those in a model's file, which another implementation computed.
 TEST(Tangents, agreeWithThoseOfARealModel) {
     DEFOCUS_MODEL_OR_SKIP(path, "WaterBottle.glb");
     const Mesh mesh = loadGltf(path).meshes.at(0);

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// The cube from −1 to 1, with twelve triangles.
+// Returns the cube from −1 to 1, with twelve triangles.
 Mesh cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i)
@@ -73,8 +73,8 @@ TEST(Pick, flattenedObjectsAreSeen) {
     EXPECT_NEAR(hit->distance, 4, 1e-12);
 }
 
-// A cube equals its own bounding box, so the slab formula gives the exact answer for random rays. A matrix applied to
-// the cube and the rays preserves the answer.
+// Rays hit a cube where the slab formula hits its bounding box, for random rays. A matrix applied to both the cube and
+// the rays preserves the answer.
 TEST(Pick, agreesWithTheBoxItself) {
     const glm::dmat4 crooked(glm::dmat3(0.5, 2, 0, -0.3, 0.1, 1, 7, 0.2, 0.4));
     for (const glm::dmat4& place : {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(40, -3, 9)) * crooked}) {

@@ -22,7 +22,8 @@ Mesh triangleMesh() {
     return mesh;
 }
 
-// A parent at (10, 0, 0), rotated by a quarter turn about z and scaled by 2. Its child at (1, 0, 0) draws a triangle.
+// Returns a scene with a parent node at (10, 0, 0), rotated by a quarter turn about z and scaled by 2, whose child at
+// (1, 0, 0) draws a triangle.
 Scene parentAndChild() {
     Scene scene;
     scene.meshes = {triangleMesh()};
@@ -54,8 +55,8 @@ TEST(Pose, childrenFollowTheirParents) {
     expectNear(nodeCentre(scene, pose, 0), {10, 0, 0});
 }
 
-// In a scene in centimetres, all lengths shrink to a hundredth, including those of the camera and of the lights. The
-// illuminance on surfaces stays the same.
+// Poses are in metres. For a scene in centimetres, all lengths shrink to a hundredth, including those of the camera and
+// of the lights. The illuminance on surfaces stays the same.
 TEST(Pose, isInMetres) {
     Scene scene = parentAndChild();
     scene.metresPerUnit = 0.01;
@@ -175,8 +176,8 @@ TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
         return std::array<float, 4>{sign * static_cast<float>(q.x), sign * static_cast<float>(q.y),
                                     sign * static_cast<float>(q.z), sign * static_cast<float>(q.w)};
     };
-    // The second key is the negated quaternion for 80°. It is the same rotation, but interpolation without a sign
-    // change would go the long way round.
+    // The second key is the negated quaternion for 80°, which is the same rotation. Interpolation without a sign change
+    // would turn by 280° instead.
     std::vector<float> values;
     for (const auto& key : {turn(0, 1), turn(80, -1)}) values.insert(values.end(), key.begin(), key.end());
     const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::rotation, {0, 1}, values);
@@ -192,7 +193,7 @@ TEST(Animation, cubicRotationsAreNormalised) {
         channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
                   {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
-    // Half-way, both keys have the same weight: a quarter turn about x.
+    // Half-way, both keys have the same weight, which gives a quarter turn about x.
     expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);
 }
 

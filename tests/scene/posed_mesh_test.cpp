@@ -21,7 +21,7 @@ void expectNearInFloat(const glm::dvec3& a, const glm::dvec3& b) {
 
 constexpr double quarter = std::numbers::pi / 2;
 
-// One triangle; each vertex follows joint 0 unless a test changes it.
+// Returns a triangle whose vertices all follow joint 0; tests change the weights.
 Mesh skinnedTriangle() {
     Mesh mesh;
     mesh.vertices.positions = {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
@@ -69,7 +69,7 @@ TEST(PosedMesh, weightsThatAreNoneAndJointsThatAreMissing) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     mesh.vertices.weights = {{nan, 0.5f, -1, 0}, {0, 0, 0, 0}, {0, 0, 0, 3}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
-    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 counts, with the full weight
+    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 has a weight, which counts as 1
     expectNearInFloat(positions[1], {12, 0, 0});  // without weights: the first joint
     expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 does not exist: the first joint
 }
@@ -85,7 +85,7 @@ TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
     expectNearInFloat(posedPositions(mesh, object)[0], {0, 1, 0});
 }
 
-// A plane's normal stays perpendicular to the plane under non-uniform scaling, and keeps its length.
+// A normal stays perpendicular to its plane under non-uniform scaling, and keeps its length.
 TEST(PosedMesh, normalsStayPerpendicularUnderStretch) {
     Mesh mesh = skinnedTriangle();
     mesh.vertices.positions = {{0, 0, 0}, {1, -1, 0}, {0, 0, 1}};
@@ -112,7 +112,7 @@ TEST(PosedMesh, plainObjectsAreOnlyPlaced) {
     expectNearInFloat(posedBounds(mesh, object).maximum, {2, 6, 0});
 }
 
-// A triangle whose joint moves it in front of the ray.
+// Rays hit the posed triangle: its joint moves it in front of the ray.
 TEST(PosedMesh, raysMeetThePosedTriangle) {
     Scene scene;
     scene.meshes = {skinnedTriangle()};

@@ -19,7 +19,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A square in the plane z = 0 with all parts of a scene; tests change one part.
+// Data of a square in the plane z = 0 with all parts of a scene. Each test changes one part.
 struct Square {
     std::vector<std::array<float, 3>> positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::vector<std::array<float, 3>> normals;
@@ -69,7 +69,8 @@ void expectSameMeshes(const Scene& scene, const Scene& wanted) {
 }
 
 TEST(SceneFromData, meshesAreFinishedAsThoseOfFiles) {
-    // A normal map needs tangents, and a mesh without normals is flat-shaded. The file has the same arrays.
+    // The glTF file has the same arrays as the data. A normal map needs tangents, and a mesh without normals is
+    // flat-shaded.
     const ScratchFolder folder;
     Image blank(2, 2, 3);
     writeImage(folder / "blank.png", blank);
@@ -178,7 +179,7 @@ TEST(SceneFromData, texturesAreEncodedAsFilesStoreThem) {
     grey.pixels = {1.001f};
     EXPECT_EQ(textureImage({.image = grey}, "texture 0").rgba[0], 255);
 
-    // Every byte of both encodings survives the way through linear floats.
+    // Every byte of both encodings survives the conversion to linear floats and back.
     Image all(256, 1, 1);
     for (const TextureContent content : {TextureContent::color, TextureContent::data}) {
         for (std::size_t i = 0; i < 256; ++i) {

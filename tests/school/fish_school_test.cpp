@@ -1,5 +1,5 @@
-// The built-in scene serves as a benchmark and as a picture. The tests check that it is a fair benchmark, with their
-// own copy of the lens formulas, and that its fish are clean input for a simplifier.
+// The built-in school of fish is a fair benchmark, and its fish are clean input for a simplifier. The tests have their
+// own copy of the lens formulas.
 
 #include "school/fish_school.h"
 
@@ -42,7 +42,7 @@ View viewOf(const Scene& scene, const Pose& pose) {
     return view;
 }
 
-// Vertices of the mesh in view space: x right, y up, z the depth.
+// Returns the vertices of the object's mesh in view space: x right, y up, z the depth.
 std::vector<glm::dvec3> inView(const Scene& scene, const Object& object, const View& view) {
     const glm::dmat4 matrix = view.cameraFromWorld * object.worldFromObject;
     std::vector<glm::dvec3> points;
@@ -53,7 +53,7 @@ std::vector<glm::dvec3> inView(const Scene& scene, const Object& object, const V
     return points;
 }
 
-// Marks the pixels whose centre the triangle covers.
+// Marks the pixels whose centres the triangle covers.
 void rasterise(const std::array<glm::dvec2, 3>& p, std::vector<bool>& covered) {
     const auto edge = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
         return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -75,7 +75,8 @@ void rasterise(const std::array<glm::dvec2, 3>& p, std::vector<bool>& covered) {
     }
 }
 
-// c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2)), A = f / (1000 · fStop), f = horizontalAperture / (2 tan(θx/2))
+// Returns the blur diameter in px: c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2)), A = f / (1000 · fStop), f =
+// horizontalAperture / (2 tan(θx/2)).
 double blur(const Camera& camera, const View& view, double depth) {
     const double focalLength = *camera.lensValue("horizontalAperture") / (2.0 * view.tanHalfWidth);
     const double aperture = focalLength / (1000.0 * *camera.lensValue("fStop"));
@@ -83,8 +84,8 @@ double blur(const Camera& camera, const View& view, double depth) {
            (2.0 * view.tanHalfWidth);
 }
 
-// Expects every directed edge once, and its reverse once: a closed, consistently oriented surface without non-manifold
-// edges.
+// Expects a closed, consistently oriented surface without non-manifold edges: every directed edge occurs once, and its
+// reverse once.
 void expectClosed(const Mesh& mesh) {
     std::vector<std::uint64_t> edges;
     std::vector<std::uint64_t> opposites;
@@ -185,7 +186,7 @@ TEST(FishSchool, trianglesAreEvenAndAgreeWithTheirNormals) {
         EXPECT_EQ(shape.degenerate, 0u) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.slivers) / count, 0.02) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.againstNormals) / count, 0.002) << mesh.name;
-        // 19 of 20 edges lie within a factor of two of the median.
+        // The lengths of 19 of 20 edges lie within a factor of two of the median.
         std::sort(shape.edges.begin(), shape.edges.end());
         const auto at = [&](double share) {
             return shape.edges[static_cast<std::size_t>(share * (shape.edges.size() - 1.0))];

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Tests Slurm job arrays on a real cluster of two nodes on the loopback interface.
 
-A film: one task is killed half-way and queued again. The film must be complete, with the bits of a single run. One
-frame, split by samples and by rows as in scripts/slurm/README.md: the merged file must have the bits of a single run.
+A film by an array of tasks, of which one is killed half-way and queued again, must be complete and have the bits of a
+single run. A frame that is split by samples and by rows, as in scripts/slurm/README.md, must have the bits of a single
+run after merging.
 
 array_test.py PROGRAM BATCH_FILE. Exit code 77: skipped; the reason is printed.
 """
@@ -29,8 +30,8 @@ def skip(reason):
 
 
 def reserved_ports(count):
-    """Returns sockets that reserve a free port each. Programs that share ports, such as Slurm's daemons, can still
-    listen there; the system gives the port to no one else.
+    """Returns `count` sockets that each reserve a free port. Programs that set SO_REUSEADDR, such as Slurm's daemons,
+    can still listen on the port; the system gives the port to no other program.
     """
     sockets = [socket.socket() for _ in range(count)]
     for each in sockets:
@@ -49,7 +50,7 @@ def wait_until(what, condition, seconds=240):
 
 
 class Cluster:
-    """munged, slurmctld and two slurmd in a temporary folder."""
+    """A Slurm cluster in a temporary folder: munged, slurmctld and two slurmd."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -188,7 +189,7 @@ def share_film(cluster, program, batch, folder, samples):
 
     def ran_again():
         now = facts()
-        # Slurm delays a requeued task by two minutes; the release may fail while the task is ending
+        # Slurm delays a requeued task by two minutes; setting its start time may fail while the task is ending
         if "Reason=BeginTime" in now:
             cluster.ask("scontrol", "update", f"JobId={job}_1", "StartTime=now")
         return "Restarts=1" in now and "JobState=COMPLETED" in now
@@ -245,7 +246,7 @@ def main():
         cluster.environment["XDG_CACHE_HOME"] = str(folder / "cache")
         cluster.environment["DEFOCUS"] = str(program)
         cluster.start()
-        # A machine may finish its task before it is killed; the test then retries with more samples.
+        # A fast machine may finish the task before it is killed; the test then retries with more samples.
         assert any(share_film(cluster, program, batch, folder, samples) for samples in (64, 256, 1024)), "no task was killed in time"
         share_frame(cluster, program, folder)
     except BaseException:

@@ -1,5 +1,5 @@
 #pragma once
-// Drops files on a window of an X server as a file manager does: the source side of XDND version 5 (freedesktop.org,
+// Drops files on a window of an X server like a file manager: the source side of XDND version 5 (freedesktop.org,
 // Drag-and-Drop Protocol for the X Window System).
 
 #include <xcb/xcb.h>
@@ -26,8 +26,9 @@ public:
         xcb_flush(connection_.get());
     }
 
-    // `uris`: file:// URIs, one a line, each ending with CR LF. (x, y) is a screen position over the one window that
-    // accepts drops. Returns false without such a window, or if the window does not accept the drop within `seconds`.
+    // Drops files at the screen position (x, y), which must lie over the only window that accepts drops. `uris`:
+    // file:// URIs, one per line, each ending with CR LF. Returns false without such a window, or if the window does
+    // not accept the drop within `seconds`.
     bool drop(const std::string& uris, int x, int y, double seconds = 120) {
         uris_ = uris;
         target_ = windowThatTakesDrops();
@@ -78,8 +79,8 @@ private:
         xcb_flush(connection_.get());
     }
 
-    // Waits for the target's message, whose second value has the acceptance in its lowest bit. The target may request
-    // the files in the meantime.
+    // Waits up to `seconds` for a message of the target window, and returns whether the message accepts the drop: its
+    // second value is not 0. Meanwhile, serves the target's requests for the files.
     bool answered(const char* message, double seconds) {
         const xcb_atom_t expected = atom(message);
         for (double waited = 0; waited < seconds; waited += 0.01) {

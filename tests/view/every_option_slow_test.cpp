@@ -19,7 +19,7 @@ protected:
     void SetUp() override {
         ViewProgram::SetUp();
         if (IsSkipped()) return;
-        // Writes the images in a child process: image writers start threads, and start() cannot fork a process with
+        // Write the images in a child process: image writers start threads, and start() cannot fork a process with
         // threads.
         const pid_t writer = ::fork();
         if (writer == 0) {
@@ -31,15 +31,15 @@ protected:
         ASSERT_EQ(status, 0);
     }
 
-    // The state after the scene's first frame.
+    // Returns the window's state after the scene's first frame.
     json stateAfter(const Words& line) {
         start(line);
         EXPECT_EQ(ended(), 0) << textOf("stderr");
         return state();
     }
 
-    // Returns the command that renders the picture, with all non-default settings, then the wave size and whether there
-    // is a cache.
+    // Returns one text with the window's command for rendering its picture (with all non-default settings), the wave
+    // size, and the cache folders that exist.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;
@@ -53,7 +53,7 @@ protected:
     }
 
     void expectActs(const std::string& name, OptionCase tried) {
-        if (name == "size") tried.words = {"--size", "300x200"};  // windows have a min size
+        if (name == "size") tried.words = {"--size", "300x200"};  // a window has a min size
         for (Words* words : {&tried.words, &tried.with})
             std::ranges::replace(*words, "10,16,24,18,26,8,30,20", "100,90,120,90,120,60,130,100");
         const CommandLine view = {.name = "view", .command = {}, .size = "240x180", .rest = {"--frames", "1"}};
@@ -66,7 +66,7 @@ private:
 };
 
 TEST_F(OptionsOfView, haveACase) {
-    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // the last test covers these
+    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // tested at the end of this file
     for (const CLI::Option* option : optionsOffered("view"))
         if (const Setting* setting = settingOf(*option))
             EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
@@ -76,7 +76,7 @@ TEST_F(OptionsOfView, haveACase) {
             EXPECT_TRUE(own.contains(nameOf(*option))) << nameOf(*option);
 }
 
-// Tests cover a slice of the options, which starts at the parameter and is small enough to run in seconds.
+// Number of settings per test; the test parameter is the index of the first. Small enough that a test takes seconds.
 constexpr std::size_t settingsATest = 6;
 
 std::vector<std::string> allOffered() {
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(From, MethodSettingsOfView,
                              return name;
                          });
 
-// The helper passes --stats itself.
+// --frames, --screenshot and --stats have their effects. start() always passes --stats.
 TEST_F(OptionsOfView, framesScreenshotAndState) {
     const Words scene = {"ball.glb", "--size", "240x180"};
     const json three = stateAfter(joined(scene, {"--frames", "3"}));

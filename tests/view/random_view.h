@@ -1,5 +1,5 @@
 #pragma once
-// Random options, lenses and cameras of a view, for tests that write and read them back.
+// Random options, lenses and cameras for tests that write views and read them back.
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ inline Request randomOptions(Dice& dice) {
     return options;
 }
 
-// Sets about half of the fields to random valid values.
+// Sets about half of the lens fields to random valid values.
 inline void changeFields(Lens& lens, Dice& dice) {
     for (const LensField& field : lensFields()) {
         if (dice.coin()) continue;
@@ -86,7 +86,7 @@ inline void changeFields(Lens& lens, Dice& dice) {
     }
 }
 
-// A random position that looks towards the origin, upright or rolled.
+// Returns a camera at a random position that looks towards the origin, upright or rolled.
 inline glm::dmat4 randomCamera(Dice& dice) {
     const glm::dvec3 eye(dice.number(-9, 9), dice.number(-9, 9), dice.number(-9, 9));
     const glm::dmat4 upright = glm::inverse(glm::lookAt(eye, glm::dvec3(0.1, 0.2, 0.3), glm::dvec3(0, 1, 0)));

@@ -1,4 +1,4 @@
-// The command text of a view, parsed by the command line, gives the same view.
+// The render command that a window shows for its view, when parsed, gives the same view.
 
 #include "frame/report/render_command_text.h"
 
@@ -129,7 +129,7 @@ TEST(RenderCommandText, aCameraThatLooksStraightDownStaysSo) {
     expectSameView(placedBy(shot.command()).view, shot.view);
 }
 
-// A camera's extras may switch off defaults that are on, or switch on those that are off.
+// The command overrides lens switches of a camera's extras, both on and off.
 TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     ShotRequest shot;
     shot.frame.cameraLens.dofEnabled = false;
@@ -142,7 +142,7 @@ TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     EXPECT_FALSE(lens.focusBreathing);
 }
 
-// A camera that moves while the shutter is open comes from the file.
+// For a camera that moves while the shutter is open, the command names the file's camera instead of a position.
 TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     ShotRequest shot;
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
@@ -168,13 +168,13 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
 
 // ---- random views
 
-// Compares the options except the camera, lens and exposure, which the command takes from the view.
+// Expects equal options, except those of camera, lens and exposure, which the command takes from the view.
 void expectSameOptions(const Request& a, const Request& b) {
     for (const Setting& setting : settings()) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
             setting.group == SettingGroup::display)
             continue;
-        if (setting.kind == SettingKind::path)  // ./-x equals -x
+        if (setting.kind == SettingKind::path)  // the path -x is written as ./-x
             EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
                       setting.text(b).value_or(""));
         else
@@ -210,7 +210,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         Lens lens = frame.cameraLens;
         EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request)).empty());
         EXPECT_DOUBLE_EQ(unmeteredExposure(read.request, lens), write.exposure);
-        if (!(view.lens.exposureTime > 0)) {  // otherwise the exposure time replaces the value
+        if (!(view.lens.exposureTime > 0)) {  // an exposure time replaces the exposure value
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }
@@ -225,7 +225,8 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
     }
 }
 
-// A preset covers its own settings; once one of them changes, the command lists all settings separately.
+// The command names a preset instead of its settings. Once one of these settings changes, the command lists all of
+// them.
 TEST(RenderCommandText, namesAPresetOrItsSettings) {
     Request options;
     applyPreset(presetNamed("jeong2011"), options);

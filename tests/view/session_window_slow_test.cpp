@@ -1,4 +1,4 @@
-// defocus view under longer mouse and keyboard input.
+// Tests `defocus view` with longer sequences of mouse and keyboard input.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,8 @@ using nlohmann::json;
 
 using View = SessionWindow;
 
-// The three clicks hit the squares on the plane w + tan(swing)·X + tan(tilt)·Y = focus distance, in view space.
+// Three Ctrl-clicks tilt the focus plane through the three points on the squares: in view space, all lie on the plane w
+// + tan(swing)·X + tan(tilt)·Y = focus distance.
 TEST_F(View, threePointsTiltTheFocusPlane) {
     openTwoQuads({"--focus-distance", "4"});
     const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};  // x, y, depth
@@ -60,14 +61,15 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     inTurn({"mousemove 201 200", "mousedown 1", "mousemove 250 200", "mousemove 300 200", "mouseup 1"});
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
-    key("x");  // nearest level
-    key("x");  // the reference, which has other samples
+    key("x");  // compares with the nearest level
+    key("x");  // compares with the reference, which has other samples
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();
 }
 
-// With an open shutter, one frame later, the exported image equals the one that the command renders.
+// With an open shutter, and after a step to the next frame, the exported image equals the image that the command
+// renders.
 TEST_F(View, shutterStaysOpenAtAnotherTime) {
     const std::string scene = std::string(DEFOCUS_SOURCE_DIR) + "/meshes/swimmers.glb";
     start({scene, "--size", "260x150", "--samples", "4", "--lod", "off", "--time", "0.5", "--shutter", "0.2"});
@@ -109,7 +111,7 @@ TEST_F(View, keysSwitchWhatTheyName) {
 
 TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     openTwoQuads();
-    // Repeats in turn, so that frames also fall between two queries to the display.
+    // Repeats the sizes, so that frames also fall between two queries to the display.
     for (int turn = 0; turn < 3; ++turn)
         for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
             act(std::string("search --onlyvisible --name defocus windowsize ") + size);
@@ -127,7 +129,8 @@ TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     EXPECT_EQ(ended(), 0);
 }
 
-// Larger fish keep the pyramids unfinished until the input arrives, even on a fast machine.
+// Coarse shapes appear before the pyramids are finished, and edits made meanwhile are kept. Larger fish are tried until
+// the input arrives before the pyramids are finished, even on a fast machine.
 TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
     double before = 0;
     const auto changesTheStopOfCoarseShapes = [&](int triangles) {

@@ -1,4 +1,4 @@
-// defocus view under mouse and keyboard input.
+// Tests `defocus view` with mouse and keyboard input.
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
     const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
     ASSERT_TRUE(hand.drop(uri + "\r\n", 120, 100));
     EXPECT_TRUE(showsScene("two words.gltf")) << state();
-    // A file that is not a scene is reported, and the old scene stays.
+    // Dropping a file that is not a scene shows an error, and the old scene stays.
     std::ofstream(folder() / "notes.txt") << "no glTF";
     ASSERT_TRUE(hand.drop("file://" + (folder() / "notes.txt").string() + "\r\n", 120, 100));
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
@@ -91,7 +91,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
 }
 #endif
 
-// The interface scales with the screen's resolution: panel, fonts and window.
+// Panel, fonts and window scale with the screen's resolution in dpi.
 TEST_F(View, interfaceFollowsTheScreensResolution) {
     if (std::system("command -v xrdb >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "xrdb is needed (Debian: x11-xserver-utils)";
@@ -111,7 +111,7 @@ TEST_F(View, interfaceFollowsTheScreensResolution) {
         const auto scaled = [&](double units) { return static_cast<int>(std::lround(units * scale)); };
         ASSERT_EQ(image.width, scaled(614));
         ASSERT_EQ(image.height, scaled(150));
-        // The panel's background begins at the edge of the picture.
+        // The panel's background begins at the picture's right edge.
         const float* ground = image.at(scaled(250) + 2, scaled(3));
         EXPECT_NEAR(ground[0], 0.016f, 0.004f);
         EXPECT_EQ(ground[0], ground[2]);

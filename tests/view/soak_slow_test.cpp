@@ -33,12 +33,12 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
-    // The allocators settle after some tens of scenes. A short run finds leaks of a window-sized image for each scene;
-    // a long run finds any leak.
+    // Allocators settle after some tens of scenes. A short run finds leaks of one window-sized image per scene; a long
+    // run finds any leak.
     const double settled = 0.02 * before.megabytes;
     const double imagesKept = (scenes - early) * 320 * 240 * 4e-6;
     EXPECT_LE(after.megabytes - before.megabytes, scenes < 500 ? imagesKept : settled);
-    // one scene's file may still be open; a leak for each scene would be some tens
+    // the file of one scene may still be open; a leak per scene would add some tens of handles
     EXPECT_LT(after.handles, before.handles + 5);
 }
 

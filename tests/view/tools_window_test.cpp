@@ -123,7 +123,7 @@ TEST_F(ViewTools, extensionsThatAreIgnoredAreListed) {
     EXPECT_TRUE(reaches([](const json& s) { return s.at("places").contains("ignored"); })) << state();
 }
 
-// All input arrives within one frame of a slow machine.
+// No input is lost if it comes faster than frames are drawn. Here all input arrives within one frame of a slow machine.
 TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     openTwoQuads();
     writeTwoQuads(folder() / "other.gltf");

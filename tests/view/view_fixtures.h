@@ -1,5 +1,5 @@
 #pragma once
-// The window with two squares, and actions of a user on it.
+// Fixtures of a window with two squares, and user actions on it.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// A window beside its panel. The panel begins at x = 400 px.
+// Window with the picture at the left and the panel at the right, from x = 400 px.
 class SessionWindow : public ViewProgram {
 protected:
     // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
@@ -32,8 +32,8 @@ protected:
         });
     }
     double number(const char* name) const { return state().at(name).get<double>(); }
-    // Presses a key that changes the state, which proves that earlier input has been processed. Without animation, the
-    // view has come to rest too.
+    // Presses a key that changes the state, which proves that earlier input has been processed. Returns true once the
+    // view is at rest.
     bool comesToRest() const {
         const bool dark = state().at("dark").get<bool>();
         key("t");
@@ -63,12 +63,12 @@ protected:
     }
 };
 
-// The same window, without programs of the desktop.
+// Fixture of a window that finds no desktop programs, such as file dialogs, on PATH.
 class ViewTools : public ViewProgram {
 protected:
     // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
-    // The same picture in a window tall enough for most of the panel.
+    // Opens the same scene in a window tall enough for most of the panel.
     void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
     void openScene(const std::string& size, std::vector<std::string> more) {
         writeTwoQuads(folder() / "quads.gltf");
@@ -79,14 +79,14 @@ protected:
         };
         ASSERT_TRUE(reaches(shown)) << textOf("stderr");
     }
-    // Starts the window with a PATH that has only the desktop programs that the test creates.
+    // Starts the window with a PATH that contains only the desktop programs that the test creates.
     void startWithPath(const std::string& path, const std::vector<std::string>& arguments) {
         const std::string before = std::getenv("PATH");
         ::setenv("PATH", path.c_str(), 1);
         start(arguments);
         ::setenv("PATH", before.c_str(), 1);
     }
-    // Clicks on a widget, once the state contains its position, until `condition` holds.
+    // Waits until the state contains the widget's position, then clicks on the widget until `condition` holds.
     [[nodiscard]] bool clicks(const std::string& place,
                               const std::function<bool(const nlohmann::json&)>& condition) const {
         if (!reaches([&](const nlohmann::json& s) { return s.at("places").contains(place); })) return false;
@@ -96,7 +96,7 @@ protected:
         };
         return insists(hand, condition);
     }
-    // Opens a section of the panel.
+    // Opens a section of the panel. `inside`: a widget in this section.
     [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
         return clicks(section, [&](const nlohmann::json& s) { return s.at("places").contains(inside); });
     }

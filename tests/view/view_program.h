@@ -1,6 +1,6 @@
 #pragma once
-// Runs `defocus view` on its own X server (Xvfb), with real mouse and key events (xdotool). The program writes its
-// state to a JSON file. After each input event the tests wait for frames that include it, however long that takes; they
+// Runs `defocus view` on its own X server (Xvfb), with mouse and key events from xdotool. The program writes its state
+// to a JSON file. After each input event, tests wait for frames that include the event, however long that takes; they
 // never sleep for a fixed time.
 
 #include <fcntl.h>
@@ -31,7 +31,7 @@ protected:
     static void SetUpTestSuite() { beginServer({"-screen", "0", "1280x800x24"}); }
     static void TearDownTestSuite() { endServer(); }
 
-    // `words`: Xvfb's command-line arguments for the screen.
+    // Starts Xvfb. `words`: its command-line arguments for the screen.
     static void beginServer(std::vector<std::string> words) {
         if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) return;
         int ends[2];
@@ -41,7 +41,7 @@ protected:
             endWithTheTest();
             ::dup2(ends[1], 3);
             silence();
-            // -r: no key repeats, however long the machine takes between press and release.
+            // -r: no key repeats, however long the machine takes between key press and release.
             const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-r", "-nolisten", "tcp"};
             words.insert(words.begin(), "Xvfb");
             words.insert(words.end(), others.begin(), others.end());
@@ -80,8 +80,8 @@ protected:
     }
 
     // Starts the program; `arguments` follow `view`. Relative file names refer to folder(). A fork of this process runs
-    // it, which skips the loading of hundreds of shared libraries. Forks do not copy threads: a test that has started
-    // any gets a fresh process instead.
+    // the program and so skips the loading of hundreds of shared libraries. Forks do not copy threads: a test that has
+    // started threads starts a fresh process instead.
     void start(std::vector<std::string> arguments, bool hasDisplay = true) {
         arguments.insert(arguments.begin(), {DEFOCUS_PROGRAM, "view", "--stats", "state.json"});
         const bool copy = threadCount() == threadsAtStart;
@@ -111,7 +111,7 @@ protected:
         ::_exit(95);
     }
 
-    // Waits up to `seconds` for the program to end and returns its exit code. After that, stops it and returns −1.
+    // Waits up to `seconds` for the program to end and returns its exit code. Then stops the program and returns −1.
     int ended(double seconds = 180) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int status = 0;
@@ -133,12 +133,12 @@ protected:
         nlohmann::json value = nlohmann::json::parse(file, nullptr, false);
         return value.is_discarded() ? nlohmann::json::object() : value;
     }
-    // Waits until the state satisfies `condition`; reached() is then that state. Returns false when the program has
-    // ended, or after minutes, since software drivers on busy machines are slow.
+    // Waits until the state satisfies `condition`; reached() then returns this state. Returns false if the program
+    // ends, or after three minutes, since software drivers on busy machines are slow.
     bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr double maxSeconds = 180;
         for (double waited = 0; waited < maxSeconds; waited += 0.05) {
-            const bool ending = !alive();  // its last state is still read
+            const bool ending = !alive();  // the last state is still read
             nlohmann::json now = state();
             if (!now.empty() && condition(now)) {
                 reached_ = std::move(now);
@@ -150,7 +150,7 @@ protected:
         return false;
     }
     [[nodiscard]] const nlohmann::json& reached() const { return reached_; }
-    // Repeats `hand` until `condition` holds. Each attempt waits for a hundred frames.
+    // Calls `hand` until `condition` holds, at most ten times, and waits for a hundred frames after each call.
     bool insists(const std::function<void()>& hand, const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr std::uint64_t patience = 100;
         for (int i = 0; i < 10 && alive(); ++i) {
@@ -167,13 +167,14 @@ protected:
         return reaches([&](const nlohmann::json& s) { return s.at("scene") == name && s.at("samples") > 0; });
     }
 
-    // Runs one xdotool command line, e.g. "mousemove 10 20 click 1".
+    // Runs an xdotool command line, such as "mousemove 10 20 click 1".
     void send(const std::string& commands) const {
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // Runs a command line and returns once the program has drawn its effect. The first new state may belong to a frame
-    // that began before the events. The next frame handles them, and the interface may respond two frames later.
+    // Runs an xdotool command line and returns once the program has drawn its effect. The first new state may belong to
+    // a frame that began before the events. The next frame handles the events, and the interface may respond two frames
+    // later.
     void act(const std::string& commands) const {
         send(commands);
         for (const std::uint64_t more : {1u, 3u}) {
@@ -181,11 +182,11 @@ protected:
             reaches([&](const nlohmann::json& s) { return s.at("frames").get<std::uint64_t>() >= drawn + more; });
         }
     }
-    // Performs several movements, each in its own frame.
+    // Runs several xdotool command lines, each in a frame of its own.
     void inTurn(const std::vector<std::string>& movements) const {
         for (const std::string& commands : movements) act(commands);
     }
-    // Without a window manager the window's area begins at the screen's corner.
+    // Clicks at a pixel of the window. Without a window manager, the window begins at the screen's corner.
     void click(int x, int y) const { inTurn({"mousemove " + std::to_string(x) + " " + std::to_string(y), "click 1"}); }
     void key(const std::string& name) const { act("key " + name); }
 
@@ -198,7 +199,7 @@ protected:
     }
 
 private:
-    // Returns whether this driver can draw a window.
+    // Returns whether `driver` can draw a window.
     bool draws(const std::string& driver) {
         start({"--fish", "1", "--fish-triangles", "200", "--frames", "1"});
         ended();
@@ -208,13 +209,14 @@ private:
         const nlohmann::json now = state();
         return now.empty() ? 0 : now.at("frames").get<std::uint64_t>();
     }
-    // Leaves the exit code for ended().
+    // Returns whether the program runs. Does not reap the process, so that ended() can return its exit code.
     [[nodiscard]] bool alive() const {
         siginfo_t info{};
         return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
                info.si_pid == 0;
     }
-    // Called in a child: a killed test leaves no child behind that would keep its output open.
+    // Must be called in a child: ends the child if the test is killed. Otherwise the child would keep the test's output
+    // open.
     static void endWithTheTest() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
     static void silence() {
         const int null = ::open("/dev/null", O_WRONLY);
@@ -236,7 +238,7 @@ private:
         return static_cast<std::size_t>(std::distance(Files("/proc/self/task"), Files()));
     }
 
-    // libraries start some threads when they are loaded
+    // libraries start threads when they are loaded
     static inline const std::size_t threadsAtStart = threadCount();
     static inline pid_t server_ = -1;
     static inline std::string display_;

@@ -78,8 +78,7 @@ LensSettings completeLens(const engine::Lens& lens) {
     return settings;
 }
 
-// ---- JSON
-// -------------------------------------------------------------------------------------------------------------
+// ---- JSON -----------------------------------------------------------------------------------------------------------
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json();

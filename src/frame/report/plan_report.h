@@ -17,10 +17,10 @@ defocus::Pyramid reportedPyramid(const Pyramid& pyramid, const std::string& name
 
 nlohmann::ordered_json jsonOf(const defocus::Pyramid& pyramid);
 
-// Returns the JSON as text that ends with a line break. Invalid UTF-8 is replaced.
+// Returns the JSON as text that ends with a line break. Invalid UTF-8 becomes U+FFFD.
 std::string documentText(const nlohmann::ordered_json& json);
 
-// Returns a readable text of why a pyramid has no further level.
+// Returns, as text for users, why a pyramid has no coarser level.
 std::string_view endReason(PyramidEnd end);
 
 }  // namespace defocus::engine

@@ -20,8 +20,8 @@ int longerSide(std::span<const LensSample> points, std::span<const std::uint32_t
     return max.x - min.x >= max.y - min.y ? 0 : 1;
 }
 
-// Sorts members along an axis of the lens. Points with equal coordinates are sorted by index, so that the order is the
-// same on all platforms.
+// Sorts the indices `members` by their points' lens coordinate x (side 0) or y (side 1). Ties are sorted by index, so
+// that the order is the same on all platforms.
 void sortAlong(int side, std::span<const LensSample> points, std::span<std::uint32_t> members) {
     std::ranges::sort(members, [&](std::uint32_t a, std::uint32_t b) {
         const float atA = points[a].lens[side];
@@ -36,7 +36,7 @@ struct Division {
     std::uint32_t share = 1;
     std::vector<std::uint32_t> order;
 
-    // Assigns `share` members to each centre in `among`.
+    // Assigns `share` of the points `members` to each of the centres `among`; both are lists of indices.
     void divide(std::span<std::uint32_t> members, std::span<std::uint32_t> among) {
         if (among.size() == 1) {
             std::ranges::sort(members);

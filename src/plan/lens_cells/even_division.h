@@ -1,5 +1,5 @@
 #pragma once
-// Divides lens points evenly among lens samples, so that each sample receives points near it.
+// Divides lens points evenly among lens samples: each sample gets the same number of nearby points.
 
 #include <cstdint>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace defocus::engine {
 
-// Returns an order of `points` in which entries [g·share, (g + 1)·share) lie near centres[g] on the lens. Both sets are
-// halved recursively across the longer side of the points' bounding box (Bentley 1975, Multidimensional Binary Search
-// Trees Used for Associative Searching). Points of the same centre keep their order. Requires share ≥ 1 and
-// points.size() = share · centres.size().
+// Returns indices of `points`, ordered so that entries [g·share, (g + 1)·share) lie near centres[g] on the lens. Points
+// and centres are halved recursively across the longer side of the points' bounding box (Bentley 1975, Multidimensional
+// Binary Search Trees Used for Associative Searching). Points of the same centre keep their order. Requires share ≥ 1
+// and points.size() = share · centres.size().
 std::vector<std::uint32_t> evenDivision(std::span<const LensSample> points, std::span<const LensSample> centres,
                                         std::uint32_t share);
 

@@ -1,4 +1,4 @@
-// defocus bench: an error in the command line yields one line.
+// Errors in the command line of `defocus bench` yield one line on stderr.
 
 #include "cli/commands/bench_commands.h"
 #include "cli/program.h"
@@ -42,7 +42,7 @@ TEST_F(Bench, convergenceRefusesListsThatAreNone) {
     expectOf("x", "--methods", "accumulation:x=1");
     expectOf("lit", "--shading", "dim");
     expectFault(2, "--method",
-                // the bench iterates over the methods itself
+                // bench convergence has no --method: it iterates over --methods
                 {"convergence", "quads.gltf", "--method", "accumulation"});
 }
 
@@ -67,7 +67,7 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
         EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
     }
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
-    // without a folder the table goes to the terminal only
+    // without an output folder, the table goes only to the terminal
     EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));
     EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
     EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // the program was not built from a checkout

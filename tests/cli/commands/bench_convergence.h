@@ -1,5 +1,5 @@
 #pragma once
-// Runs `defocus bench convergence` on a small scene, and checks its report.
+// Runs `defocus bench convergence` on a small scene and checks the report.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ protected:
         return run(arguments);
     }
 
-    // Rows of a CSV file by their first `keys` columns; each key occurs once.
+    // Returns the rows of a CSV file, with the columns first … first + keys − 1 as the key. Expects unique keys.
     std::map<std::string, std::vector<std::string>> rowsOf(const std::string& file, std::size_t first,
                                                            std::size_t keys) const {
         std::istringstream text(textOf(folder() / file));
@@ -46,8 +46,8 @@ protected:
         return rows;
     }
 
-    // Expects a self-contained page. It loads nothing from other hosts, its links lead into the page or to the data
-    // beside it, and every picture has alternative text.
+    // Expects a self-contained HTML page: it loads nothing from other hosts, its links lead into the page or to data
+    // files beside it, and every picture has alternative text.
     static void expectWholePage(const std::string& page) {
         const std::regex outside(
             "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");

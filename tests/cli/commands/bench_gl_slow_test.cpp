@@ -10,7 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The report is one page for all benches that wrote into the folder: two that run here, and two committed results.
+// The report is one page for all benches whose results are in the folder: two benches that run here, and two committed
+// results.
 TEST_F(BenchConvergence, reportHasASectionForEachBench) {
     fs::create_directory(folder() / "page");
     for (const char* name : {"scaling", "stability"})

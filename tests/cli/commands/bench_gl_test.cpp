@@ -14,8 +14,8 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
-    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // two settings and a preset, two sample counts
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs each
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // three configurations, two sample counts
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
     EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());
@@ -44,7 +44,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
         ASSERT_EQ(rows.size(), full.size()) << share;
         for (const auto& [key, cells] : full) {
             ASSERT_TRUE(rows.contains(key)) << key;
-            EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // mse
+            EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // MSE
         }
         EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
     }
@@ -52,7 +52,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
 }
 
 TEST_F(BenchConvergence, resumesNothingButTheSame) {
-    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // --runs is given twice
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // bench() already gives --runs
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const std::string journal = textOf(folder() / "out/runs.csv");
     const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
@@ -84,7 +84,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("has results of another scene", {"--resume", "--focus-distance", "3"});
     expectRefused("has results of another scene", {"--resume", "--seed", "7"});  // the reference image is the same
 
-    // A reference without measured runs, as left by a bench that was killed before the first run.
+    // A reference image without measured runs, as a bench leaves it if it is killed before its first run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");
     const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
@@ -113,7 +113,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
 
-    // Pictures for a side-by-side comparison.
+    // strips.json adds pictures for side-by-side comparison to the report.
     std::ofstream(folder() / "page/strips.json")
         << R"([{"title": "A leak", "text": "of <colour>", "images": [{"label": "one", "file": "one.png"}]}])";
     fs::copy(folder() / "out/images/reference.png", folder() / "page/one.png");
@@ -142,8 +142,8 @@ protected:
     }
 };
 
-// The bench measures the published algorithm first, then the call without the preset. Options beside the preset change
-// the preset: here they switch off its levels.
+// With --preset, the bench measures the published algorithm first, then the same command without the preset. Further
+// options override the preset: here they switch off its levels.
 TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});
     ASSERT_EQ(plain.size(), 3u);
@@ -159,7 +159,7 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
             EXPECT_EQ(both[3 + i][same], plain[i][same]) << same;
     }
     EXPECT_LT(both[5]["triangles"], both[3]["triangles"]);
-    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton's and Sobol's points
+    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton against Sobol points
     EXPECT_EQ(both[6]["method"], "scheuermann");
 }
 

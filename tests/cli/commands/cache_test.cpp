@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 class Cache : public ProgramTest {
 protected:
-    // Plans two small fish, which need pyramids. `--verbose` prints how many pyramids came from the cache.
+    // Runs `defocus plan` for two small fish, which need pyramids. With --verbose, the program prints how many pyramids
+    // came from the cache.
     Outcome plan(std::vector<std::string> arguments = {}, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"plan", "--fish", "2", "--fish-triangles", "2000"});
         const Outcome outcome = run(arguments, maxFileBytes);
@@ -86,7 +87,7 @@ TEST_F(Cache, listShowsFilesAndTheirTotal) {
     const Outcome outcome = run({"cache", "list", "--cache-dir", "here"});
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
-    // The printed total is the sum of the lines.
+    // The printed total of triangles is the sum over the listed files.
     const std::regex line(R"(([0-9a-f]{16}\.pyramid) +[0-9.]+ MB  \d{4}-\d\d-\d\d \d\d:\d\d +(\d+)\n)");
     std::size_t files = 0;
     std::uint64_t triangles = 0;

@@ -28,7 +28,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
         EXPECT_FALSE(metadata.contains("defocus:seconds"));
-        // f-stop: a smooth step in stops, from f/1.4 to f/2.8 (a factor of two).
+        // The f-number follows a smooth step in stops, from f/1.4 to f/2.8 (two stops).
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
         if (frame == 0) {
@@ -43,8 +43,8 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
-// A frame has the same bits when rendered alone, in the sequence, by another shard, with a second format, or with
-// another wave size.
+// A frame has the same bits when it is rendered alone, in the sequence, by another shard, with a second output format,
+// or with another wave size.
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
@@ -107,7 +107,7 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // --overwrite leaves nothing to resume
 }
 
-// --resume never replaces a foreign picture that has a frame's name.
+// --resume never replaces a picture of other origin that has a frame's name.
 TEST_F(Capture, resumeKeepsForeignPictures) {
     writeImage(folder() / "a0.png", Image(4, 4, 3));
     expectOneLine(run({"capture", "shot.json", "--range", "0", "--resume", "-o", "a#.png"}), 1);
@@ -127,8 +127,8 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
-// The camera moves 0.6 m closer to the square in the middle of the image. Each frame's focus is found at the frame's
-// own time, independent of the other frames in the run.
+// Focus on a pixel or on the middle of the image is measured at each frame's own time, independent of the other frames
+// in the run. The camera moves 0.6 m towards the square in the middle.
 TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     json dolly = shot();
     dolly.erase("focus");
@@ -151,7 +151,7 @@ TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     EXPECT_TRUE(bytesOf("alone5.exr") == bytesOf("p5.exr"));
     ASSERT_EQ(capture({"--shard", "1/3", "-o", "shard#.exr", "--focus-auto"}).exitCode, 0);
     EXPECT_TRUE(bytesOf("shard4.exr") == bytesOf("a4.exr"));
-    // A shot's pixel coordinates refer to the size in the shot.
+    // Pixel coordinates in a shot refer to the image size in the shot.
     ASSERT_EQ(capture({"--range", "5", "-o", "small#.exr", "--size", "32x24"}).exitCode, 0);
     EXPECT_NEAR(focusOf("small#.exr", 5), 2 - 0.6 * 5 / 7, 1e-5);
     expectOneLine(capture({"--range", "0", "--focus-pixel", "0,0"}), 1);
@@ -274,8 +274,8 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
 }
 
-// Each frame takes the samples that its own error requires: the same number alone, in the sequence and in another
-// shard.
+// A target error gives each frame the number of samples that its own error requires: the same number when the frame is
+// rendered alone, in the sequence, or in another shard.
 TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     const std::vector<std::string> asked = {"--target-error", "0.01", "--samples", "1024"};
     const auto with = [&](std::vector<std::string> more) {
@@ -300,7 +300,8 @@ TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     expectOneLine(capture({"--target-error", "0.01", "--sample-range", "0:64", "-o", "a/####.exr"}), 2);
 }
 
-// The time limit applies to the run. The run ends between frames, renders at least one, and loses none.
+// --time-limit limits the run, not the frame. The run renders at least one frame, ends between frames, and keeps all
+// finished frames.
 TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
     ASSERT_EQ(capture({"-o", "whole/####.exr"}).exitCode, 0);
     for (int run = 0; run < 7; ++run) {
@@ -314,7 +315,7 @@ TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
         EXPECT_TRUE(bytesOf(name(frame)) == bytesOf("whole/000" + std::to_string(frame) + ".exr")) << frame;
 }
 
-// Puts programs of the test's own folder before the system's on PATH.
+// Puts a shell script named ffmpeg first on PATH, for the lifetime of this object.
 class FakeFfmpeg {
 public:
     FakeFfmpeg(const fs::path& folder, const std::string& script) : path_(std::getenv("PATH")) {
@@ -331,7 +332,7 @@ private:
     std::string path_;
 };
 
-// ffmpeg reads the text before a colon as a protocol.
+// Names of videos may contain a colon, although ffmpeg reads the text before a colon as a protocol.
 TEST_F(Capture, filmsMayHaveAnyName) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     for (const char* name : {"12:30.mp4", "pipe:1.mp4"}) {
@@ -341,7 +342,7 @@ TEST_F(Capture, filmsMayHaveAnyName) {
     }
 }
 
-// On a full disk, ffmpeg exits with success although the video is truncated.
+// A truncated video never replaces a complete one. On a full disk, ffmpeg truncates the video but exits with success.
 TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     const FakeFfmpeg cut(folder() / "bin",

@@ -1,5 +1,5 @@
-// A capture that is killed at any moment leaves complete frames or none under their names. Resuming it yields the same
-// bits.
+// A capture that is killed at any moment leaves only complete frames under their final names. Resuming yields the bits
+// of an undisturbed run.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -20,7 +20,7 @@ constexpr int frames = 24;
 
 class Survival : public Capture {
 protected:
-    // Turns a forked process into the capture.
+    // Replaces a forked process by the capture.
     void become() const {
         const int nothing = ::open("/dev/null", O_WRONLY);
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
@@ -71,7 +71,8 @@ protected:
 #define DEFOCUS_TRACED_OR_SKIP(child) \
     if (!(child).traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)"
 
-// The capture is killed before a write into one of the next frames, or before a frame is renamed.
+// A capture that is killed 50 times loses no finished frame and can be resumed. Each kill comes before a random write
+// into a frame or before the renaming of a frame.
 TEST_F(Survival, killedFiftyTimesAndResumed) {
     const Outcome full = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(full.exitCode, 0) << full.err;
@@ -85,7 +86,7 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half of the frames are still missing.
+        // More than half of the frames are missing, so the capture needs more than calls / 3 calls.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
@@ -105,9 +106,9 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     expectNothingHalf();
 }
 
-// Several captures write the same frames at once. Each has its own temporary files, ignores the others', and renames
-// complete frames with the same bits. They start together, or each starts after the previous one has finished some
-// frames.
+// Several captures can render the same frames at once: each has its own temporary files, ignores those of the others,
+// and renames complete frames with the same bits. The captures start together, or each starts after the previous one
+// has finished some frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {
@@ -124,7 +125,8 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     }
 }
 
-// The capture is interrupted while it writes the first frame.
+// An interrupted capture ends between frames and prints how to resume. The signal arrives while the capture writes its
+// first frame.
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     TracedChild child = startTraced();
     DEFOCUS_TRACED_OR_SKIP(child);
@@ -139,7 +141,7 @@ TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     EXPECT_TRUE(fs::exists(folder() / frame("frames", 23)));
 }
 
-// The disk is full: a file system of 200 kB.
+// On a full file system of 200 kB, a capture keeps its complete frames and leaves no partial ones.
 TEST_F(Survival, fullFileSystemKeepsWholeFrames) {
     std::ofstream(folder() / "inside.sh") << "mount -t tmpfs -o size=200k tmpfs small || exit 9\n"
                                              "'" DEFOCUS_PROGRAM

@@ -1,4 +1,4 @@
-// defocus compare, run in this process.
+// Runs `defocus compare` in the test process.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ protected:
         std::filesystem::remove_all(folder, ignored);
     }
 
-    // Returns the command's output. `arguments` follow "compare"; the words six, five and small stand for the files.
+    // Returns the output of `compare` with these arguments. @six, @five, @small and @none stand for the paths of the
+    // test's files.
     std::string run(std::string arguments) const {
         for (const char* name : {"six", "five", "small", "none"}) {
             const std::string word = std::string("@") + name;

@@ -55,13 +55,14 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     ASSERT_EQ(
         run({"merge", "--quiet", "f2.part00000-00064.exr", "f2.part00064-00128.exr", "-o", "merged.exr"}).exitCode, 0);
     EXPECT_TRUE(bytesOf("merged.exr") == full);
-    // The merged file counts as a finished frame and is kept.
+    // `capture --resume` counts the merged file as a finished frame and keeps it.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});
     EXPECT_NE(resumed.err.find("1 of them from earlier runs"), std::string::npos) << resumed.err;
 }
 
-// The camera turns while the shutter is open. Each sample has its own time, independent of the part that contains it.
+// Merged parts of a frame with motion blur equal the single run, since the time of a sample does not depend on its
+// part. The camera turns while the shutter is open.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;

@@ -1,4 +1,4 @@
-// capture accepts a new shot, whose schema lies beside the file.
+// `defocus new-shot` writes a shot that `capture` accepts, with the shot's schema beside it.
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// defocus pyramid, run in this process.
+// Runs `defocus pyramid` in the test process.
 
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(PyramidCommand, ExportedLevelsReadBackAsTheyAre) {
     }
 }
 
-// A mesh whose name, used as a path, would leave the folder.
+// Exported files stay in the given folder, whatever the mesh's name, such as ../../evil.
 TEST(PyramidCommand, NoNameLeavesTheFolder) {
     const ScratchFolder folder;
     for (const char* name : {"../../evil", "/etc/evil", "..", ".hidden", "a\nb", "\xc3\xa9t\xc3\xa9"}) {
@@ -121,7 +121,7 @@ TEST(PyramidCommand, TextHasALineALevel) {
     EXPECT_NE(text.find(std::to_string(expected.levels.back().triangleCount)), std::string::npos) << text;
 }
 
-// Pyramids from the cache are not rebuilt, and the command prints the same levels.
+// With --cache-dir, pyramids are built once; then the command loads them and prints the same levels.
 TEST(PyramidCommand, KeepsLevelsInTheFolderThatItIsGiven) {
     const ScratchFolder folder;
     const std::string cache = (folder / "cache").string();

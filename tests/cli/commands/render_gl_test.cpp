@@ -47,7 +47,7 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
     EXPECT_TRUE(fs::exists(folder() / "out.exr"));
 }
 
-// The public API and the program render the same bits, for every set of options.
+// The public API and the program render the same bits, for each of these sets of options.
 TEST_F(Render, isWhatTheLibraryRenders) {
     const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
         std::vector<std::string> arguments = {"render", "--no-cache", "-o", "a.exr"};
@@ -76,8 +76,8 @@ TEST_F(Render, isWhatTheLibraryRenders) {
     expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
 }
 
-// The printed line, the metadata and --stats give the number of samples, the remaining error and the reason for
-// stopping.
+// With --target-error, the printed line, the metadata and --stats give the number of samples, the remaining error and
+// the reason for stopping.
 TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
     const auto rendered = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--fstop", "1", "-o", "a.exr",
@@ -135,7 +135,8 @@ TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
 }
 
-// f/2, 1/8 s, ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4 cd/m².
+// Exposure time and ISO give an exposure. For f/2, 1/8 s and ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4
+// cd/m².
 TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     const std::vector<std::string> photographic = {"--fstop", "2", "--exposure-time", "1/8", "--iso", "200"};
     std::vector<std::string> arguments = {"-o", "a.exr", "-o", "a.png"};
@@ -149,7 +150,7 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
     EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
 
-    // Exposure stored in the file; --exposure overrides it.
+    // The exposure stored in the file applies unless --exposure overrides it.
     json scene = json::parse(textOf(folder() / "quads.gltf"));
     scene["cameras"][0]["extras"] = {{"fStop", 2}, {"exposureTime", 0.125}, {"iso", 200}};
     std::ofstream(folder() / "own.gltf") << scene.dump();
@@ -163,8 +164,8 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NE(own({"--exposure", "0"}), readImage(folder() / "a.png").pixels);
 }
 
-// The camera's aperture image lies beside the file and equals the one given by the option. An unreadable image is
-// ignored with a warning.
+// The path of a camera's aperture image is relative to the scene file, and the image acts like --aperture-image. An
+// unreadable image is ignored with a warning.
 TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
     Image image(8, 8, 1);
     *image.at(6, 3) = 1;
@@ -199,13 +200,14 @@ TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
     EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
 }
 
-// OpenEXR: camera space is left-handed and looks along +z; (0, 0) in NDC is the upper left corner of the image.
+// The EXR matrices map a point to the pixel that shows it. In OpenEXR, camera space is left-handed and looks along +z;
+// (0, 0) in NDC is the upper left corner of the image.
 TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);
     Metadata metadata;
     readImage(folder() / "a.exr", metadata);
     const Image depth = readImage(folder() / "a.depth.exr");
-    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // just inside Near's left edge, and just outside it
+    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // just inside and outside Near's left edge
     const glm::vec4 outside = {-0.22f, 0.3f, -2, 1};
     const glm::vec4 camera = std::get<glm::mat4>(metadata.at("worldToCamera")) * inside;
     EXPECT_NEAR(camera.z, 2, 1e-5);
@@ -224,7 +226,7 @@ TEST_F(Render, aDashIsStandardOutput) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
 }
 
-// Standard output gets the same bytes as a file, except for the times in them.
+// With `-o -`, standard output gets the same image as a file; only times in the metadata differ.
 TEST_F(Render, aDashIsStandardOutputForImages) {
     ASSERT_EQ(render({"-o", "a.png", "-o", "a.exr"}).exitCode, 0);
     const auto pixels = [&](const char* name) { return readImage(folder() / name).pixels; };
@@ -242,8 +244,8 @@ TEST_F(Render, aDashIsStandardOutputForImages) {
     expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
 }
 
-// Without --samples the picture determines the number: few where blur is small, more where it is large,
-// deterministically.
+// Without --samples, the blur determines the number of samples: few for small blur, more for large blur, and the same
+// number in each run.
 TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
         options.insert(options.begin(),
@@ -305,7 +307,7 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
         EXPECT_TRUE(fs::exists(folder() / name)) << name;
     const Image coc = readImage(folder() / "a.coc.exr");
     const Image level = readImage(folder() / "a.level.exr");
-    // c = A·|1/s − 1/z|·W/(2 tan) with A = 50/2.8 mm: before the focus plane at 2 m, behind it at 8 m.
+    // CoC = A·(1/s − 1/z)·W/(2 tan(θx/2)) with A = 50/2.8 mm and s = 4 m: negative at z = 2 m, positive at z = 8 m.
     const double aperture = 0.05 / 2.8;
     EXPECT_NEAR(*coc.at(63, 21), aperture * (1 / 4.0 - 1 / 2.0) * 128 / 0.72, 1e-4);
     EXPECT_NEAR(*coc.at(126, 48), aperture * (1 / 4.0 - 1 / 8.0) * 128 / 0.72, 1e-4);
@@ -324,7 +326,7 @@ TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     }
     EXPECT_EQ(images[0].channels, 1);
     EXPECT_EQ(images[0].pixels, images[1].pixels);
-    EXPECT_EQ(*images[0].at(63, 21), 4);  // in the middle of Near, which hides nothing
+    EXPECT_EQ(*images[0].at(63, 21), 4);  // a triangle of Near, in each of four samples
     EXPECT_EQ(*images[0].at(10, 80), 0);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<double, 4> radii = {1, 0.8, 0.55, 0.3};  // radius of each level in m
 
-// White emissive spheres on an empty background, each level smaller than the previous one.
+// A pyramid of white unlit spheres on an empty background, each level smaller than the previous one.
 struct ShrinkingSphere {
     ShrinkingSphere() {
         Mesh mesh = sphere(96, 48);
@@ -44,8 +44,8 @@ struct ShrinkingSphere {
     Object object;
 };
 
-// Number of pixels that the object covers in the cell. The object has the value 1, and the cell's corner gives the
-// background.
+// Returns the number of pixels that the object covers in the cell. The object has the value 1; the cell's corner shows
+// the background.
 double coverage(const Image& image, const TurntableCell& cell) {
     const double paper = image.at(cell.x, cell.y)[0];
     double sum = 0;
@@ -77,7 +77,8 @@ TEST(Turntable, CellsShowTheLevelsAsLargeAsTheyAre) {
         }
 }
 
-// A board seen from the front is a square. From 60° aside its width shrinks by the cosine, and the frame never cuts it.
+// The turntable frames an object from every side without cutting it. Seen from 60° aside, the width of a square board
+// shrinks by the cosine.
 TEST(TurntableView, FramesTheObjectFromEverySide) {
     Mesh mesh = flatGrid(4);
     for (glm::vec3& position : mesh.vertices.positions) position = 7.0f * position + glm::vec3(1e4f, -20, 3);

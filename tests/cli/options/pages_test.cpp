@@ -27,7 +27,7 @@ protected:
         std::ofstream(folder() / "defocus.1") << run({"man"}).out;
     }
 
-    // Standard output and standard error of a shell command.
+    // Runs a shell command and returns its standard output and standard error.
     [[nodiscard]] std::string said(const std::string& command) const {
         const fs::path out = folder() / "said";
         const std::string line = "cd '" + folder().string() + "' && { " + command + "; } >said 2>&1 </dev/null";
@@ -35,7 +35,7 @@ protected:
         return textOf(out);
     }
 
-    // Words that bash offers as completions of the last word.
+    // Returns the completions that bash offers for the last word.
     [[nodiscard]] Words offered(const std::string& words) const {
         std::ofstream(folder() / "try") << "source ./bash\nCOMP_WORDS=(" << words
                                         << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_defocus\n"
@@ -74,7 +74,7 @@ TEST_F(Pages, zshCompletesCommandsOptionsAndValues) {
     if (!isInstalled("zsh")) GTEST_SKIP() << "zsh isn't installed";
     EXPECT_EQ(said("zsh -n zsh"), "");
     std::ofstream(folder() / "scene.glb") << "";
-    // Types each argument and a tab into an interactive shell, whose key ^T then prints the line.
+    // Types each argument and a tab into an interactive shell. The key ^T then prints the completed line.
     std::ofstream(folder() / "type") << R"(zmodload zsh/zpty
 zpty shell zsh -f -i
 zpty -w shell 'autoload -U compinit; compinit -D -u; source ./zsh
@@ -152,7 +152,7 @@ TEST_F(Pages, allKnowEveryOption) {
     EXPECT_GT(options, 500u);
 }
 
-// --help lists the common options, and --help-all the rest too.
+// --help lists only the common options; --help-all lists all options.
 TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
     const auto optionLines = [](const std::string& help) {
         static const std::regex line("\\n  (-[a-z],)?--[a-z]");

@@ -42,7 +42,7 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
     EXPECT_EQ(lens("fStop", {}), 2.8);
     EXPECT_EQ(lens("horizontalAperture", {}), 36);
     EXPECT_EQ(lens("fStop", {"--fstop", "1.4"}), 1.4);
-    // 50 mm at f/2 is 25 mm wide.
+    // The aperture of 50 mm at f/2 is 25 mm wide.
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2"}), 0.025, 1e-9);
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2", "--blur-scale", "3"}), 0.075, 1e-9);
     EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
@@ -58,8 +58,8 @@ TEST_F(SceneOptionsTest, focusOnANode) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
-    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's is at column (1 + 3/(8·0.36))/2 · 1024 = 1045,
-    // so that its left part is in the image.
+    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's centre is at column (1 + 3/(8·0.36))/2 · 1024 =
+    // 1045, so that its left part is in the image.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
     // Near's upper edge lies at y = 0.5, row 28.4; its left edge at x = −0.2, column 369.8.
@@ -70,8 +70,8 @@ TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
-    // The field of view narrows by 1 − f/s: at 2 m Near's left edge moves out to column 512 − 142.2/(1 − 0.025) =
-    // 366.1.
+    // Focus breathing scales tan(θx/2) by 1 − f/s. At 2 m, Near's left edge therefore moves out to column 512 −
+    // 142.2/(1 − 0.025) = 366.1.
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }
 

@@ -161,7 +161,8 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// A request with an invalid member that no text could set. The error message begins with the member's name.
+// A request with a value that no text could set, so that only the API can pass it. The error message begins with
+// `name`.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;
@@ -219,7 +220,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
     }
 }
 
-// Random members give either an Error or a plan with finite numbers.
+// A request with random values gives either an Error or a plan with finite numbers.
 TEST_F(Library, anyRequestIsPlannedOrRefused) {
     std::mt19937 generator(3);
     const std::vector<double> numbers = {nan,  infinity, -infinity, 0, -0.0, -1,  1e-300,

@@ -41,14 +41,14 @@ TEST_P(SceneOfFile, rendersWithTheSameBitsFromMemory) {
     EXPECT_GT(std::set<float>(image.pixels.begin(), image.pixels.end()).size(), 10u);  // the image is not empty
 }
 
-// Textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
+// The files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
 INSTANTIATE_TEST_SUITE_P(, SceneOfFile,
                          testing::Values("Unicode❤♻Test.glb", "NegativeScaleTest.glb", "meshes/bokeh.gltf",
                                          "meshes/fish.glb", "khronos/NormalTangentTest.glb"),
                          [](const auto& model) { return testNameOf(model.param); });
 
 TEST_F(SceneDataImage, aSquareCoversItsPixels) {
-    // At distance 2 the image is 2 units high: a pixel of 64 is 1/32 wide.
+    // At distance 2, the image is 2 units high, so that each of its 64 pixels is 1/32 wide.
     const std::array<float, 3> corners[] = {
         {-0.5f, -0.25f, -2}, {0.25f, -0.25f, -2}, {0.25f, 0.5f, -2}, {-0.5f, 0.5f, -2}};
     const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};

@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// A frame that exceeds the memory limit in one piece has the same bits in tiles, from the top row on.
+// A frame that needs tiles to stay within the memory limit has the same bits as without tiles. Tiles are drawn from the
+// top row on.
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     Request request = smallRequest();
@@ -21,7 +22,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.wave.reset();
     request.samples = 4;
     (void)render(smallRequest());
-    const std::uint64_t held = residentMemory();  // before the first large image, whose memory the driver keeps
+    const std::uint64_t held = residentMemory();  // measured before the driver keeps memory of large images
     Image full;
     std::vector<std::string> warnings;
     {
@@ -30,9 +31,9 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
         warnings = renderer.warnings();
     }
 
-    // In one piece the pixels alone take 370 MiB.
+    // Without tiles, the pixels alone take 370 MiB.
     constexpr std::uint64_t little = std::uint64_t{300} << 20;
-    request.memory = std::min(held, residentMemory()) + little;  // a driver may have freed memory since
+    request.memory = std::min(held, residentMemory()) + little;  // the driver may have freed memory in between
     SceneRenderer other(request);
     other.start();
     EXPECT_EQ(other.sampleTotal(), 4u);
@@ -53,7 +54,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     other.write(folder_ / "image.exr", other.image());
     EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == full.pixels);
 
-    // Another frame of the same size is drawn in the same way.
+    // Another frame of the same size is drawn in tiles too.
     Request moved = request;
     moved.cameraPosition = movedRequest().cameraPosition;
     const Image movedImage = other.render(moved);

@@ -1,4 +1,4 @@
-// SceneRenderer renders several frames of a scene in its own OpenGL context.
+// SceneRenderer renders frames of a scene in its own OpenGL context.
 
 #include <epoxy/egl.h>
 
@@ -54,7 +54,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    // This request needs other pyramids; the next one needs the earlier pyramids again.
+    // Request 8 needs other pyramids; request 9 needs the earlier pyramids again.
     requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
@@ -65,7 +65,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     EXPECT_NE(render(requests[0]).pixels, render(requests[8]).pixels);
 }
 
-// Published levels differ from full detail. Without thresholds they equal it.
+// Levels of the preset jeong2011 differ from full detail. With blur and size thresholds of 0, they equal full detail.
 TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     Request published = smallRequest();
     setSetting(published, "preset", "jeong2011");
@@ -75,7 +75,7 @@ TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     EXPECT_NE(render(published).pixels, fullDetail.pixels);
     published.blurThreshold = published.sizeThreshold = 0;
     EXPECT_EQ(render(published).pixels, fullDetail.pixels);
-    // Without blur, size alone does not select levels either.
+    // Without depth of field, the size threshold alone does not select levels.
     published.lens.dofEnabled = sharp.lens.dofEnabled = false;
     published.blurThreshold = 0.25;
     EXPECT_EQ(render(published).pixels, render(sharp).pixels);
@@ -117,7 +117,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     EXPECT_EQ(renderer.render().pixels, full.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
-    // The same holds while levels are built for the first time.
+    // Cancelling while levels are built for the first time leaves the renderer usable too.
     Request sharp = smallRequest();
     sharp.lod = LodMode::off;
     SceneRenderer late(sharp);

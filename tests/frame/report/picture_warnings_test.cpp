@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// An image with `leftValue` in its first `left` columns and another value in the rest.
+// Returns an image of 100 columns: the first `left` have the value `leftValue`, the rest `rightValue`.
 Image twoParts(int left, float leftValue, float rightValue) {
     Image image(100, 4, 3);
     for (int y = 0; y < image.height; ++y)

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Quads of 2 m at these depths, in front of a uniform background, focused at 4 m.
+// Returns a world of quads of 2 m at these depths, in front of a uniform background, focused at 4 m.
 std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -103,7 +103,7 @@ TEST(PlanWarnings, copiesAreNamedWithANumberOfSamplesAndAScaleThatFill) {
     EXPECT_TRUE(warningsOf(*small, 32).empty());
 }
 
-// Lens cells fill gaps as wide as their blur.
+// With lens cells, fewer samples suffice, because the blurred images fill the gaps between samples.
 TEST(PlanWarnings, lensCellsNeedFewerSamples) {
     const auto small = quadsAt({0.5, 4});
     small->view.lens.fStop = 0.2;

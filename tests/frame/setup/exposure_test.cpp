@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Rows with these grey values. The first `empty` rows have no coverage.
+// Returns an image with one row for each grey value. The first `empty` rows have alpha 0.
 Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
     Image image(10, static_cast<int>(greys.size()), 4);
     for (std::size_t y = 0; y < greys.size(); ++y)
@@ -22,7 +22,7 @@ Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
 }
 
 TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
-    // The log average is 2 · 0.18, and the brightest value lies between 40 % and white.
+    // The log average is 2 · 0.18, so the exposure is −1 EV. The brightest value lies between 40 % and white.
     const Image image = stripes({0.09f, 0.36f, 1.44f});
     EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
     // Scaling the light shifts the exposure by the same number of stops.

@@ -12,8 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Points on the plane w + tan(swing)·X + tan(tilt)·Y = s yield the swing, tilt and distance that the plane was made
-// with.
+// From three points on the plane w + tan(swing)·X + tan(tilt)·Y = s, focusThrough finds swing, tilt and distance s.
 TEST(FocusThrough, findsThePlaneOfThreePoints) {
     std::mt19937 generator(1);
     const auto random = [&](double min, double max) {
@@ -54,7 +53,7 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     }
 }
 
-// Points on a focus surface of the lens, s(n) = s/(1 + κ·r² + t·n), yield that surface.
+// From four or more points on a focus surface s(n) = s/(1 + κ·r² + t·n), focusThrough finds the surface.
 TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     std::mt19937 generator(2);
     const auto random = [&](double min, double max) {
@@ -80,7 +79,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
         }
         Lens lens;
         focusThrough(points, lens, "test");
-        // Four points may be almost concyclic.
+        // Four almost concyclic points determine the surface less accurately.
         const double tolerance = count == 4 ? 1e-5 : 1e-7;
         EXPECT_NEAR(lens.focusDistance / expected.focusDistance, 1, tolerance);
         EXPECT_NEAR(lens.focusSwing, expected.focusSwing, tolerance);
@@ -92,7 +91,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     }
 }
 
-// If no such surface contains the points, the sum of the squared blurs is minimal: any change increases it.
+// If no focus surface contains all points, the sum of their squared blurs is minimal: any change increases it.
 TEST(FocusThrough, leavesTheMinBlur) {
     const std::vector<glm::dvec3> points = {{-0.6, 0.2, -2}, {0.5, 0.4, -3},   {0.1, -0.3, -1.5}, {0.9, -0.4, -2.5},
                                             {-0.2, 0.5, -4}, {-0.8, -0.5, -3}, {0.3, 0.1, -2.2}};
@@ -117,7 +116,7 @@ TEST(FocusThrough, leavesTheMinBlur) {
         }
 }
 
-// All points lie on the vertical middle line of the view, which leaves the swing open; it is 0.
+// Points on the vertical middle line of the view do not determine the swing, so it is 0.
 TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     const std::vector<glm::dvec3> points = {{0, -0.5, -2}, {0, 0, -2.2}, {0, 0.6, -2.5}, {0, 0.9, -3}};
     Lens lens;
@@ -126,8 +125,8 @@ TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     EXPECT_LT(lens.focusTilt, -0.01) << "the top of the plane is farther away";
 }
 
-// The default focus on a box is its visible front, not its centre. If the middle of the image is empty, the scene's
-// centre is in focus.
+// The default focus is the surface in the middle of the image: the front of a box, not its centre. If the middle of the
+// image is empty, the scene's centre is in focus.
 TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial(glm::vec4(1)));

@@ -1,4 +1,4 @@
-// Length of a scene unit: from the request, from the file, or guessed.
+// Length of a scene unit: given by the request, given by the file, or guessed from the size.
 
 #include "frame/setup/scene_scale.h"
 
@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-// A square of this width that faces the camera, and a triangle that extends one width behind it.
+// Returns a file with a square of this width that faces the camera, and a triangle that extends one width behind it.
 GltfBuilder squareOf(float width) {
     GltfBuilder builder;
     const float h = width / 2;
@@ -100,7 +100,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     place.cameraPosition = Vector3{0, 0, 500};
     EXPECT_EQ(scaleOf(place), 1);
 
-    // The scale is guessed from the size unless the camera has its own focus distance.
+    // The scale is guessed from the scene's size unless the camera has its own focus distance.
     nlohmann::json camera = {{"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 1}}}};
     builder.json["cameras"] = {camera};
     builder.add("nodes", {{"camera", 0}, {"translation", {0, 0, 120}}});
@@ -112,7 +112,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     EXPECT_EQ(scaleOf(request()), 1);
 }
 
-// The same object in metres and in centimetres gives the same picture when the scale is known.
+// An object has the same blur in a file in metres and in a file in centimetres. A wrong unit changes the blur.
 TEST_F(SceneScale, blurIsThatOfTheThing) {
     save(squareOf(2));
     const double inMetres = blurOf(request());

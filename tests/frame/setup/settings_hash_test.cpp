@@ -1,4 +1,4 @@
-// The hash that identifies finished frames: settings that change the picture change the hash, and no others do.
+// The hash that identifies finished frames changes with the settings that change the picture, and with no others.
 
 #include "frame/setup/settings_hash.h"
 

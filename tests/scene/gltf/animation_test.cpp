@@ -21,7 +21,7 @@ json attributesOf(GltfBuilder& builder) {
     return {{"POSITION", builder.positions(unitTriangle)}};
 }
 
-// Adds a channel whose sampler goes from `first` to `last` in two seconds.
+// Adds a channel whose sampler goes from the first to the last value of `values` in two seconds.
 int addChannel(GltfBuilder& builder, json& animation, const std::vector<float>& values, const char* type,
                const json& target) {
     const std::size_t components = values.size() / 2;
@@ -53,10 +53,10 @@ TEST(GltfSkin, eightInfluencesAreReadAndSumToOne) {
     EXPECT_EQ(vertices.weights[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[1], glm::vec4(0.25f, 0.25f, 0, 0));
-    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // no weights: the first joint counts fully
+    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // no weights: the vertex follows its first joint
     EXPECT_EQ(vertices.joints1[0], glm::u16vec4(2));
     EXPECT_TRUE(scene.ignored.empty());
-    // Without inverseBindMatrices, all matrices are the identity.
+    // If a skin has no inverseBindMatrices, all matrices are the identity.
     EXPECT_EQ(scene.skins[0].inverseBindMatrices, std::vector<glm::mat4>(3, glm::mat4(1)));
 }
 
@@ -73,7 +73,7 @@ TEST(GltfSkin, furtherInfluencesOutOfRangeAreRefused) {
     EXPECT_THROW((void)builder.load(), Error);
 }
 
-// A triangle without normals whose morph target lifts one corner: the flat normals follow.
+// Flat normals of a mesh without normals follow a morph target. Here the target lifts one corner of a triangle.
 TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     GltfBuilder builder;
     const int target = builder.positions({0, 0, 0, 0, 0, 1, 0, 0, 0});  // (1, 0, 0) becomes (1, 0, 1)
@@ -84,7 +84,7 @@ TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     EXPECT_LT(glm::length(lifted - glm::normalize(glm::vec3(-1, 0, 1))), 1e-6f);
 }
 
-// Tangent offsets of morph targets have three components; the handedness stays constant.
+// Tangent offsets of morph targets have three components; the handedness of the tangents stays constant.
 TEST(GltfMorph, tangentsAndNormalsAreRead) {
     GltfBuilder builder;
     json attributes = attributesOf(builder);

@@ -1,5 +1,5 @@
 #pragma once
-// Builds small glTF files: JSON and binary data, saved as .glb.
+// Builds small glTF files from JSON and binary data, saved as .glb.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,7 @@ public:
         return add("accessors", entry);
     }
 
-    // Adds an accessor to tightly packed floats.
+    // Adds an accessor to tightly packed floats and returns its index.
     int floats(const std::vector<float>& values, const char* type, std::size_t components) {
         return accessor(view(values), gltfFloat, type, values.size() / components);
     }
@@ -54,7 +54,8 @@ public:
         return accessor(view(values), gltfUnsignedShort, "SCALAR", values.size());
     }
 
-    // Adds a mesh of these primitives with a scene node of its own; returns the mesh's index.
+    // Adds a mesh of these primitives, and a scene node with the mesh and the members of `node`. Returns the mesh's
+    // index.
     int mesh(const nlohmann::json& primitives, const nlohmann::json& node = nlohmann::json::object()) {
         const int index = add("meshes", {{"primitives", primitives}});
         nlohmann::json entry = {{"mesh", index}};
@@ -80,7 +81,7 @@ public:
         return file.replace(8, 4, word(file.size()));
     }
 
-    // Saves the file and loads it.
+    // Saves the file to a temporary folder and returns the loaded scene.
     [[nodiscard]] Scene load() const {
         const ScratchFolder folder;
         save(folder / "built.glb", glb());

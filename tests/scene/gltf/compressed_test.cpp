@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// Posed vertices of the first object, in world space.
+// Mesh, posed vertices in world space, and bounds of a scene's first object.
 struct Posed {
     Mesh mesh;
     std::vector<glm::dvec3> positions;
@@ -43,9 +43,9 @@ double areaOf(const Posed& posed) {
     return area;
 }
 
-// Max distance from a vertex of `from` to the nearest matching vertex of `to`. Vertices match if each colour channel
-// differs by at most 2 of 255 and the normals by at most 3°. The match separates the vertices that share a position on
-// a seam.
+// Returns the max distance from a vertex of `from` to the nearest matching vertex of `to`. Vertices match if each
+// colour channel differs by at most 2 of 255 and the normals by at most 3°. Matching keeps vertices apart that share a
+// position on a seam.
 double farthest(const Posed& from, const Posed& to) {
     double max = 0;
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
@@ -69,8 +69,9 @@ struct CompressedCase {
 
 class Compressed : public testing::TestWithParam<CompressedCase> {};
 
-// glTF-Transform keeps 14 bits of a position over the longest side: rounding moves a point by at most √3/2 of a step.
-// Skin matrices, which include the scale of the steps, and offsets of morph targets are rounded too.
+// Compressed files equal the originals to their precision. glTF-Transform stores positions with 14 bits over the
+// longest side: rounding moves a point by at most √3/2 of a step. Skin matrices, which include the scale of the steps,
+// and offsets of morph targets are rounded too.
 TEST_P(Compressed, isTheOriginalToItsPrecision) {
     const std::filesystem::path path = modelPath(std::filesystem::path("tests/data/compressed") / GetParam().file);
     const std::filesystem::path originalPath = modelPath(std::filesystem::path("meshes") / GetParam().original);

@@ -17,7 +17,7 @@ namespace {
 
 using IndexList = std::vector<std::uint32_t>;
 
-// Positions of the first mesh's triangle corners, in order.
+// Returns the corner positions of the first mesh's triangles, in order.
 std::vector<glm::vec3> corners(const Scene& scene) {
     std::vector<glm::vec3> result;
     for (const Primitive& primitive : scene.meshes.at(0).primitives)
@@ -44,8 +44,8 @@ TEST(GltfTopology, stripsDropTheirStitches) {
     GltfBuilder builder;
     const int indices = builder.indices({0, 1, 2, 2, 3, 4});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(numbered)}}}, {"indices", indices}, {"mode", 5}}});
-    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate ones are dropped. The last is the
-    // fourth, so its winding is reversed.
+    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate triangles are dropped. The last
+    // triangle is the fourth, so its winding is reversed.
     EXPECT_EQ(cornerNumbers(builder.load()), (std::vector<int>{0, 1, 2, 2, 4, 3}));
 }
 
@@ -100,7 +100,8 @@ TEST(GltfTopology, missingAttributesOfOnePrimitiveAreNeutral) {
 }
 
 TEST(GltfNormals, areFlatWhenTheFileHasNone) {
-    // A square folded along its diagonal. The fold must not share vertices, which would make its shading smooth.
+    // A square folded along its diagonal is flat-shaded. Its triangles must not share vertices, which would make the
+    // shading smooth.
     GltfBuilder builder;
     const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1});
     builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", builder.indices({0, 1, 2, 1, 3, 2})}}});
@@ -148,7 +149,7 @@ TEST(GltfMesh, trianglesWithoutAPlaceAreLeftOutAndCounted) {
 }
 
 TEST(GltfAccessor, normalisedIntegersOfEveryType) {
-    // Texture coordinates allow every component type.
+    // Texture coordinates may have each of these component types.
     const auto load = [](int type, const auto& values, bool normalized) {
         GltfBuilder builder;
         const int positions = builder.positions(unitTriangle);
@@ -172,7 +173,7 @@ TEST(GltfAccessor, normalisedIntegersOfEveryType) {
 
 TEST(GltfAccessor, interleavedAttributesShareAView) {
     GltfBuilder builder;
-    // 32 bytes a vertex: position, normal and uv
+    // 32 bytes per vertex: position, normal and uv
     const int view =
         builder.view(std::vector<float>{0, 0, 0, 0, 0, 1, 7, 8, 1, 0, 0, 0, 0, 1, 9, 10, 0, 1, 0, 0, 0, 1, 11, 12}, 32);
     const int positions = builder.accessor(view, gltfFloat, "VEC3", 3);
@@ -324,8 +325,8 @@ TEST(GltfMaterial, layersOfTheExtensions) {
     EXPECT_FALSE(plain.transmits() || plain.hasClearcoat() || plain.hasSheen() || plain.hasOwnReflectance());
 }
 
-// If both colours are greys, a metallic-roughness material with the same reflection exists: s = 0.04·(1 − m) + b·m and
-// d·(1 − s) = (1 − 0.04)·b·(1 − m).
+// For grey diffuse and specular colours d and s, a metallic-roughness material with the same reflection exists: s =
+// 0.04·(1 − m) + b·m and d·(1 − s) = (1 − 0.04)·b·(1 − m), with base colour b and metalness m.
 TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
     for (const double diffuse : {0.0, 0.1, 0.5, 0.8})
         for (const double specular : {0.04, 0.1, 0.5, 0.9}) {
@@ -349,7 +350,7 @@ TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
         }
 }
 
-// Dielectrics and metals both keep their colour.
+// Conversion from specular-glossiness keeps the colours of dielectrics and of metals.
 TEST(GltfMaterial, specularGlossinessKeepsColours) {
     const auto materialOf = [](const nlohmann::json& extension) {
         GltfBuilder builder;
@@ -406,7 +407,8 @@ nlohmann::json physicalCamera(const nlohmann::json& extension) {
             {"extensions", {{"EXT_camera_physical", extension}}}};
 }
 
-// The example in the draft of the extension.
+// Values of EXT_camera_physical are in metres, and extras override them. The values are those of the example in the
+// extension's draft.
 TEST(GltfScene, physicalCamerasAreInMetresAndExtrasWin) {
     GltfBuilder builder;
     builder.json["extensionsUsed"] = {"EXT_camera_physical"};
@@ -453,7 +455,8 @@ TEST(GltfScene, impossiblePhysicalCamerasAreFaults) {
     EXPECT_EQ(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}}), "");
 }
 
-// A file in millimetres, from an exporter that misread the draft's unit.
+// Values of EXT_camera_physical in millimetres, from exporters that misread the draft's unit, are ignored and a reason
+// is given.
 TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     GltfBuilder builder;
     builder.json["cameras"] = {physicalCamera({{"focalLength", 35}, {"sensorSize", {36, 24}}})};
@@ -463,8 +466,8 @@ TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     EXPECT_NE(scene.ignored[0].reason.find("millimetres"), std::string::npos);
 }
 
-// Custom properties in Blender: those of the camera's data become the camera's extras, and those of the object become
-// its node's extras.
+// Extras of a camera's node are lens values too: Blender exports custom properties of the camera's data as extras of
+// the camera, and those of the object as extras of the node.
 TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     GltfBuilder builder;
     builder.json["cameras"] = {
@@ -477,7 +480,8 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
 }
 
-// Cycles' polygon has an edge's middle where this project's has a corner: they differ by half a blade's angle.
+// Blade rotation in a file from Blender is converted. At the same rotation, Cycles' polygon has the middle of an edge
+// where this project's polygon has a corner: half a blade's angle.
 TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     GltfBuilder builder;
     const auto camera = [](const nlohmann::json& extras) -> nlohmann::json {
@@ -498,7 +502,7 @@ TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     EXPECT_EQ(rotation(scene, 2), 15) << "no rotation without a blade count";
 }
 
-// A triangle with _COC_SCALE on a node with cocScale.
+// Returns a file with a triangle that has the vertex attribute _COC_SCALE, on a node with cocScale in its extras.
 GltfBuilder scaledBlur(const std::vector<float>& scales, const nlohmann::json& nodeScale) {
     GltfBuilder builder;
     const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
@@ -529,7 +533,7 @@ TEST(GltfMesh, scalesOfTheBlurThatAreNoneAreFaults) {
     EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of at least 0"), std::string::npos);
 }
 
-// A triangle with additional attributes, one number for each vertex.
+// Returns a file with a triangle that has additional vertex attributes, one number per vertex.
 GltfBuilder ownBlurs(const std::vector<std::pair<std::string, std::vector<float>>>& attributes) {
     GltfBuilder builder;
     nlohmann::json all = {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}};
@@ -596,7 +600,7 @@ TEST(GltfScene, instancesCombineTranslationRotationAndScale) {
     GltfBuilder builder;
     const int positions = builder.positions(unitTriangle);
     const int translation = builder.positions({1, 0, 0, 0, 0, 5});
-    // A quarter turn about z as normalised shorts, and the identity.
+    // Rotations: a quarter turn about z as normalised shorts, and the identity.
     const int rotation = builder.accessor(builder.view(std::vector<std::int16_t>{0, 0, 23170, 23170, 0, 0, 0, 32767}),
                                           gltfShort, "VEC4", 2, {{"normalized", true}});
     const int scale = builder.positions({2, 2, 2, 1, 1, 1});

@@ -21,8 +21,8 @@ class Damage {
 public:
     explicit Damage(std::uint32_t seed) : random_(seed) {}
 
-    // Damages a file in one of four ways: flipped bits, changed digits in the JSON, a removed range, or truncation. The
-    // lengths of a GLB are then corrected, so that the fault lies deeper than the container.
+    // Damages a file in one of four ways: flipped bits, changed digits in the JSON, a removed range, or truncation.
+    // Then corrects the lengths of a GLB, so that the fault lies deeper than the container.
     std::string apply(std::string file) {
         const bool glb = file.starts_with("glTF");
         switch (below(4)) {
@@ -88,7 +88,7 @@ TEST_P(DamagedModel, loadsOrIsAnError) {
             EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
         }
     }
-    // The test would be weak if no copy were refused, or if all were.
+    // The damage is neither too weak nor too strong: some copies are refused and some load.
     EXPECT_LT(loaded, damagedCopies);
     EXPECT_GT(loaded, 0);
 }

@@ -1,4 +1,4 @@
-// Broken and hostile files: for any content, the error is one line that names the file and the fault.
+// Invalid and hostile files: whatever the content, the error is one line with the name of the file and the fault.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(InvalidGltf, wrongTypesAreNamedByPlace) {
     expectFault(errorOf(builder), "built.glb", "meshes must be an array");
 }
 
-// JSON has a single number type, so 3.0 is an integer.
+// Integers such as 3.0 are accepted, since JSON has a single number type.
 TEST(InvalidGltf, integersMayBeWrittenAsFloats) {
     GltfBuilder builder = triangle();
     builder.json["accessors"][0]["count"] = 3.0;
@@ -130,7 +130,8 @@ TEST(InvalidGltf, buffersWithoutDataAreAFaultWhereTheyAreRead) {
     EXPECT_EQ(errorOf(folder / "unused.gltf"), "");
 }
 
-// A file of a hundred bytes that declares an image of a gigabyte, and three that share one image.
+// Images with too many pixels for their file are refused before they are decoded. Here three images share a PNG of a
+// hundred bytes that declares 16384 × 16384 px.
 TEST(InvalidGltf, imagesAreCountedBeforeTheyAreDecoded) {
     GltfBuilder builder = triangle();
     Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};

@@ -136,7 +136,7 @@ TEST(Models, pointsAndLinesAreCountedAsIgnored) {
     EXPECT_EQ(ignoredCount(scene, "lines"), 3u);
 }
 
-// The same cube with floats and quantised; the quantised cube's node undoes the quantisation.
+// A quantised cube equals the same cube with floats: the quantised cube's node undoes the quantisation.
 TEST(Models, quantisedCubeEqualsThePlainOne) {
     DEFOCUS_MODEL_OR_SKIP(plainPath, "AnimatedMorphCube.glb");
     DEFOCUS_MODEL_OR_SKIP(quantisedPath, "AnimatedMorphCube-Quantized.glb");
@@ -151,7 +151,8 @@ TEST(Models, quantisedCubeEqualsThePlainOne) {
 
 TEST(Models, sparsePositionsReplaceTheBase) {
     DEFOCUS_MODEL_OR_SKIP(path, "SimpleSparseAccessor.gltf");
-    // By the model's description, vertices 8, 10 and 12 of a strip 6 wide and 1 high rise to the heights 2, 3 and 4.
+    // The model's description says that vertices 8, 10 and 12 of a strip, 6 wide and 1 high, rise to the heights 2, 3
+    // and 4.
     EXPECT_EQ(glm::vec3(loadGltf(path).meshes.at(0).bounds().maximum), glm::vec3(6, 4, 0));
 }
 
@@ -163,7 +164,8 @@ TEST(Models, instancesBecomeObjects) {
     EXPECT_NE(pose.objects[0].worldFromObject[3], pose.objects[124].worldFromObject[3]);
 }
 
-// The model's markers show where the texture's diagonal arrow must appear: at 45° in the texture, for every transform.
+// Texture transforms move the texture to the model's markers, which show where the texture's diagonal arrow must
+// appear: at 45° in the texture, for every transform.
 TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     DEFOCUS_MODEL_OR_SKIP(path, "TextureTransformTest/TextureTransformTest.gltf");
     const Scene scene = loadGltf(path);

@@ -1,5 +1,5 @@
-// Files with very many elements of one kind load correctly. None takes quadratic time, which would exceed the tests'
-// time limit. Data that nodes share counts for each node.
+// Files with very many elements of one kind load correctly and in less than quadratic time, which would exceed the
+// tests' time limit. Data that nodes share counts for each node.
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,8 @@
 namespace defocus::engine {
 namespace {
 
-// Two primitives with five vertices, the first of which is unused. The values have no short decimal form.
+// Returns a mesh of two primitives with five vertices, of which the first is unused. The values have no short decimal
+// form.
 Mesh twoPrimitives() {
     Mesh mesh;
     mesh.name = "bent \"sheet\"";
@@ -75,7 +76,7 @@ std::uint32_t wordAt(const std::vector<std::byte>& bytes, std::size_t offset) {
     return word;
 }
 
-// Splits a GLB container by the standard, independently of the loader.
+// Returns the chunks of a GLB file, split according to the standard and independently of the loader.
 Glb parts(const std::vector<std::byte>& file) {
     EXPECT_EQ(wordAt(file, 0), 0x46546c67u);
     EXPECT_EQ(wordAt(file, 4), 2u);
@@ -123,7 +124,7 @@ TEST(GltfWrite, FileIsWhatTheStandardAsks) {
 TEST(GltfWrite, LeavesOutWhatTheStandardForbids) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     Mesh mesh = twoPrimitives();
-    mesh.vertices.positions[4].x = nan;      // both triangles of the second primitive
+    mesh.vertices.positions[4].x = nan;      // used by both triangles of primitive 1
     mesh.vertices.normals[1] = {0, 0, 0};    // zero length
     mesh.vertices.normals[2] = {nan, 1, 0};  // NaN
     mesh.vertices.uv0[3] = {std::numeric_limits<float>::infinity(), 0};

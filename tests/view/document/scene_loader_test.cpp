@@ -11,7 +11,7 @@ std::optional<LoadedScene> waitedFor(SceneLoader& loader) {
     return std::nullopt;
 }
 
-// The loader returns the scene exactly once, even if the loading ends between two checks in one call.
+// The loader returns each result exactly once, even if loading ends between two checks in one call.
 TEST(SceneLoader, handsOverWhatItOpenedOnce) {
     SceneLoader loader;
     Request absent;

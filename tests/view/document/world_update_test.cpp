@@ -1,4 +1,4 @@
-// Edits of the request update the world or are reverted.
+// Edits of the request either update the world or are reverted.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Key frames of a window, as `defocus capture` reads them back.
+// Key frames that a window exports are the same after `defocus capture` reads them.
 
 #include "view/export/shot.h"
 
@@ -80,7 +80,7 @@ TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
-// A camera that rolls on through upside down does not turn back the long way.
+// Roll is continuous over key frames: a camera that rolls past upside down does not turn back.
 TEST(ViewShot, rollGoesTheShortWay) {
     std::vector<ShotKey> keys(3, keyAt({0, 1, 5}, 2, 2));
     const double degrees[] = {170, 190, 350};
@@ -93,7 +93,7 @@ TEST(ViewShot, rollGoesTheShortWay) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(camera.rolls[i].value, degrees[i], 1e-9);
 }
 
-// The lens at a key: the values in the file override those of the scene camera's lens.
+// Returns the lens at a key of the shot file. Values in the file override those of `lens`, the scene camera's lens.
 Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
     for (const auto& [name, track] : shot.lens)
         setLensField(lens, *lensFieldNamed(name), track.keys[track.keys.size() == 1 ? 0 : key].value);
@@ -128,7 +128,7 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         SCOPED_TRACE(seed);
         Dice dice(seed);
         Request options = randomOptions(dice);
-        options.environment.clear();  // the path becomes absolute, as the scene's does
+        options.environment.clear();  // a path would become absolute
         Lens cameraLens;
         changeFields(cameraLens, dice);
         std::vector<ShotKey> keys(static_cast<std::size_t>(dice.integer(1, 3)));

@@ -17,7 +17,7 @@ protected:
         event.control = control;
         input.handle(event, context, state, actions);
     }
-    // Distance that the camera moves in a tenth of a second.
+    // Returns the distance that the camera moves in 0.1 s.
     double flown() {
         const glm::dvec3 before = state.camera.position();
         input.fly(context, 0.1, state);
@@ -46,8 +46,8 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     EXPECT_EQ(flown(), 0);
 }
 
-// Keys of a command do not move the camera, in any order of release. Otherwise an exported still and the view would
-// differ by some millimetres, depending on when a frame reads the keyboard.
+// Keys of a command do not move the camera, in any order of release. Otherwise an exported still could differ from the
+// view by some millimetres, depending on when a frame reads the keyboard.
 TEST_F(ViewInputKeys, commandsDontFlyWhicheverKeyIsLetGoFirst) {
     key(key::leftControl, true);
     key('E', true, true);
