@@ -37,6 +37,8 @@ public:
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
     // Whether the weight of a sample differs between pixels. The sum's alpha then counts the samples of a pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
+    // Whether surfaces have blur modifiers.
+    [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
     [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
     [[nodiscard]] std::size_t bytes() const;
 
@@ -56,8 +58,9 @@ private:
     Buffer waves_;         // per wave: number of its first sample, and of the first sample of its block
     Buffer sampleShifts_;  // vec4 per lens sample: offset of the sky
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/add_layers.frag
+    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl
     bool countsInAlpha_ = false;
+    bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;
 };

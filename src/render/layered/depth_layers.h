@@ -42,7 +42,7 @@ public:
 
     // Number of layers with content, for the sample peeled last.
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    // Texture arrays with all layers: premultiplied linear radiance, and surface data as in shaders/layered/peel.glsl.
+    // Texture arrays with all layers: premultiplied linear radiance, and surface data as in shaders/layered/peel.frag.
     [[nodiscard]] const GlTexture& colors() const { return colors_; }
     [[nodiscard]] const GlTexture& surfaces() const { return surfaces_; }
     [[nodiscard]] const DepthLayersInfo& info() const { return info_; }

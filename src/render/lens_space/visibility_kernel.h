@@ -25,8 +25,10 @@ public:
     [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Returns the rays of the plan. Throws Error for a plan that the method can't draw.
     [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
-    // Returns the defines, other than VARIANTS, of shaders that read rays and records.
+    // Returns the defines, other than rayVariants, of shaders that read rays and records.
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
+    // Returns the path of the shader that adds the shaded records of each pixel's rays.
+    [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
     // Returns the min bytes of the records of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
     // Called before the first wave of a frame. `defines`: those of the front end and of the rays.

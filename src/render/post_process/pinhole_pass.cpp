@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::uint32_t lightPoints = 16;  // points on each light for a pinhole's shadows
 
-ShaderDefines definesOf(LayerFormat format) {
-    ShaderDefines defines = layerFormatDefines(format);
-    defines.emplace_back("READS_OWN_BLUR", "1");
-    return defines;
-}
-
 // Enables or disables writing the surfaces' own blur. The sky and translucent surfaces must leave it unchanged.
 void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
@@ -61,7 +55,8 @@ PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat for
                       : Target({&image_.color}, &image_.depth)),
       shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
-                        .defines = definesOf(format),
+                        .defines = layerFormatDefines(format),
+                        .readsOwnBlur = true,
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
                         .shaderFolder = shaderFolder}) {}
 
