@@ -34,17 +34,13 @@ void main() {
     vec4 all = texelFetch(blockSum, pixel, 0);
     vec4 open = all;
     vec4 blurred = vec4(0.0);
-#if CELLS_IN_FRONT > 0
-    open = texelFetch(cellSums, ivec3(pixel, 0), 0);
-#endif
-#if CELLS_BEHIND > 0
-    blurred = texelFetch(cellSums, ivec3(pixel, CELLS_IN_FRONT), 0);
-#endif
+    if (cellsInFront > 0) open = texelFetch(cellSums, ivec3(pixel, 0), 0);
+    if (cellsBehind > 0) blurred = texelFetch(cellSums, ivec3(pixel, cellsInFront), 0);
     vec3 image = vec3(0.0);
     // Looping over the existing classes is faster than branching around missing ones, because a software driver
     // executes both sides of a branch.
     uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r & ((1u << cellClasses) - 1u);
-    for (uint rest = spread >> CELLS_IN_FRONT; rest != 0u;) {
+    for (uint rest = spread >> cellsInFront; rest != 0u;) {
         int k = findMSB(rest);
         rest ^= 1u << k;
         layOver(image, k, 1.0);
@@ -53,7 +49,7 @@ void main() {
         image = all.rgb / max(all.a, 1.0);
     else
         image = (max(open.rgb - blurred.rgb, 0.0) + min(blurred.a, open.a) * image) / open.a;
-    for (uint rest = spread & ((1u << CELLS_IN_FRONT) - 1u); rest != 0u; rest &= rest - 1u) layOver(image, findLSB(rest), 0.0);
+    for (uint rest = spread & ((1u << cellsInFront) - 1u); rest != 0u; rest &= rest - 1u) layOver(image, findLSB(rest), 0.0);
     sumOut = samples == 0.0 ? vec4(image, 1.0) : vec4(image * all.a, all.a) / max(samples, 1.0);
     compensationOut = vec4(0.0);
 }

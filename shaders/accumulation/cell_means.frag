@@ -7,7 +7,7 @@
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// NEAREST: the last class in front of the focus, which nothing hides.
+// nearestClass: the last class in front of the focus, which nothing hides.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.
 layout(location = 1) uniform int side;
@@ -19,19 +19,13 @@ layout(location = 1) out float openOut;
 
 // Returns the samples that nearer classes don't hide, and those of them outside the class.
 vec4 openTo(vec2 place) {
-#ifdef NEAREST
-    return textureLod(blockSum, place, 0.0);
-#else
-    return textureLod(cellSums, vec3(place, float(classIndex < CELLS_IN_FRONT ? classIndex + 1 : classIndex)), 0.0);
-#endif
+    if (nearestClass) return textureLod(blockSum, place, 0.0);
+    return textureLod(cellSums, vec3(place, float(classIndex < cellsInFront ? classIndex + 1 : classIndex)), 0.0);
 }
 vec4 beyond(vec2 place) {
-#ifdef NEAREST
-    return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
-#else
-    int layer = classIndex < CELLS_IN_FRONT ? classIndex : classIndex + 1;
+    if (nearestClass) return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
+    int layer = classIndex < cellsInFront ? classIndex : classIndex + 1;
     return textureLod(cellSums, vec3(place, float(min(layer, cellClasses - 1))), 0.0) * (layer < cellClasses ? 1.0 : 0.0);
-#endif
 }
 
 void main() {

@@ -1,20 +1,24 @@
+// Selects the layer on drivers without ARB_shader_viewport_layer_array, where the vertex shader cannot set it.
+
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 
-flat in vec4 lensAndJitterToGeometry[];
-flat in float bandShiftToGeometry[];
-flat in int layerToGeometry[];
-out vec2 place;
-flat out vec4 lensAndJitter;
-flat out float skyBandShift;
+in Sky {
+#include "include/sky_varyings.glsl"
+} corners[];
+
+out Sky {
+#include "include/sky_varyings.glsl"
+} sky;
 
 void main() {
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
-        gl_Layer = layerToGeometry[i];
-        place = gl_in[i].gl_Position.xy;
-        lensAndJitter = lensAndJitterToGeometry[i];
-        skyBandShift = bandShiftToGeometry[i];
+        gl_Layer = int(corners[i].layer);
+        sky.place = corners[i].place;
+        sky.lensAndJitter = corners[i].lensAndJitter;
+        sky.bandShift = corners[i].bandShift;
+        sky.layer = corners[i].layer;
         EmitVertex();
     }
     EndPrimitive();

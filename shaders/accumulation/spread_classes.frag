@@ -9,7 +9,7 @@ layout(location = 0) out uint spreadOut;
 
 // Returns the class bits for both sides of the focus.
 uint ofBothSides(uint classes) {
-    return (classes & ((1u << CELLS_IN_FRONT) - 1u)) | (classes & ((1u << CELLS_BEHIND) - 1u)) << CELLS_IN_FRONT;
+    return (classes & ((1u << cellsInFront) - 1u)) | (classes & ((1u << cellsBehind) - 1u)) << cellsInFront;
 }
 
 void main() {

@@ -3,11 +3,7 @@
 #include "include/frame.glsl"
 #include "include/tone_map.glsl"
 
-in Surface {
-#include "include/surface_varyings.glsl"
-} surface;
-
-layout(binding = 6) uniform sampler2D levelColours;   // linear
+layout(binding = 26) uniform sampler2D levelColours;   // linear
 
 layout(location = 0) out vec4 colour;
 

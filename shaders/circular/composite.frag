@@ -5,14 +5,10 @@
 #include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 2) uniform sampler2D farBlurred;    // COMBINED: both fields
-#ifndef COMBINED
+layout(binding = 2) uniform sampler2D farBlurred;    // combinedFields: both fields
 layout(binding = 3) uniform sampler2D nearBlurred;
-#endif
-#ifdef NEAR_PREMULTIPLIED
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // as in split.frag
-#endif
 // ≥ 1: higher values make the near field cover more. 0: no near field.
 layout(location = 0) uniform float blendBias;
 layout(location = 1) uniform float perFarDiameter;   // as in split.frag
@@ -26,51 +22,47 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
     return max(field.rgb + missing * sharp, vec3(0.0)) / max(field.a + missing, 1e-12);
 }
 
-#ifndef COMBINED
 // Returns the near field's coverage of a pixel.
 float coverageOf(float weight, vec2 place) {
-#ifdef NEAR_PREMULTIPLIED
-    // The weight is relative to a surface with the gathered blur. A wide blur covers fully, a smaller one partially.
-    float diameter = 2.0 * float(REDUCTION) * textureLod(nearRadii, place, 0.0).r;
-    weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
-#endif
+    if (nearPremultiplied) {
+        // The weight is relative to a surface with the gathered blur. A wide blur covers fully, a smaller one partially.
+        float diameter = 2.0 * float(reduction) * textureLod(nearRadii, place, 0.0).r;
+        weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
+    }
     return clamp(weight, 0.0, 1.0);
 }
 
 // Returns the bias for compositing a near field with radiance `before` over `behind`.
 float biasOf(float coverage, vec3 before, vec3 behind) {
-#ifdef BIAS_BY_LUMINANCE
+    if (!biasByLuminance) return blendBias;
     // The full bias applies where most of the disk is near field and brighter than the background. There the sharp
     // image would otherwise show through.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float near = dot(before, luminance);
     return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);
-#else
-    return blendBias;
-#endif
 }
-#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float diameter = pinholeCircleOfConfusion(pixel);
     vec3 sharp = texelFetch(pinholeColor, pixel, 0).rgb;
-    vec2 place = gl_FragCoord.xy / (float(REDUCTION) * vec2(textureSize(farBlurred, 0)));
+    vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(REDUCTION) - 1.0, 0.0, 1.0);   // no disk below two field px
-#ifdef COMBINED
-    own += clamp(-diameter, 0.0, 1.0);
-    float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));
-    vec3 color = mix(sharp, radianceOf(behind, own, sharp), share);
-#else
-    vec3 color = mix(sharp, radianceOf(behind, own, sharp), farShare);
-    vec4 before = textureLod(nearBlurred, place, 0.0);
-    float coverage = coverageOf(before.a, place);
-    if (blendBias > 0.0 && coverage > 0.0) {
-        vec3 near = max(before.rgb, vec3(0.0)) / max(before.a, 1e-12);
-        color = mix(color, near, clamp(coverage * biasOf(coverage, near, color), 0.0, 1.0));
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);   // no disk below two field px
+    vec3 color;
+    if (combinedFields) {
+        own += clamp(-diameter, 0.0, 1.0);
+        float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));
+        color = mix(sharp, radianceOf(behind, own, sharp), share);
+    } else {
+        color = mix(sharp, radianceOf(behind, own, sharp), farShare);
+        vec4 before = textureLod(nearBlurred, place, 0.0);
+        float coverage = coverageOf(before.a, place);
+        if (blendBias > 0.0 && coverage > 0.0) {
+            vec3 near = max(before.rgb, vec3(0.0)) / max(before.a, 1e-12);
+            color = mix(color, near, clamp(coverage * biasOf(coverage, near, color), 0.0, 1.0));
+        }
     }
-#endif
     image = vec4(color, 1.0);
 }

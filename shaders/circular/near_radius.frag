@@ -1,16 +1,12 @@
 // Computes the radius at which a pixel gathers the near field: the radius of the near surfaces that may reach it.
 layout(binding = 0) uniform sampler2D ownRadii;
 layout(binding = 1) uniform sampler2D reach;    // one value per tile
-#ifdef COMBINED
-layout(binding = 2) uniform sampler2D farRadii;
-#endif
+layout(binding = 2) uniform sampler2D farRadii;   // only for combinedFields
 
 layout(location = 0) out float radius;
 
 void main() {
-    vec2 place = gl_FragCoord.xy / (float(TILE) * vec2(textureSize(reach, 0)));
+    vec2 place = gl_FragCoord.xy / (float(tileSize) * vec2(textureSize(reach, 0)));
     radius = max(texelFetch(ownRadii, ivec2(gl_FragCoord.xy), 0).r, textureLod(reach, place, 0.0).r);
-#ifdef COMBINED
-    radius = max(radius, texelFetch(farRadii, ivec2(gl_FragCoord.xy), 0).r);
-#endif
+    if (combinedFields) radius = max(radius, texelFetch(farRadii, ivec2(gl_FragCoord.xy), 0).r);
 }

@@ -13,7 +13,7 @@ void main() {
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             float radius = texelFetch(tiles, ivec2(x, y), 0).r;
-            vec2 gap = float(TILE) * max(vec2(abs(ivec2(x, y) - here)) - 2.0, 0.0);
+            vec2 gap = float(tileSize) * max(vec2(abs(ivec2(x, y) - here)) - 2.0, 0.0);
             if (radius > 0.0 && length(gap) <= radius) reaching = max(reaching, radius);
         }
 }

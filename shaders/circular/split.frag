@@ -1,5 +1,5 @@
 // Splits the pinhole image into a far field (behind the focus plane) and a near field (in front of it). Each holds
-// weighted radiance and the weight, with the blur radius in field px. A field pixel averages REDUCTION × REDUCTION
+// weighted radiance and the weight, with the blur radius in field px. A field pixel averages reduction × reduction
 // image pixels.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -8,20 +8,16 @@
 layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float largestRadius;   // px
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane, px
-#ifdef NEAR_PREMULTIPLIED
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane
-#endif
 
-layout(location = 0) out vec4 farField;             // COMBINED: both fields
+layout(location = 0) out vec4 farField;             // combinedFields: both fields
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
-#ifndef COMBINED
-layout(location = 3) out vec4 nearField;
-#endif
+layout(location = 3) out vec4 nearField;            // not for combinedFields
 
 void main() {
-    ivec2 first = REDUCTION * ivec2(gl_FragCoord.xy);
-    ivec2 last = min(first + REDUCTION, textureSize(pinholeColor, 0)) - 1;
+    ivec2 first = reduction * ivec2(gl_FragCoord.xy);
+    ivec2 last = min(first + reduction, textureSize(pinholeColor, 0)) - 1;
     vec4 farSum = vec4(0.0);
     vec4 nearSum = vec4(0.0);
     vec2 farBlur = vec2(0.0);   // weighted sum, sum of weights
@@ -34,9 +30,7 @@ void main() {
             // premultiplied far field). Nearly sharp surfaces therefore leak little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
-#ifdef NEAR_PREMULTIPLIED
-            before *= min(-diameter * perNearDiameter, 1.0);
-#endif
+            if (nearPremultiplied) before *= min(-diameter * perNearDiameter, 1.0);
             farSum += behind * color;
             nearSum += before * color;
             farBlur += vec2(behind * min(0.5 * diameter, largestRadius), behind);
@@ -44,12 +38,8 @@ void main() {
         }
     ivec2 size = last - first + 1;
     float perPixel = 1.0 / float(size.x * size.y);
-    farRadius = farBlur.y > 0.0 ? farBlur.x / farBlur.y / float(REDUCTION) : 0.0;
-    nearRadius /= float(REDUCTION);
-#ifdef COMBINED
-    farField = (farSum + nearSum) * perPixel;
-#else
-    farField = farSum * perPixel;
-    nearField = nearSum * perPixel;
-#endif
+    farRadius = farBlur.y > 0.0 ? farBlur.x / farBlur.y / float(reduction) : 0.0;
+    nearRadius /= float(reduction);
+    farField = (combinedFields ? farSum + nearSum : farSum) * perPixel;
+    if (!combinedFields) nearField = nearSum * perPixel;
 }

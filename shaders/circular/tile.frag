@@ -1,20 +1,16 @@
-// Computes the max value of each tile of TILE × TILE pixels. LARGEST_CHANNEL: the max radiance channel and the max
+// Computes the max value of each tile of tileSize × tileSize pixels. ofChannels: the max radiance channel and the max
 // weight of a field.
 layout(binding = 0) uniform sampler2D values;
 
 layout(location = 0) out vec2 largest;
 
 void main() {
-    ivec2 first = TILE * ivec2(gl_FragCoord.xy);
-    ivec2 last = min(first + TILE, textureSize(values, 0)) - 1;
+    ivec2 first = tileSize * ivec2(gl_FragCoord.xy);
+    ivec2 last = min(first + tileSize, textureSize(values, 0)) - 1;
     largest = vec2(0.0);
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
-#ifdef LARGEST_CHANNEL
             vec4 value = texelFetch(values, ivec2(x, y), 0);
-            largest = max(largest, vec2(max(value.r, max(value.g, value.b)), value.a));
-#else
-            largest = max(largest, texelFetch(values, ivec2(x, y), 0).rg);
-#endif
+            largest = max(largest, ofChannels ? vec2(max(value.r, max(value.g, value.b)), value.a) : value.rg);
         }
 }

@@ -1,12 +1,12 @@
 // Lens cells (src/plan/lens_cells/lens_cells.h): sums of pixels by the blur of their images. Each class has one layer,
 // ordered from the least blurred to the most.
 //
-// The first CELLS_IN_FRONT layers are in front of the focus; layer k sums all samples blurred less than class k. The
+// The first cellsInFront layers are in front of the focus; layer k sums all samples blurred less than class k. The
 // other layers are behind the focus; their layer k sums class k and everything blurred more. A layer therefore counts
 // the samples that nearer classes don't hide. The difference of adjacent layers is a class. RGB is radiance, and alpha
 // counts samples.
 
-const int cellClasses = CELLS_IN_FRONT + CELLS_BEHIND;
+const int cellClasses = cellsInFront + cellsBehind;
 // Number of layers that a render target holds, beside the sum of all samples.
 const int drawnClasses = min(cellClasses, 7);
 

@@ -1,8 +1,8 @@
 // Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010;
-// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. Requires KERNEL_SIZE. TAPS_EXACT: one
-// tap per pixel; otherwise taps have a fractional spacing.
+// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. exactTaps: one tap per pixel;
+// otherwise taps have a fractional spacing.
 
-layout(location = 0) uniform vec4 kernel[KERNEL_SIZE];   // a, b, A, B
+layout(location = 0) uniform vec4 kernel[kernelSize];   // a, b, A, B
 
 struct Taps {
     int count;      // on each side of the centre
@@ -11,24 +11,14 @@ struct Taps {
 };
 
 Taps tapsOf(float radius) {
-#if TAPS_EXACT
     // Taps fade in as the radius grows: tap i has the weight clamp(radius + 1/2 − i, 0, 1).
-    return Taps(int(ceil(radius - 0.5)), max(radius, 0.5), 1.0);
-#elif TAPS_SETS
+    if (exactTaps) return Taps(int(ceil(radius - 0.5)), max(radius, 0.5), 1.0);
+    if (!tapSets) return Taps(8, 8.0, radius / 8.0);
     int count = radius <= 4.0 ? 4 : radius <= 8.0 ? 8 : radius <= 16.0 ? 16 : 32;
     return Taps(count, float(count), radius / float(count));
-#else
-    return Taps(8, 8.0, radius / 8.0);
-#endif
 }
 
-float fade(Taps taps, int i) {
-#if TAPS_EXACT
-    return clamp(taps.radius + 0.5 - float(i), 0.0, 1.0);
-#else
-    return 1.0;
-#endif
-}
+float fade(Taps taps, int i) { return exactTaps ? clamp(taps.radius + 0.5 - float(i), 0.0, 1.0) : 1.0; }
 
 // Returns the sum of the fade weights of all taps.
 float tapCount(Taps taps) {

@@ -10,7 +10,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 cocOther;
     vec4 window;          // position of the layers' pixel (0, 0) in the image; image size (px)
     mat4 worldFromView;   // rotation
-    vec4 lightPositions[MAX_LIGHTS];  // m from the camera along the world's axes; w: range, 0: unlimited
+    vec4 lightPositions[maxLights];  // m from the camera along the world's axes; w: range, 0: unlimited
 } frame;
 
 layout(std140, binding = 1) uniform ObjectBlock {

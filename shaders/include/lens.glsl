@@ -1,15 +1,10 @@
 // The clip-space lens shear p' = p + C·(u, k·v, 0, 0) (Munkberg, Toth and Akenine-Möller 2012; here C > 0 behind the
-// focus plane). src/lens/circle_of_confusion.h documents C. COC_CONTROLS: C differs from a + b·w. `own` holds the
+// focus plane). src/lens/circle_of_confusion.h documents C. cocControls: C differs from a + b·w. `own` holds the
 // surface's blur modifiers: a factor and an added fraction of the image's width.
 // Depth is reversed with an infinite far plane: z = near, so that z/w runs from 1 at the near plane to 0.
 
-#ifdef CHROMATIC
-float bandShift = 0.0;   // change of b₁ and b₂ by the wavelength of the current lens sample
-#else
-const float bandShift = 0.0;
-#endif
+float bandShift = 0.0;   // change of b₁ and b₂ by the wavelength of the current lens sample; 0 unless chromatic
 
-#ifdef COC_CONTROLS
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²)
     float front;    // F
@@ -22,20 +17,15 @@ CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
     return CocTerms(ownFactor * (1.0 + frame.cocField.w * radius2), frame.coc.x * inverseDepth + (frame.coc.y + bandShift) * focus,
                     frame.cocOther.x * inverseDepth + (frame.coc.w + bandShift) * focus);
 }
-#endif
 
 // Returns C/w, the signed diameter as a fraction of the image's width, at 1/w and a position in the image.
 float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
-#ifdef COC_CONTROLS
+    if (!cocControls) return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
     CocTerms terms = cocTerms(inverseDepth, ndc, own.x);
     float blur = terms.factor * (min(0.0, terms.front) + max(0.0, terms.behind)) + own.y;
     return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
-#else
-    return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
-#endif
 }
 
-#ifdef ABERRATIONS
 // Returns the offset by astigmatism and coma for a lens point (u, k·v); see src/lens/aberrations.h.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
@@ -44,15 +34,12 @@ vec2 aberration(vec2 ndc, vec2 lensPoint) {
     float along = dot(field, lens);
     return (frame.cocOther.z * along * field + frame.cocOther.w * (2.0 * along * lens + dot(lens, lens) * field)) / perAspect;
 }
-#endif
 
 // Returns the image shift of a point at depth 1/inverseDepth for a lens point (u, k·v), in normalised device
 // coordinates.
 vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     vec2 shift = relativeCircleOfConfusion(inverseDepth, ndc, own) * lensPoint;
-#ifdef ABERRATIONS
-    shift += aberration(ndc, lensPoint);
-#endif
+    if (aberrations) shift += aberration(ndc, lensPoint);
     return shift;
 }
 
@@ -62,14 +49,14 @@ vec3 pinholePosition(vec3 viewPosition) {
 }
 
 // Returns the clip position as seen from a point of the lens. `lensAndJitter` holds (u, k·v) and the pixel jitter in
-// normalised device coordinates. With COC_CONTROLS the position must lie in front of the camera.
+// normalised device coordinates. With cocControls the position must lie in front of the camera.
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
-#ifdef COC_CONTROLS
-    vec2 shift = w * shiftThroughLens(1.0 / w, pinhole.xy / w, own, lensAndJitter.xy);
-#else
-    vec2 shift = (frame.coc.x + (frame.coc.y + bandShift) * w) * lensAndJitter.xy;
-#endif
+    vec2 shift;
+    if (cocControls)
+        shift = w * shiftThroughLens(1.0 / w, pinhole.xy / w, own, lensAndJitter.xy);
+    else
+        shift = (frame.coc.x + (frame.coc.y + bandShift) * w) * lensAndJitter.xy;
     return vec4(pinhole.xy + shift + w * lensAndJitter.zw, frame.projection.z, w);
 }
 

@@ -11,7 +11,7 @@ struct LightData {
 #define LIGHTING_MEMBERS \
     vec4 environment[3];  /* zenith, horizon, nadir radiance */ \
     vec4 irradiance[9];   /* E(n)/π in the real spherical harmonics of Ramamoorthi and Hanrahan 2001 */ \
-    LightData lights[MAX_LIGHTS];
+    LightData lights[maxLights];
 
 #ifdef LIGHTING_VALUES
 struct LightingData { LIGHTING_MEMBERS };

@@ -1,17 +1,12 @@
 // Blur of a pixel in the pinhole image, from its depth and its surface's blur modifiers.
 
 layout(binding = 1) uniform sampler2D pinholeDepth;
-#ifdef OWN_BLUR
-layout(binding = 6) uniform sampler2D pinholeOwnBlur;
-#endif
+layout(binding = 6) uniform sampler2D pinholeOwnBlur;   // only with usesOwnBlur
 
 // Returns the signed diameter in px.
 float pinholeCircleOfConfusion(ivec2 pixel) {
-#ifdef OWN_BLUR
-    vec2 own = texelFetch(pinholeOwnBlur, pixel, 0).rg;
-#else
-    const vec2 own = vec2(1.0, 0.0);
-#endif
+    vec2 own = vec2(1.0, 0.0);
+    if (usesOwnBlur) own = texelFetch(pinholeOwnBlur, pixel, 0).rg;
     vec2 ndc = ndcOfPixel(vec2(pixel) + 0.5, textureSize(pinholeDepth, 0));
     return circleOfConfusion(texelFetch(pinholeDepth, pixel, 0).r, ndc, own);
 }

@@ -1,22 +1,18 @@
-// Poses vertices: first morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. SKIN_INFLUENCES: 4
-// or 8 for a skin. MORPHED: morph targets move positions; MORPH_NORMALS, MORPH_TANGENTS: also normals, tangents.
-// MORPH_ATTRIBUTES: number of morphed attributes, 1 … 3.
+// Poses vertices: first morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. skinInfluences: 4
+// or 8 for a skin, else 0. morphed: morph targets move positions; morphNormals, morphTangents: also normals, tangents.
+// morphAttributes: number of morphed attributes, 1 … 3.
 //
 // Layout of a pose in `poses`. First, the three rows of the view-from-vertex matrix of each joint; without a skin, the
-// object counts as the only joint. Then (weight, index) of each active morph target. With CAMERA_MOVES, a matrix
-// follows from this moment's view space to that of the middle of the exposure. Lights and sky are defined in the
-// latter.
+// object counts as the only joint. Then (weight, index) of each active morph target. With cameraMoves, a matrix follows
+// from this moment's view space to that of the middle of the exposure. Lights and sky are defined in the latter.
+
+layout(location = 9) in vec4 jointsIn;
+layout(location = 10) in vec4 weightsIn;
+layout(location = 11) in vec4 joints1In;
+layout(location = 12) in vec4 weights1In;
 
 layout(binding = 6) uniform samplerBuffer poses;
-#ifdef MORPHED
 layout(binding = 7) uniform samplerBuffer morphDisplacements;   // per target: positions, then normals, then tangents
-#endif
-
-struct Posed {        // view space
-    vec3 position;
-    vec3 normal;
-    vec3 tangent;
-};
 
 struct Rows {         // rows of a matrix that transforms points
     vec4 x;
@@ -28,7 +24,6 @@ Rows rowsAt(int texel) {
     return Rows(texelFetch(poses, texel), texelFetch(poses, texel + 1), texelFetch(poses, texel + 2));
 }
 
-#ifdef SKIN_INFLUENCES
 void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joints, vec4 weights) {
     for (int i = 0; i < 4; ++i) {
         if (!(weights[i] > 0.0)) continue;
@@ -40,21 +35,15 @@ void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joint
         weightSum += weights[i];
     }
 }
-#endif
 
 Rows vertexRows(int firstTexel) {
-#ifdef SKIN_INFLUENCES
+    if (skinInfluences == 0) return rowsAt(firstTexel);
     Rows sum = Rows(vec4(0.0), vec4(0.0), vec4(0.0));
     float weightSum = 0.0;
     addJoints(sum, weightSum, firstTexel, jointsIn, weightsIn);
-#if SKIN_INFLUENCES == 8
-    addJoints(sum, weightSum, firstTexel, joints1In, weights1In);
-#endif
+    if (skinInfluences == 8) addJoints(sum, weightSum, firstTexel, joints1In, weights1In);
     if (weightSum == 0.0) return rowsAt(firstTexel);
     return Rows(sum.x / weightSum, sum.y / weightSum, sum.z / weightSum);
-#else
-    return rowsAt(firstTexel);
-#endif
 }
 
 vec3 turned(Rows rows, vec3 direction) {
@@ -72,25 +61,28 @@ vec3 turnedNormal(Rows rows, vec3 normal) {
     return size > 0.0 ? result * (length(normal) / size) : normal;
 }
 
-// Returns the vertex in pose number `pose`.
-Posed posedVertex(int pose, Posed vertex) {
-    int firstTexel = pose * object.posing.x;
-#ifdef MORPHED
+Posed morphedVertex(int firstTexel, Posed vertex) {
     int target = firstTexel + 3 * object.posing.y;
     for (int i = 0; i < object.posing.z; ++i) {
         vec4 morph = texelFetch(poses, target + i);
-        int texel = int(morph.y) * MORPH_ATTRIBUTES * object.posing.w + gl_VertexID;
+        int texel = int(morph.y) * morphAttributes * object.posing.w + gl_VertexID;
         vertex.position += morph.x * texelFetch(morphDisplacements, texel).xyz;
-#ifdef MORPH_NORMALS
-        texel += object.posing.w;
-        vertex.normal += morph.x * texelFetch(morphDisplacements, texel).xyz;
-#endif
-#ifdef MORPH_TANGENTS
-        texel += object.posing.w;
-        vertex.tangent += morph.x * texelFetch(morphDisplacements, texel).xyz;
-#endif
+        if (morphNormals) {
+            texel += object.posing.w;
+            vertex.normal += morph.x * texelFetch(morphDisplacements, texel).xyz;
+        }
+        if (morphTangents) {
+            texel += object.posing.w;
+            vertex.tangent += morph.x * texelFetch(morphDisplacements, texel).xyz;
+        }
     }
-#endif
+    return vertex;
+}
+
+// Returns the vertex in pose number `pose`.
+Posed posedVertex(int pose, Posed vertex) {
+    int firstTexel = pose * object.posing.x;
+    if (morphed) vertex = morphedVertex(firstTexel, vertex);
     Rows rows = vertexRows(firstTexel);
     vertex.position = turned(rows, vertex.position) + vec3(rows.x.w, rows.y.w, rows.z.w);
     vertex.normal = turnedNormal(rows, vertex.normal);
@@ -98,13 +90,10 @@ Posed posedVertex(int pose, Posed vertex) {
     return vertex;
 }
 
-#ifdef MOVING
 Posed between(Posed a, Posed b, float fraction) {
     return Posed(mix(a.position, b.position, fraction), mix(a.normal, b.normal, fraction), mix(a.tangent, b.tangent, fraction));
 }
-#endif
 
-#ifdef CAMERA_MOVES
 // Transforms a vertex and the lens point to the view space in the middle of the exposure.
 void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     int texel = (int(moment.x) + 1) * object.posing.x - 3;
@@ -117,4 +106,14 @@ void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     vertex = Posed(turned(rows, vertex.position) + middle, turned(rows, vertex.normal), turned(rows, vertex.tangent));
     eye = turned(rows, eye) + middle;
 }
-#endif
+
+// Returns the vertex at a moment: shutter moment, fraction of the way to the next moment. The clip position is linear in
+// time (Munkberg et al. 2012). C is evaluated at the interpolated position. For a plain lens this is the paper's linear
+// C(t). With controls it matches a still frame at that moment.
+Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
+    Posed posed = posedVertex(moving ? int(moment.x) : 0, rest);
+    if (moving && moment.y > 0.0) posed = between(posed, posedVertex(int(moment.x) + 1, rest), moment.y);
+    Vertex vertex = Vertex(posed, eye, pinholePosition(posed.position));
+    if (cameraMoves) toMiddle(moment, vertex.view, vertex.eye);
+    return vertex;
+}

@@ -3,8 +3,7 @@
 // Microsurfaces). The environment's specular part uses Karis's fit (2014, Physically Based Shading on Mobile).
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
-// Both variations widen the specular lobe without changing its total energy. SAMPLE_NUMBER is the number of the sample
-// in the frame.
+// Both variations widen the specular lobe without changing its total energy.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights can therefore be summed before F0 and albedo are
 // known. The three sums need few operations per light, which matters on software rasterizers.
@@ -14,56 +13,44 @@ layout(std140, binding = 6) uniform WaveBlock {
     float firstOfBlock;   // number in the frame of the block's first sample
 } wave;
 
+// Returns the number of the sample in the frame. The including stage defines it.
+float sampleNumber();
+
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
     vec3 normal;          // unit vector in world axes, like all directions here
     vec3 toEye;           // unit vector
-#ifdef EMISSIVE
-    vec3 emission;
-#endif
+    vec3 emission;        // only if emissive
     // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up.
     float footprint;
-#ifdef COARSE_LEVEL
+    // Only for coarseLevel.
     float agreement;      // length |n| of the mean of the represented normals, in (0, 1]
     float spread;         // normalSpread()
     vec3 seen;            // seenNormal()
-#endif
-#ifdef OWN_REFLECTANCE
-    float grazing;        // reflectance at grazing angles, F90; 1 by default
-#endif
-#ifdef TRANSMISSION
+    float grazing;        // reflectance at grazing angles, F90; 1 without ownReflectance
     vec3 transmitted;     // radiance from behind, transmitted in the share that the surface doesn't reflect
-#endif
-#ifdef SHEEN
+    // Only with sheen.
     vec3 sheen;
     float sheenRoughness; // perceptual
-#endif
-#ifdef CLEARCOAT
+    // Only with clearcoat.
     float coat;           // coated share of the surface
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit vector
-#endif
-#ifdef SHADOWS
-    float lightShares[LIGHT_COUNT + 1];   // visible share of each light
-    vec3 hidden;          // occluded irradiance of the environment, over π
-#endif
+    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
 };
+
+float lightShares[lightCount + 1];   // visible share of each light; only if shadowed
 
 struct LightSums {
     vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
     vec3 specular;        // Σ E·(n·l)·D·V
     vec3 grazing;         // Σ E·(n·l)·D·V·g
-#ifdef OWN_REFLECTANCE
     vec3 matt;            // Σ E·(n·l) / π
-#endif
-#ifdef SHEEN
     vec3 sheen;           // Σ E·(n·l)·D·V of the sheen lobe
-#endif
 };
 
-#ifdef COARSE_LEVEL
 // Returns the mean of max(n·l, 0) over the represented normals; `cosine` is between the shading normal and the light.
 // The normals' mean of n·l is `mean`. With isotropic spread their variance is proportional to 1 − cosine². For a normal
 // distribution (μ, σ²) the mean of the positive part is approximately (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for
@@ -97,7 +84,6 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
-#endif
 
 // Returns 2σ² of normals whose slopes have the variance σ² along each axis: the mean square of their angular
 // differences.
@@ -111,14 +97,11 @@ float coarseSpread(SurfacePoint point) {
 // size, and 0 on flat surfaces.
 float slopeSpread(SurfacePoint point) {
     float ofPixel = 0.25 * point.footprint;
-    float ofBlock = min(ofPixel / (wave.firstOfBlock / float(BLOCK_SAMPLES) + 1.0), 0.18);
+    float ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
     float width = point.roughness * point.roughness;
-    float ofSample = min(ofPixel / (SAMPLE_NUMBER + 1.0), 0.18);
+    float ofSample = min(ofPixel / (sampleNumber() + 1.0), 0.18);
     float spread = max(ofBlock - width * width, ofSample);
-#ifdef COARSE_LEVEL
-    spread += coarseSpread(point);
-#endif
-    return spread;
+    return coarseLevel ? spread + coarseSpread(point) : spread;
 }
 
 // Specular lobe of GGX slopes of width α, convolved with a normal distribution of variance σ². If σ dominates, the
@@ -143,15 +126,14 @@ struct Lobe {
 Lobe lobeOf(SurfacePoint point, float nv, float spread) {
     float width = point.roughness * point.roughness;
     float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
-#ifdef COARSE_LEVEL
+    if (!coarseLevel) {
+        float share = min(spread / alpha2, 1.0);
+        return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv, share);
+    }
     float coarse = min(coarseSpread(point) * (1.0 - width) / alpha2, 1.0);
     float share = min(coarse + (spread - coarseSpread(point)) / alpha2, 1.0);
     float seen = meanCosine(point.agreement * nv, nv, point.spread);
     return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv + coarse * seen, share - coarse);
-#else
-    float share = min(spread / alpha2, 1.0);
-    return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv, share);
-#endif
 }
 
 // Adds a light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is needed only
@@ -175,15 +157,9 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
-#ifdef COARSE_LEVEL
-    float matt = meanCosine(dot(point.seen, toLight), cosine, point.spread);
-#else
-    float matt = max(cosine, 0.0);
-#endif
+    float matt = coarseLevel ? meanCosine(dot(point.seen, toLight), cosine, point.spread) : max(cosine, 0.0);
     sums.diffuse += illuminance * (matt * (1.0 - g));
-#ifdef OWN_REFLECTANCE
     sums.matt += illuminance * matt;
-#endif
     vec3 received = illuminance * specular;
     sums.specular += received;
     sums.grazing += received * g;
@@ -207,13 +183,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 }
 
 // Returns the normal whose cosine gives the diffusely reflected light.
-vec3 mattNormal(SurfacePoint point) {
-#ifdef COARSE_LEVEL
-    return point.seen;
-#else
-    return point.normal;
-#endif
-}
+vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
 // Returns the share of a white environment that the specular part reflects. The fit leaves [0, 1] at grazing angles for
 // rough surfaces without reflectance.
@@ -221,59 +191,48 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
-#ifdef OWN_REFLECTANCE
-    fit.y *= point.grazing;
-#endif
+    if (ownReflectance) fit.y *= point.grazing;
     return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
 }
 
 // Returns the light left for the layers beneath a layer that reflects `reflected`. The strongest channel of coloured
 // reflections counts, to keep the layers beneath from taking the opposite colour (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
-#ifdef OWN_REFLECTANCE
-    return vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b)));
-#else
-    return 1.0 - reflected;
-#endif
+    return ownReflectance ? vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b))) : 1.0 - reflected;
 }
 
-#ifdef SHEEN
 #include "include/sheen.glsl"
-#endif
 
 // Returns the reflected environment light, scaled by `occlusion`. The diffuse part receives only light that the
 // specular part doesn't reflect.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
-#if ENVIRONMENT == 0
-    return vec3(0.0);
-#else
-#if ENVIRONMENT == 3
-    vec3 diffuse = environmentDiffuse(mattNormal(point));
-    float width = point.roughness * point.roughness;
-    float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
-    vec3 reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * ENVIRONMENT_LEVELS);
-#elif ENVIRONMENT == 2
-    // Only heights (y) matter, including that of the mirrored direction 2 (n·v) n − v. Mirrored directions spread twice
-    // as far as the normals. Their mean height is therefore 1 − 2·spread of the mirrored height; for diffuse reflection
-    // it is 2/3.
-    float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
-    vec3 diffuse = gradientDiffuse(mattNormal(point).y);
-    vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
-#else
-    vec3 diffuse = lighting.environment[0].rgb;
-    vec3 reflection = diffuse;
-#endif
-#ifdef SHADOWS
-    diffuse -= point.hidden;
-#endif
+    if (environmentType == 0) return vec3(0.0);
+    vec3 diffuse;
+    vec3 reflection;
+    if (environmentType == 3) {
+        diffuse = environmentDiffuse(mattNormal(point));
+        float width = point.roughness * point.roughness;
+        float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
+        reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * environmentLevels);
+    } else if (environmentType == 2) {
+        // Only heights (y) matter, including that of the mirrored direction 2 (n·v) n − v. Mirrored directions spread
+        // twice as far as the normals. Their mean height is therefore 1 − 2·spread of the mirrored height; for diffuse
+        // reflection it is 2/3.
+        float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
+        diffuse = gradientDiffuse(mattNormal(point).y);
+        reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
+    } else {
+        diffuse = lighting.environment[0].rgb;
+        reflection = diffuse;
+    }
+    if (shadowed) diffuse -= point.hidden;
     vec3 specular = specularAlbedo(point, nv);
     vec3 light = point.diffuse * remaining(specular) * diffuse + specular * reflection;
-#ifdef SHEEN
-    float sheenShare = sheenAlbedo(nv, point.sheenRoughness);
-    light = light * sheenRemaining(point, sheenShare) + point.sheen * sheenShare * diffuse;
-#endif
-    return light * (occlusion * ENVIRONMENT_LIGHTING);
-#endif
+    if (sheen) {
+        float sheenShare = sheenAlbedo(nv, point.sheenRoughness);
+        light = light * sheenRemaining(point, sheenShare) + point.sheen * sheenShare * diffuse;
+    }
+    return light * (occlusion * environmentLighting);
 }
 
 // Returns the radiance towards the eye without the coat. `position` (from the camera) is used by point and spot lights
@@ -282,83 +241,51 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
     float spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, nv, spread);
-    LightSums sums;
-    sums.diffuse = sums.specular = sums.grazing = vec3(0.0);
-#ifdef OWN_REFLECTANCE
-    sums.matt = vec3(0.0);
-#endif
-#ifdef SHEEN
-    sums.sheen = vec3(0.0);
-    float sheenToEye = sheenAlbedo(max(nv, 0.0), point.sheenRoughness);
-#endif
-    for (int i = 0; i < LIGHT_COUNT; ++i) {
+    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    float sheenToEye = sheen ? sheenAlbedo(max(nv, 0.0), point.sheenRoughness) : 0.0;
+    for (int i = 0; i < lightCount; ++i) {
         vec3 toLight = -lighting.lights[i].directionType.xyz;
         vec3 illuminance = lighting.lights[i].colorScale.rgb;
-#ifdef LOCAL_LIGHTS
-        if (lighting.lights[i].directionType.w != 0.0)
+        if (localLights && lighting.lights[i].directionType.w != 0.0)
             illuminance = localLight(lighting.lights[i], frame.lightPositions[i], position, toLight);
-#endif
-#ifdef SHADOWS
-        illuminance *= point.lightShares[i];
-#endif
-#ifdef SHEEN
-        float nl = max(dot(point.normal, toLight), 0.0);
-        sums.sheen += illuminance * (nl * sheenReflectance(point, nv, nl, toLight));
-        illuminance *= sheenRemaining(point, max(sheenToEye, sheenAlbedo(nl, point.sheenRoughness)));
-#endif
+        if (shadowed) illuminance *= lightShares[i];
+        if (sheen) {
+            float nl = max(dot(point.normal, toLight), 0.0);
+            sums.sheen += illuminance * (nl * sheenReflectance(point, nv, nl, toLight));
+            illuminance *= sheenRemaining(point, max(sheenToEye, sheenAlbedo(nl, point.sheenRoughness)));
+        }
         addLight(sums, point, nv, lobe, toLight, illuminance);
     }
-#ifdef OWN_REFLECTANCE
-    // 1 − F = (1 − F90) + (F90 − F0)·(1 − g)
-    vec3 specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
-    float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
-    vec3 diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);
-#else
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
-#endif
+    if (ownReflectance) {
+        // 1 − F = (1 − F90) + (F90 − F0)·(1 − g)
+        specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
+        float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
+        diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);
+    }
     vec3 radiance = diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
-#ifdef TRANSMISSION
-    vec3 transmitted = point.transmitted * remaining(specularAlbedo(point, max(nv, 0.0)));
-#ifdef SHEEN
-    transmitted *= sheenRemaining(point, sheenToEye);
-#endif
-    radiance += transmitted;
-#endif
-#ifdef SHEEN
-    radiance += point.sheen * sums.sheen;
-#endif
-#ifdef EMISSIVE
-    radiance += point.emission;
-#endif
+    if (transmissive) {
+        vec3 transmitted = point.transmitted * remaining(specularAlbedo(point, max(nv, 0.0)));
+        radiance += sheen ? transmitted * sheenRemaining(point, sheenToEye) : transmitted;
+    }
+    if (sheen) radiance += point.sheen * sums.sheen;
+    if (emissive) radiance += point.emission;
     return radiance;
 }
 
-#ifdef CLEARCOAT
 // KHR_materials_clearcoat: the coat of refractive index 1.5 reflects, and the rest of the light comes from beneath.
 vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
+    if (!clearcoat) return uncoatedRadiance(point, position, occlusion);
     SurfacePoint coat = point;
     coat.diffuse = vec3(0.0);
     coat.specular = vec3(0.04);
     coat.roughness = point.coatRoughness;
     coat.normal = point.coatNormal;
-#ifdef EMISSIVE
     coat.emission = vec3(0.0);
-#endif
-#ifdef OWN_REFLECTANCE
     coat.grazing = 1.0;
-#endif
-#ifdef TRANSMISSION
     coat.transmitted = vec3(0.0);
-#endif
-#ifdef SHEEN
     coat.sheen = vec3(0.0);
-#endif
     vec3 share = point.coat * specularAlbedo(coat, max(dot(coat.normal, coat.toEye), 0.0));
     return uncoatedRadiance(point, position, occlusion) * (1.0 - share) + point.coat * uncoatedRadiance(coat, position, occlusion);
 }
-#else
-vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
-    return uncoatedRadiance(point, position, occlusion);
-}
-#endif

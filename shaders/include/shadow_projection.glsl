@@ -1,11 +1,11 @@
-// Projection of shadow maps, for drawing and reading; see src/plan/visible/shadows.h. SHADOW_MAPS: number of maps with
-// one point per light; SHADOW_POINTS: number of points.
+// Projection of shadow maps, for drawing and reading; see src/plan/visible/shadows.h. shadowMapCount: number of maps
+// with one point per light; shadowPoints: number of points.
 
-layout(binding = 19) uniform samplerBuffer shadowProjections;
+layout(binding = 24) uniform samplerBuffer shadowProjections;
 layout(location = 2) uniform int firstShadowSample;   // shadow sample of layer 0 in this draw
 
 int shadowTexel(int layer, int slot) {
-    return ((firstShadowSample + layer) * (SHADOW_POINTS * SHADOW_MAPS) + slot) * 6;
+    return ((firstShadowSample + layer) * (shadowPoints * shadowMapCount) + slot) * 6;
 }
 
 // Returns the clip-space coordinates of a direction, in m along the world's axes.

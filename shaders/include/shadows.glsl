@@ -1,5 +1,5 @@
-// Visibility of each light and of the environment from a point (Williams 1978; Haeberli and Akeley 1990). SHADOW_FIRST,
-// SHADOW_FACES: for each light and then the environment, its first map (−1: none) and its number of maps.
+// Visibility of each light and of the environment from a point (Williams 1978; Haeberli and Akeley 1990). shadowFirst,
+// shadowFaces: for each light and then the environment, its first map (−1: none) and its number of maps.
 //
 // A texel stores one depth, that of its centre, so a plane would shadow itself. The comparison therefore uses the depth
 // of the receiver's facet at the texel centre (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques). This is
@@ -13,10 +13,7 @@
 
 #include "include/shadow_projection.glsl"
 
-layout(binding = 18) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
-
-const int shadowFirst[LIGHT_COUNT + 1] = SHADOW_FIRST;
-const int shadowFaces[LIGHT_COUNT + 1] = SHADOW_FACES;
+layout(binding = 23) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
 
 struct Facet {
     vec3 place;     // m from the camera along the world's axes
@@ -45,14 +42,14 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     float width = texelFetch(shadowProjections, texel + 4).w * dot(texelFetch(shadowProjections, texel + 3), vec4(facet.place, 1.0));
     float grazing = 1.0 - smoothstep(0.15, 0.35, cosine);
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    float away = width * (0.25 + 0.75 * sine * grazing) + object.levels.x + SHADOW_ERROR;
+    float away = width * (0.25 + 0.75 * sine * grazing) + object.levels.x + shadowError;
     vec4 clip = shadowPosition(texel, facet.place + facet.normal * away);
     if (!all(lessThan(abs(clip.xy), vec2(clip.w)))) return 1.0;
     vec2 place = clip.xy / clip.w;
-    ivec2 at = min(ivec2((0.5 + 0.5 * place) * float(SHADOW_SIZE)), ivec2(SHADOW_SIZE - 1));
-    vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(SHADOW_SIZE)) - 1.0 - place;
+    ivec2 at = min(ivec2((0.5 + 0.5 * place) * float(shadowSize)), ivec2(shadowSize - 1));
+    vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
     float depth = clip.z / clip.w + depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
-    float nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (SHADOW_POINTS * SHADOW_MAPS) + slot), 0).r;
+    float nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).r;
     return nearest <= max(depth, 0.0) ? 1.0 : 0.0;
 }
 
@@ -68,21 +65,33 @@ float lightShare(int i, Facet facet, vec3 toLight) {
     if (shadowFirst[i] < 0) return 1.0;
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);
     float sum = 0.0;
-    for (int point = 0; point < SHADOW_POINTS; ++point) sum += litAt(point * SHADOW_MAPS + map, facet, toLight);
-    return sum / float(SHADOW_POINTS);
+    for (int point = 0; point < shadowPoints; ++point) sum += litAt(point * shadowMapCount + map, facet, toLight);
+    return sum / float(shadowPoints);
 }
 
 // Returns the occluded part of the environment's irradiance over π, for a surface with the given normal.
 vec3 hiddenIrradiance(Facet facet, vec3 normal) {
-    int map = shadowFirst[LIGHT_COUNT];
+    int map = shadowFirst[lightCount];
     vec3 sum = vec3(0.0);
     if (map < 0) return sum;
-    for (int point = 0; point < SHADOW_POINTS; ++point) {
-        int slot = point * SHADOW_MAPS + map;
+    for (int point = 0; point < shadowPoints; ++point) {
+        int slot = point * shadowMapCount + map;
         int texel = shadowTexel(gl_Layer, slot);
         vec3 toLight = texelFetch(shadowProjections, texel + 4).xyz;
         float cosine = dot(normal, toLight);
         if (cosine > 0.0) sum += (cosine * (1.0 - litAt(slot, facet, toLight))) * texelFetch(shadowProjections, texel + 5).rgb;
     }
-    return sum / float(SHADOW_POINTS);
+    return sum / float(shadowPoints);
+}
+
+void addShadows(inout SurfacePoint point, vec3 place) {
+    vec3 across = cross(dFdx(place), dFdy(place));
+    float across2 = dot(across, across);
+    Facet facet = Facet(place, across2 > 0.0 ? across * inversesqrt(across2) : point.normal);
+    for (int i = 0; i < lightCount; ++i) {
+        vec3 toLight = -lighting.lights[i].directionType.xyz;
+        if (localLights && lighting.lights[i].directionType.w != 0.0) toLight = normalize(frame.lightPositions[i].xyz - place);
+        lightShares[i] = lightShare(i, facet, toLight);
+    }
+    point.hidden = hiddenIrradiance(facet, point.normal);
 }

@@ -1,30 +1,29 @@
-// Varyings from the vertex stage to the fragment stage, limited to those that the material needs.
+// Members of the block SurfaceVaryings, which struct Surface describes.
 
     vec4 color;
-#ifdef VERTEX_COLOR_RANGES
-    flat vec4 minColor; // min over the adjacent corners
+    flat float ditherOffset;
+    flat float layer;
+#ifdef COLOR_RANGES
+    flat vec4 minColor;
     flat vec4 maxColor;
 #endif
-#ifndef UNLIT
-    vec3 normal;          // in world axes, like all directions here
+#ifdef LIT
+    vec3 normal;
+    vec3 toEye;
+#endif
 #ifdef COARSE_LEVEL
-    float agreement;      // coarse levels: length of the mean of the represented normals, ≤ 1
+    float agreement;
 #endif
-    vec3 toEye;           // towards this sample's lens point
-#endif
-#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION) || (defined(SHADOWS) && !defined(UNLIT))
-    vec3 position;        // relative to the camera
-#endif
-#ifdef TRANSMISSION
-    flat vec2 lens;       // lens point (u, k·v) of the sample
-    flat float bandShift;
+#ifdef PLACED
+    vec3 position;
+    flat vec3 lensAndBand;   // lens, bandShift
 #endif
 #ifdef TEXTURED
-    vec4 uv;              // both UV sets
+    vec4 uv;
 #endif
-#ifdef TANGENTS
+#ifdef BUMPED
     vec4 tangent;
 #endif
-#if defined(OWN_BLUR) && defined(READS_OWN_BLUR)
-    vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
+#ifdef PASSES_OWN_BLUR
+    vec2 ownBlur;
 #endif

@@ -4,5 +4,4 @@
     vec3 pinhole;
     vec2 ownBlur;
     flat vec4 lensAndJitter;
-    flat vec2 ditherAndLayer;
     flat float bandShift;

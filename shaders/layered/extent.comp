@@ -2,23 +2,16 @@
 // covers 2^(l + 1) pixels per side. Without a surface, min > max.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#ifdef BASE
-layout(binding = 0) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
-#else
-layout(binding = 0) uniform sampler2DArray extents;         // source: the previous level
-layout(location = 0) uniform int finer;
-#endif
+layout(binding = 0) uniform sampler2DArray source;   // finestExtents: surfaces as in layered/peel.frag; else extents
+layout(location = 0) uniform int finer;              // level of the source
 layout(binding = 0, rg32f) writeonly uniform image2DArray extentOut;
 
 vec2 extentOf(ivec3 texel) {
-#ifdef BASE
-    if (any(greaterThanEqual(texel.xy, textureSize(layerSurfaces, 0).xy))) return vec2(1e30, -1e30);
-    vec4 surface = texelFetch(layerSurfaces, texel, 0);
+    if (!finestExtents) return texelFetch(source, texel, finer).xy;
+    if (any(greaterThanEqual(texel.xy, textureSize(source, 0).xy))) return vec2(1e30, -1e30);
+    vec4 surface = texelFetch(source, texel, 0);
     float inPixel = 0.5 * (abs(surface.y) + abs(surface.z));
     return surface.w < 0.0 ? vec2(1e30, -1e30) : vec2(surface.x - inPixel, surface.x + inPixel);
-#else
-    return texelFetch(extents, texel, finer).xy;
-#endif
 }
 
 void main() {

@@ -7,12 +7,12 @@ layout(binding = 0) uniform sampler2DArray extents;   // as in layered/extent.co
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
 layout(location = 0) uniform int border;        // px that the layers extend beyond the image
 layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
-layout(location = 2) uniform float chromatic;   // px, max change of the blur by a wavelength
+layout(location = 2) uniform float bandBlur;    // px, max change of the blur by a wavelength
 
 const int maxRounds = 5;
 
 vec2 extentAround(vec2 centre, float radius, int layer) {
-    int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, LEVELS - 1);
+    int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, extentLevels - 1);
     float size = float(2 << level);
     ivec2 first = max(ivec2(floor((centre - radius) / size)), ivec2(0));
     // The size is computed, because threads use different levels and some drivers cannot query the size of a varying
@@ -36,7 +36,7 @@ void main() {
     for (int i = 0; i < maxRounds; ++i) {
         reach = extentAround(centre, radius, at.z);
         if (reach.x > reach.y) break;
-        float smaller = 0.5 * (max(abs(reach.x), abs(reach.y)) + chromatic) + 1.0;
+        float smaller = 0.5 * (max(abs(reach.x), abs(reach.y)) + bandBlur) + 1.0;
         if (smaller > 0.9 * radius) break;
         radius = smaller;
     }

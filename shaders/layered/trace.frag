@@ -11,13 +11,12 @@
 #include "include/frame.glsl"
 #include "include/layer_format.glsl"
 
-in vec2 place;
-flat in vec4 lensAndJitter;   // u, k·v; position in the pixel
-flat in float skyBandShift;   // change of all blur by the wavelength, as a fraction of the image's width
-flat in float ditherOffset;
+in Sky {
+#include "include/sky_varyings.glsl"
+} sky;
 
 layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
-layout(binding = 1) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
+layout(binding = 1) uniform sampler2DArray layerSurfaces;   // as in layered/peel.frag
 layout(binding = 2) uniform sampler2DArray layerReach;      // as in layered/reach.comp
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int border;                    // px that the layers extend beyond the image
@@ -26,12 +25,8 @@ layout(location = 2) uniform vec2 pinhole;                  // px, pinhole posit
 layout(location = 0) out vec4 layerOut;
 
 const float rounded = 0.05;   // tolerance in px of blur for meeting a plane
-const float oneSurface = 1.0; // px of blur, like the umbra in layered/peel.glsl
-#ifdef BLENDED
-const int maxSurfaces = 16;
-#else
-const int maxSurfaces = 1;
-#endif
+const float oneSurface = 1.0; // px of blur, like the umbra in layered/peel.frag
+const int maxSurfaces = blendedLayers ? 16 : 1;
 
 struct Hit {
     float depth;   // reversed; < 0: none
@@ -52,9 +47,7 @@ vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 // Finds the nearest hit in a layer beyond the reversed depth `limit`.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-#ifndef OWN_BLUR
-    reach.y = min(reach.y, hit.end);   // blur grows with the distance
-#endif
+    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows with the distance
     ivec2 size = textureSize(layerSurfaces, 0).xy;
     vec2 toFirst = -ray.start * ray.perSlope;
     vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;
@@ -81,9 +74,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
             bool between = connected && before * behindFirst < 0.0 && abs(before - behindFirst) < oneSurface;
             if ((meets || between) && surface.w > hit.depth) {
                 hit = Hit(surface.w, end, ivec3(texel, layer));
-#ifndef OWN_BLUR
-                return;
-#endif
+                if (!usesOwnBlur) return;
             }
             before = behindLast;
         }
@@ -99,13 +90,13 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 }
 
 void main() {
-    vec2 lens = vec2(lensAndJitter.x, lensAndJitter.y * frame.window.w / frame.window.z);
-    vec2 inPixel = -0.5 * lensAndJitter.zw * frame.window.zw - pinhole;
+    vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
+    vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
     // Focused surfaces stay in their pixel despite rounding.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);
-    Ray ray = Ray(start, slope, perSlope, skyBandShift * frame.coc.z);
+    Ray ray = Ray(start, slope, perSlope, sky.bandShift * frame.coc.z);
 
     vec4 light = vec4(0.0);
     float limit = 2.0;
@@ -117,8 +108,5 @@ void main() {
         if (light.a > 0.999) break;
         limit = hit.depth;
     }
-#ifdef LAYER_LARGEST
-    light.rgb = roundedToHalf(light.rgb);
-#endif
-    layerOut = light;
+    layerOut = vec4(roundedToLayer(light.rgb), light.a);
 }

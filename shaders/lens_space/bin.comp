@@ -1,5 +1,5 @@
-// Kernel 2: finds the tiles that a triangle may cover from any lens point at any time. COUNT: counts the triangles of
-// each tile; otherwise fills the tiles' lists.
+// Kernel 2: finds the tiles that a triangle may cover from any lens point at any time. countsOnly: counts the
+// triangles of each tile; otherwise fills the tiles' lists.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -7,11 +7,9 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// COUNT: triangles per tile. Otherwise: next free entry of each tile.
+// countsOnly: triangles per tile. Otherwise: next free entry of each tile.
 layout(std430, binding = 4) buffer CountBlock { uint counts[]; };
-#ifndef COUNT
 layout(std430, binding = 5) writeonly buffer EntryBlock { uint entries[]; };
-#endif
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint triangleCount;
@@ -68,38 +66,35 @@ void main() {
     vec4 corners[3] = vec4[3](clips[triangle.x], clips[triangle.y], clips[triangle.z]);
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);
-#ifdef MOVING
-    // While a vertex moves in front of the camera, its position and C/w stay between their end values. No such bound
-    // exists if a corner crosses the near plane.
-    vec4 later[3] = vec4[3](clipsAtEnd[triangle.x], clipsAtEnd[triangle.y], clipsAtEnd[triangle.z]);
-    float near = frame.projection.z;
-    float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
-    float maximum = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
-    if (maximum < near) return;
-    add(area, later, aspect);
-    if (minimum < near) area = Area(vec2(-1.0), vec2(1.0));
-#else
-    if (area.minimum.x > area.maximum.x) return;
-    if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
-#endif
+    if (moving) {
+        // While a vertex moves in front of the camera, its position and C/w stay between their end values. No such
+        // bound exists if a corner crosses the near plane.
+        vec4 later[3] = vec4[3](clipAtEnd(triangle.x), clipAtEnd(triangle.y), clipAtEnd(triangle.z));
+        float near = frame.projection.z;
+        float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
+        float maximum = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
+        if (maximum < near) return;
+        add(area, later, aspect);
+        if (minimum < near) area = Area(vec2(-1.0), vec2(1.0));
+    } else {
+        if (area.minimum.x > area.maximum.x) return;
+        if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
+    }
     // A margin of 0.001 px covers rounding errors.
     vec2 size = vec2(imageSize);
-    vec2 first = floor(clamp((area.minimum * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(TILE));
-    vec2 last = floor(clamp((area.maximum * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(TILE));
+    vec2 first = floor(clamp((area.minimum * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(tileSize));
+    vec2 last = floor(clamp((area.maximum * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(tileSize));
     ivec2 from = max(ivec2(first), ivec2(0));
     ivec2 to = ivec2(last);
-    int across = (imageSize.x + TILE - 1) / TILE;
+    int across = (imageSize.x + tileSize - 1) / tileSize;
     from.y = max(from.y, int(firstTile) / across);
     to.y = min(to.y, int(endTile - 1u) / across);
     for (int y = from.y; y <= to.y; ++y) {
         for (int x = from.x; x <= to.x; ++x) {
             uint tile = uint(y * across + x);
             if (tile < firstTile || tile >= endTile) continue;
-#ifdef COUNT
-            atomicAdd(counts[tile], 1u);
-#else
-            entries[atomicAdd(counts[tile], 1u)] = index;
-#endif
+            uint entry = atomicAdd(counts[tile], 1u);
+            if (!countsOnly) entries[entry] = index;
         }
     }
 }

@@ -12,10 +12,6 @@ layout(location = 0) uniform uint triangleCount;
 void main() {
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (index >= triangleCount) return;
-    uvec4 triangle = triangles[index];
-    float minimum = min(min(clips[triangle.x].z, clips[triangle.y].z), clips[triangle.z].z);
-#ifdef MOVING
-    minimum = min(minimum, min(min(clipsAtEnd[triangle.x].z, clipsAtEnd[triangle.y].z), clipsAtEnd[triangle.z].z));
-#endif
+    float minimum = minDepthOf(triangles[index].xyz);
     depths[index] = minimum < frame.projection.z ? 0u : floatBitsToUint(minimum);
 }

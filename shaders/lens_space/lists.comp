@@ -1,4 +1,4 @@
-// Sorts records into groups of surfaces with the same shader. COUNT: counts the records; otherwise lists them.
+// Sorts records into groups of surfaces with the same shader. countsOnly: counts the records; otherwise lists them.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -18,9 +18,8 @@ void main() {
     if (index >= recordCount) return;
     uint triangle = records[index].triangle;
     uint group = triangle == noTriangle ? 0u : draws[triangles[triangle].w].group;
-#ifdef COUNT
-    atomicAdd(groups[group].count, 1u);
-#else
-    list[groups[group].first + atomicAdd(groups[group].listed, 1u)] = index;
-#endif
+    if (countsOnly)
+        atomicAdd(groups[group].count, 1u);
+    else
+        list[groups[group].first + atomicAdd(groups[group].listed, 1u)] = index;
 }

@@ -1,4 +1,4 @@
-// Rays of each pixel. There are VARIANTS sets of rays, each well distributed over lens and pixel. Pixels of a square of
+// Rays of each pixel. There are rayVariants sets of rays, each well distributed over lens and pixel. Pixels of a square of
 // up to 8 × 8 pixels use different sets, and each square has its own order (src/render/lens_space/ray_sets.h).
 
 struct Ray {
@@ -10,7 +10,7 @@ struct Ray {
     vec4 values;
 };
 
-layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // ray · VARIANTS + variant
+layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint firstRay;   // first ray of the wave
@@ -30,11 +30,11 @@ uint variantOf(uvec2 pixel) {
         uint y = (pixel.y >> bit) & 1u;
         order |= ((x ^ y) << 1u | y) << (2u * (2u - bit));
     }
-    return (order ^ mixedBits((pixel.x >> 3u) + mixedBits(pixel.y >> 3u))) & (VARIANTS - 1u);
+    return (order ^ mixedBits((pixel.x >> 3u) + mixedBits(pixel.y >> 3u))) & (rayVariants - 1u);
 }
 
 // Returns ray `ray` of the wave.
-Ray rayOf(uint ray, uvec2 pixel) { return rays[(firstRay + ray) * VARIANTS + variantOf(pixel)]; }
+Ray rayOf(uint ray, uvec2 pixel) { return rays[(firstRay + ray) * rayVariants + variantOf(pixel)]; }
 
 // Returns the ray's position in the image, in normalised device coordinates.
 vec2 placeOf(Ray ray, uvec2 pixel) { return 2.0 * (vec2(pixel) + 0.5 + ray.lensAndPixel.zw) / vec2(imageSize) - 1.0; }

@@ -1,9 +1,5 @@
 // Shades surfaces of one material from the attributes of their vertices.
 
-// All samples of a block use the same sample number, whose pixel share is the mean of a frame's first 64 samples.
-#define SAMPLE_NUMBER (wave.firstOfBlock + 12.5)
-#include "include/shading.glsl"
-
 struct Attributes {
     vec4 position;   // m from the camera along the world's axes
     vec4 normal;     // w: agreement
@@ -32,15 +28,22 @@ struct Surface {
 Surface surface = Surface(vec4(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), 1.0, true, vec4(0.0), vec4(0.0), vec3(0.0),
                           vec3(0.0));
 
-#define SURFACE_TEXTURE(map, slot)                                                                                 \
-    textureGrad(map, uvOf(slot, surface.uv), uvOf(slot, surface.uvRight) - uvOf(slot, surface.uv),                 \
-                uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv))
-#define SURFACE_SHOWS_FRONT surface.showsFront
+#include "include/material_textures.glsl"
+#include "include/shading.glsl"
+#include "include/surface_shading.glsl"
+
+vec4 surfaceTexel(int unit, int slot) {
+    return textureGrad(materialTextures[unit], uvOf(slot, surface.uv), uvOf(slot, surface.uvRight) - uvOf(slot, surface.uv),
+                       uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv));
+}
+
+// All samples of a block use the same sample number, whose pixel share is the mean of a frame's first 64 samples.
+float sampleNumber() { return wave.firstOfBlock + 12.5; }
+
+bool showsFront() { return surface.showsFront; }
 
 float surfaceFootprint(vec3 normal) {
     vec3 right = normalize(surface.normalRight) - normal;
     vec3 up = normalize(surface.normalUp) - normal;
     return dot(right, right) + dot(up, up);
 }
-
-#include "include/surface_shading.glsl"

@@ -5,9 +5,7 @@ layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
-#ifdef FIRST_TRIANGLES
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex
-#endif
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex; only with lightsVertices
 
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;
@@ -23,7 +21,6 @@ void main() {
     uvec3 corners = uvec3(indices[at], indices[at + 1u], indices[at + 2u]) + firstVertex;
     if (mirrored) corners.yz = corners.zy;
     triangles[firstTriangle + i] = uvec4(corners, draw);
-#ifdef FIRST_TRIANGLES
-    for (int corner = 0; corner < 3; ++corner) atomicMin(firstTriangles[corners[corner]], firstTriangle + i);
-#endif
+    if (lightsVertices)
+        for (int corner = 0; corner < 3; ++corner) atomicMin(firstTriangles[corners[corner]], firstTriangle + i);
 }

@@ -24,25 +24,24 @@ layout(std430, binding = 0) readonly buffer ClipBlock { vec4 clips[]; };
 #ifdef MOVING
 // Clip positions at the end of the current part of the exposure.
 layout(std430, binding = 1) readonly buffer ClipEndBlock { vec4 clipsAtEnd[]; };
+vec4 clipAtEnd(uint vertex) { return clipsAtEnd[vertex]; }
+#else
+vec4 clipAtEnd(uint vertex) { return clips[vertex]; }
 #endif
 layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };  // three vertices; draw
 
 // Returns a vertex at `fraction` of the current part of the exposure; positions and C are linear in time.
 vec4 clipAt(uint vertex, float fraction) {
-#ifdef MOVING
-    return mix(clips[vertex], clipsAtEnd[vertex], fraction);
-#else
-    return clips[vertex];
-#endif
+    return moving ? mix(clips[vertex], clipAtEnd(vertex), fraction) : clips[vertex];
 }
 
 // Returns q. For a plain lens, C = a + b·w, the lens costs one multiplication and one addition.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
-#ifdef COC_CONTROLS
-    precise vec2 q = clip.xy + clip.w * lens - clip.z * place;
-#else
-    precise vec2 q = clip.xy + frame.coc.x * lens + clip.z * (frame.coc.y * lens - place);
-#endif
+    precise vec2 q;
+    if (cocControls)
+        q = clip.xy + clip.w * lens - clip.z * place;
+    else
+        q = clip.xy + frame.coc.x * lens + clip.z * (frame.coc.y * lens - place);
     return q;
 }
 
@@ -53,6 +52,13 @@ vec3 edgeFunctions(vec4 a, vec4 b, vec4 c, vec2 lens, vec2 place) {
     precise vec2 qc = relativeTo(c, lens, place);
     precise vec3 e = vec3(qb.x * qc.y - qb.y * qc.x, qc.x * qa.y - qc.y * qa.x, qa.x * qb.y - qa.y * qb.x);
     return e;
+}
+
+// Returns the min depth w of a triangle's corners over time.
+float minDepthOf(uvec3 vertices) {
+    float minimum = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
+    if (moving) minimum = min(minimum, min(min(clipAtEnd(vertices.x).z, clipAtEnd(vertices.y).z), clipAtEnd(vertices.z).z));
+    return minimum;
 }
 
 // Returns the depth w of the hit; 0 for a miss or a hit in front of the near plane.

@@ -8,11 +8,11 @@ struct Piece {
 };
 
 // Double buffer: each new segment rewrites one list into the other.
-vec2 pieceEnds[2 * SEGMENTS];
-vec4 pieceDepths[2 * SEGMENTS];   // E at 0, its slope; D at 0, its slope
-uint pieceTriangles[2 * SEGMENTS];
+vec2 pieceEnds[2 * segmentCapacity];
+vec4 pieceDepths[2 * segmentCapacity];   // E at 0, its slope; D at 0, its slope
+uint pieceTriangles[2 * segmentCapacity];
 uint pieceCount = 0u;
-uint current = 0u;                // start of the current list: 0 or SEGMENTS
+uint current = 0u;                // start of the current list: 0 or segmentCapacity
 uint nextCount = 0u;
 uint nextList = 0u;
 vec2 lineSides;
@@ -38,7 +38,7 @@ void emitPiece(float first, float last, uint triangle, vec4 depth) {
     }
     float before = nextCount > 0u ? pieceEnds[nextList + nextCount - 1u].y : -lineSides.x;
     nextHasGaps = nextHasGaps || before != first;
-    if (nextCount == uint(SEGMENTS)) {
+    if (nextCount == uint(segmentCapacity)) {
         lost += lightBetween(first, last, lineSides);
         ++lostPieces;
         return;
@@ -102,7 +102,7 @@ bool changes(Interval interval, uint triangle, vec4 depth) {
 void addSegment(Interval interval, uint triangle, OnLine line) {
     vec4 depth = vec4(line.sums, line.determinant);
     if (!(interval.last > interval.first) || !changes(interval, triangle, depth)) return;
-    nextList = uint(SEGMENTS) - current;
+    nextList = uint(segmentCapacity) - current;
     nextCount = 0u;
     nextMin = 1e30;
     nextHasGaps = false;
@@ -162,9 +162,9 @@ Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
 
 // Returns an upper bound on the loop rounds of the final walk.
-uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(MOST_SHADING_POINTS)); }
+uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(maxShadingPoints)); }
 
-const uint stateSize = 2u + 4u * uint(SEGMENTS);
+const uint stateSize = 2u + 4u * uint(segmentCapacity);
 
 void saveLine(uint at) {
     ranges[at] = uvec2(pieceCount, lostPieces);

@@ -16,8 +16,8 @@ const float minLight = 1.0 / 4096.0;       // fraction of the line's light
 const float continuation = 1e-3;             // fraction of the line: max gap between a segment and its continuation
 const float sameDepth = 0.02;                // relative tolerance of the inverse depth
 
-shared vec4 segments[threads * uint(SEGMENTS)];         // p at both ends, 1/w at both ends
-shared uint segmentTriangles[threads * uint(SEGMENTS)];
+shared vec4 segments[threads * uint(segmentCapacity)];         // p at both ends, 1/w at both ends
+shared uint segmentTriangles[threads * uint(segmentCapacity)];
 uint segmentCount = 0u;
 vec2 lineSides;
 float lost = 0.0;
@@ -85,7 +85,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
         segments[slotOf(i)] = segments[slotOf(segmentCount)];
         segmentTriangles[slotOf(i)] = segmentTriangles[slotOf(segmentCount)];
     }
-    if (segmentCount == uint(SEGMENTS)) {
+    if (segmentCount == uint(segmentCapacity)) {
         uint minimum = 0u;
         float minShare = 2.0;
         for (uint i = 0u; i < segmentCount; ++i) {
@@ -160,10 +160,10 @@ Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part
 // Returns an upper bound on the loop rounds of the final walk.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
-    return parts * (4u * segmentCount + 2u + uint(MOST_SHADING_POINTS));
+    return parts * (4u * segmentCount + 2u + uint(maxShadingPoints));
 }
 
-const uint stateSize = 3u + 3u * uint(SEGMENTS);
+const uint stateSize = 3u + 3u * uint(segmentCapacity);
 
 void saveLine(uint at) {
     ranges[at] = uvec2(segmentCount, lostSegments);

@@ -4,14 +4,10 @@
 
 layout(binding = 0) uniform sampler2D known;         // from bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;
-#ifdef OWN_BLUR
-layout(binding = 2) uniform sampler2D opaqueOwnBlur;
-#endif
+layout(binding = 2) uniform sampler2D opaqueOwnBlur;   // only with usesOwnBlur
 
 layout(location = 0) out float depth;
-#ifdef OWN_BLUR
-layout(location = 1) out vec2 ownBlur;
-#endif
+layout(location = 1) out vec2 ownBlur;                 // only with usesOwnBlur
 
 vec3 nearestKnown(ivec2 pixel) {
     vec4 sum = texelFetch(known, pixel, 0);
@@ -27,7 +23,5 @@ void main() {
     float opaque = texelFetch(opaqueDepth, pixel, 0).r;
     bool hidden = opaque > ofBucket.x;
     depth = hidden ? opaque : ofBucket.x;
-#ifdef OWN_BLUR
-    ownBlur = hidden ? texelFetch(opaqueOwnBlur, pixel, 0).rg : ofBucket.yz;
-#endif
+    if (usesOwnBlur) ownBlur = hidden ? texelFetch(opaqueOwnBlur, pixel, 0).rg : ofBucket.yz;
 }

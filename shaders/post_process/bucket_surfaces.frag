@@ -2,19 +2,14 @@
 // weight.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
-#ifdef OWN_BLUR
-layout(binding = 1) uniform sampler2D surfaceOwnBlur;
-#endif
+layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // only with usesOwnBlur
 
 layout(location = 0) out vec4 known;   // depth, blur factor, added blur, 1; 0 without a surface
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(surfaceDepth, pixel, 0).r;
-#ifdef OWN_BLUR
-    vec2 own = texelFetch(surfaceOwnBlur, pixel, 0).rg;
-#else
-    const vec2 own = vec2(1.0, 0.0);
-#endif
+    vec2 own = vec2(1.0, 0.0);
+    if (usesOwnBlur) own = texelFetch(surfaceOwnBlur, pixel, 0).rg;
     known = depth > 0.0 ? vec4(depth, own, 1.0) : vec4(0.0);
 }

@@ -3,33 +3,27 @@
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
-
-#ifdef ENCODED
 #include "include/tone_map.glsl"
-#endif
 
 layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float perLargest;   // 1 / max diameter, px
-#ifndef THIN_LENS
 layout(location = 1) uniform vec4 planes;        // focus (m), 1/(focus − near), 1/(far − focus), cutoff behind
-#endif
 
 layout(location = 0) out vec4 colorAndBlurriness;
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-#ifdef THIN_LENS
-    float blurriness = pinholeCircleOfConfusion(pixel) * perLargest;
-#else
+// Returns the blurriness by planes, linear in depth, as published.
+float blurrinessByPlanes(ivec2 pixel) {
     float depth = texelFetch(pinholeDepth, pixel, 0).r;
     // Infinite depth counts as the farthest distance behind the focus.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
-    if (frame.coc.x == 0.0) blurriness = 0.0;    // pinhole
-#endif
+    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // 0: pinhole
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float blurriness = thinLens ? pinholeCircleOfConfusion(pixel) * perLargest : blurrinessByPlanes(pixel);
     vec3 color = texelFetch(pinholeColor, pixel, 0).rgb;
-#ifdef ENCODED
-    color = srgbEncoded(color);
-#endif
+    if (encodedColor) color = srgbEncoded(color);
     colorAndBlurriness = vec4(color, clamp(blurriness, -1.0, 1.0) * 0.5 + 0.5);
 }

@@ -1,11 +1,10 @@
-// Gathers TAPS taps of a Poisson disk, or of the aperture's shape, scaled to the blur at the centre pixel.
-#ifdef ENCODED
+// Gathers diskTaps taps of a Poisson disk, or of the aperture's shape, scaled to the blur at the centre pixel.
 #include "include/tone_map.glsl"
-#endif
+
 layout(binding = 0) uniform sampler2D sharpImage;   // rgb; alpha: blurriness and relative depth, 1/2 in focus
 layout(binding = 1) uniform sampler2D smallImage;   // reduced and pre-blurred version of sharpImage
 layout(std140, binding = 1) uniform TapBlock {
-    vec4 taps[MOST_TAPS];                           // xy in the unit disk
+    vec4 taps[maxDiskTaps];                           // xy in the unit disk
 };
 layout(location = 0) uniform float largestRadius;   // px
 layout(location = 1) uniform bool shaped;           // taps follow the aperture's shape instead of a disk
@@ -14,17 +13,17 @@ layout(location = 0) out vec4 blurred;
 
 void main() {
     vec2 perPixel = 1.0 / vec2(textureSize(sharpImage, 0));
-    vec2 perPixelSmall = 1.0 / (SMALL_PIXEL * vec2(textureSize(smallImage, 0)));   // one pixel of the sharp image
+    vec2 perPixelSmall = 1.0 / (smallPixel * vec2(textureSize(smallImage, 0)));   // one pixel of the sharp image
     float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
     float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;
     // Behind the focus the aperture appears upright, in front of it rotated by 180°. Gathering looks in the opposite
     // direction.
     if (shaped && centreDepth > 0.5) radius = -radius;
-    float smallRadius = radius * SMALL_RADIUS * SMALL_PIXEL;
+    float smallRadius = radius * smallRadiusScale * smallPixel;
 
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (int i = 0; i < TAPS; ++i) {
+    for (int i = 0; i < diskTaps; ++i) {
         vec4 sharpTap = textureLod(sharpImage, (gl_FragCoord.xy + taps[i].xy * radius) * perPixel, 0.0);
         vec4 smallTap = textureLod(smallImage, (gl_FragCoord.xy + taps[i].xy * smallRadius) * perPixelSmall, 0.0);
         vec4 tap = mix(sharpTap, smallTap, abs(sharpTap.a * 2.0 - 1.0));
@@ -34,8 +33,5 @@ void main() {
         weights += weight;
     }
     vec3 color = weights > 0.0 ? sum / weights : texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).rgb;
-#ifdef ENCODED
-    color = srgbDecoded(color);
-#endif
-    blurred = vec4(color, 1.0);
+    blurred = vec4(encodedColor ? srgbDecoded(color) : color, 1.0);
 }

@@ -2,47 +2,26 @@
 // texels, different ones in each lens sample (Enderton et al. 2010, Stochastic Transparency).
 
 #include "include/frame.glsl"
+#include "include/surface_fragment.glsl"
+#include "include/material_textures.glsl"
 
-in Surface {
-#include "include/surface_varyings.glsl"
-} surface;
-flat in float ditherOffset;
+vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv)); }
 
-#ifdef BASE_COLOR_TEXTURE
-layout(binding = 0) uniform sampler2D baseColorTexture;
-#endif
-
-#if defined(ALPHA_BLEND) || defined(LETS_LIGHT_PASS)
 // Returns a threshold that is evenly distributed over the texels, and over the samples in each texel (Roberts 2018).
-// SCREEN_DOOR in accumulation/object.frag uses the same pattern.
+// drawsCoarser() in surface_light.glsl uses the same pattern.
 float threshold() {
     uvec2 texel = uvec2(gl_FragCoord.xy);
     uint place = texel.x * 3242174889u + texel.y * 2447445414u + uint(object.values.z) * 2654435769u;
-    return fract(float(place >> 8) / 16777216.0 + ditherOffset);
+    return fract(float(place >> 8) / 16777216.0 + surface.ditherOffset);
 }
-#endif
 
 void main() {
-#if defined(ALPHA_MASK) || defined(ALPHA_BLEND) || defined(LETS_LIGHT_PASS)
-    vec4 color = surface.color;
-#ifdef BASE_COLOR_TEXTURE
-    vec4 rowU = material.uvRows[0];
-    vec4 rowV = material.uvRows[1];
-    vec2 uv = rowU.w == 0.0 ? surface.uv.xy : surface.uv.zw;
-    color *= texture(baseColorTexture, vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0))));
-#endif
-#ifdef ALPHA_MASK
-    if (color.a < material.emissiveCutoff.w) discard;
-#endif
+    readSurface();
+    vec4 color = texturedColor(surface.color);
+    if (alphaTested && color.a < material.emissiveCutoff.w) discard;
     float hidden = 1.0;
-#ifdef LETS_LIGHT_PASS
-    hidden -= material.transmission.x * (1.0 - material.surface.x) * dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
-#endif
-#ifdef ALPHA_BLEND
-    hidden *= color.a;
-#endif
-#if defined(ALPHA_BLEND) || defined(LETS_LIGHT_PASS)
-    if (hidden <= threshold()) discard;
-#endif
-#endif
+    if (letsLightPass)
+        hidden -= material.transmission.x * (1.0 - material.surface.x) * dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
+    if (alphaBlended) hidden *= color.a;
+    if ((alphaBlended || letsLightPass) && hidden <= threshold()) discard;
 }

@@ -7,26 +7,22 @@
 #include "lens_space/rays.glsl"
 #include "lens_space/records.glsl"
 
-layout(local_size_x = TILE, local_size_y = TILE) in;
+layout(local_size_x = tileSize, local_size_y = tileSize) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 // Ends of the tiles' triangle lists in the entries.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 // Lens bounds of each ray over the variants: min (u, k·v), max (u, k·v).
-layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };
+layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;   // first tile that the entries cover
 // Part of each tile's list that is tested in this dispatch. Mesa's software driver ends the loops of a thread after a
 // total of 65,535 rounds. Long lists take several dispatches; each continues where the last one ended.
 layout(location = 3) uniform uvec2 part;
 
-const uint threads = uint(TILE * TILE);
-#ifdef MOVING
-const uint stride = 6u;
-#else
-const uint stride = 3u;
-#endif
+const uint threads = uint(tileSize * tileSize);
+const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangle, double-sided
 shared uint keptCount;
@@ -52,27 +48,18 @@ bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileMin, vec2 tileMax) {
     return all(lessThanEqual(minimum, tileMax)) && all(greaterThanEqual(maximum, tileMin));
 }
 
-float minDepth(uint triangle) {
-    uvec4 vertices = triangles[triangle];
-    float minimum = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
-#ifdef MOVING
-    minimum = min(minimum, min(min(clipsAtEnd[vertices.x].z, clipsAtEnd[vertices.y].z), clipsAtEnd[vertices.z].z));
-#endif
-    return minimum;
-}
-
 void main() {
     uint tile = firstTile + gl_WorkGroupID.x;
     uint ray = gl_WorkGroupID.y;
-    uint across = uint(imageSize.x + TILE - 1) / uint(TILE);
-    uvec2 corner = uvec2(tile % across, tile / across) * uint(TILE);
+    uint across = uint(imageSize.x + tileSize - 1) / uint(tileSize);
+    uvec2 corner = uvec2(tile % across, tile / across) * uint(tileSize);
     uvec2 pixel = corner + gl_LocalInvocationID.xy;
     Ray mine = rayOf(ray, pixel);
     vec2 place = placeOf(mine, pixel);
     vec2 lens = mine.lensAndPixel.xy;
     vec2 margin = vec2(2e-3) / vec2(imageSize);   // 0.001 px
     vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
-    vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
+    vec2 tileMax = 2.0 * vec2(corner + uint(tileSize)) / vec2(imageSize) - 1.0 + margin;
 
     uint end = tileEnds[tile];
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
@@ -94,7 +81,7 @@ void main() {
         }
         barrier();
         // The list is ordered front to back.
-        if (inside && nearest * (1.0 + 1e-5) >= minDepth(entries[base])) atomicOr(open, 1u);
+        if (inside && nearest * (1.0 + 1e-5) >= minDepthOf(triangles[entries[base]].xyz)) atomicOr(open, 1u);
         barrier();
         if (open == 0u) break;
         uint at = base + gl_LocalInvocationIndex;
@@ -104,9 +91,8 @@ void main() {
             Draw draw = draws[vertices.w];
             vec4 corners[stride];
             for (int i = 0; i < 3; ++i) corners[i] = clips[vertices[i]];
-#ifdef MOVING
-            for (int i = 0; i < 3; ++i) corners[i + 3] = clipsAtEnd[vertices[i]];
-#endif
+            if (moving)
+                for (uint i = 3u; i < stride; ++i) corners[i] = clipAtEnd(vertices[i - 3u]);
             if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
                 mayCover(corners, lensBounds[ray], tileMin, tileMax)) {
                 uint slot = atomicAdd(keptCount, 1u);
@@ -117,15 +103,10 @@ void main() {
         barrier();
         for (uint i = 0u; i < keptCount; ++i) {
             uint slot = i * stride;
-#ifdef MOVING
-            float time = mine.values.x;
-            vec4 a = mix(keptCorners[slot], keptCorners[slot + 3u], time);
-            vec4 b = mix(keptCorners[slot + 1u], keptCorners[slot + 4u], time);
-            vec4 c = mix(keptCorners[slot + 2u], keptCorners[slot + 5u], time);
-            float w = depthMet(a, b, c, kept[i].y != 0u, lens, place);
-#else
-            float w = depthMet(keptCorners[slot], keptCorners[slot + 1u], keptCorners[slot + 2u], kept[i].y != 0u, lens, place);
-#endif
+            vec4 corners[3] = vec4[3](keptCorners[slot], keptCorners[slot + 1u], keptCorners[slot + 2u]);
+            if (moving)
+                for (uint k = 0u; k < 3u; ++k) corners[k] = mix(corners[k], keptCorners[slot + k + 3u], mine.values.x);
+            float w = depthMet(corners[0], corners[1], corners[2], kept[i].y != 0u, lens, place);
             // At equal depth, the triangle that is first in the frame's order wins, whatever the order in the list.
             if (w > 0.0 && (w < nearest || (w == nearest && kept[i].x < triangle))) {
                 nearest = w;

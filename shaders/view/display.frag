@@ -43,11 +43,10 @@ vec3 encodedAt(sampler2D image, vec2 uv) {
 // Unused features are excluded at compile time, because drivers that draw on the CPU execute both sides of each branch.
 vec3 shown(vec2 uv) {
     vec3 first = encodedAt(firstImage, uv);
-#ifdef COMPARES
+    if (!compares) return first;
     vec3 second = encodedAt(secondImage, uv);
-    if (uv.x >= divider) return (choices.z & FLAG_DIFFERENCE) == 0 ? second : min(size.w * abs(first - second), 1.0);
-#endif
-    return first;
+    if (uv.x < divider) return first;
+    return (choices.z & FLAG_DIFFERENCE) == 0 ? second : min(size.w * abs(first - second), 1.0);
 }
 
 // Returns orange in front of the focus plane and blue behind it, darker where the image is sharper.
@@ -59,7 +58,7 @@ vec3 cocColour(float coc, float grey) {
 }
 
 vec3 withOverlay(vec3 colour, vec2 uv) {
-#ifdef OVERLAY
+    if (!overlays) return colour;
     float grey = dot(colour, luma);
     if (choices.y == OVERLAY_COC) return cocColour(cocAt(uv), grey);
     if (choices.y == OVERLAY_LEVEL) {
@@ -71,7 +70,6 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
         float work = log2(1.0 + texture(workImage, uv).r * workScale.x) * workScale.y;
         return srgbEncoded(texture(mapColours, vec2(work, 0.5)).rgb);
     }
-#endif
     return colour;
 }
 
@@ -87,23 +85,19 @@ float peaking(vec2 uv) {
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
-#ifdef COMPARES
-    if (uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read without filtering
+    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read without filtering
         display = vec4(colour, 1.0);
         return;
     }
-#endif
     colour = withOverlay(colour, uv);
-#ifdef MARKS
-    if ((choices.z & FLAG_FOCUS_PLANE) != 0) {
+    if (marks && (choices.z & FLAG_FOCUS_PLANE) != 0) {
         float inFocus = 1.0 - smoothstep(0.5, 1.5, abs(cocAt(uv)));
         colour = mix(colour, vec3(0.15, 0.95, 0.60), 0.50 * inFocus);
     }
-    if ((choices.z & FLAG_PEAKING) != 0) colour = mix(colour, vec3(1.0, 0.25, 0.15), peaking(uv));
-    if ((choices.z & FLAG_WIREFRAME) != 0) {
+    if (marks && (choices.z & FLAG_PEAKING) != 0) colour = mix(colour, vec3(1.0, 0.25, 0.15), peaking(uv));
+    if (marks && (choices.z & FLAG_WIREFRAME) != 0) {
         vec4 wire = texture(wireImage, uv);
         colour = colour * (1.0 - 0.85 * wire.a) + 0.85 * wire.rgb * wire.a;
     }
-#endif
     display = vec4(colour, 1.0);
 }

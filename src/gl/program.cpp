@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "gl/shader_constants.h"
 #include "gl/shader_source.h"
 
 namespace defocus::engine {
@@ -62,7 +63,16 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Joins the lines of a log with " | ", since Error messages are one line.
+// Returns the directives before all declarations. They let a vertex shader write gl_Layer.
+std::string directivesOf(const Stage& stage) {
+    std::string text = "#version 450 core\n";
+    if (stage.type == GL_VERTEX_SHADER)
+        text +=
+            "#extension GL_ARB_shader_viewport_layer_array : enable\n#extension GL_AMD_vertex_shader_layer : enable\n";
+    return text;
+}
+
+// Joins the lines of a log, since an Error is one line.
 std::string oneLine(std::string log) {
     while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
     for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");
@@ -92,9 +102,8 @@ GLuint compiled(const std::string& path, const ProgramInfo& info) {
 std::string shaderText(const std::string& path, const ShaderDefines& defines,
                        const std::filesystem::path& overrideFolder) {
     std::set<std::string> including;
-    std::string text = "#version 450 core\n";
-    for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
-    return text + "#line 1\n" + expanded(path, overrideFolder, including);
+    const std::string source = expanded(path, overrideFolder, including);
+    return directivesOf(stageOf(path)) + shaderPreamble(defines, source) + "#line 1\n" + source;
 }
 
 Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {

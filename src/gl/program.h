@@ -13,6 +13,8 @@
 
 namespace defocus::engine {
 
+// Names and values. A name in capitals becomes a macro. Any other name sets a constant of shader_constants.cpp, which
+// all shaders have.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {
@@ -35,7 +37,7 @@ private:
     GlHandle<destroyProgram> handle_;
 };
 
-// Returns the complete source that the driver gets: version, defines and the shader with includes expanded.
+// Returns a shader's source with its preamble and with includes expanded, for tests and messages.
 std::string shaderText(const std::string& path, const ShaderDefines& defines,
                        const std::filesystem::path& overrideFolder);
 

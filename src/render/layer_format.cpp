@@ -35,7 +35,7 @@ LayerFormat chosenLayerFormat(const World& world, LayerFormat asked) {
 }
 
 ShaderDefines layerFormatDefines(LayerFormat format) {
-    if (format == LayerFormat::rgba16f) return {{"LAYER_LARGEST", "65504.0"}};
+    if (format == LayerFormat::rgba16f) return {{"layerLargest", "65504.0"}};
     return {};
 }
 

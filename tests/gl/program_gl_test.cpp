@@ -38,6 +38,30 @@ TEST_F(GlProgram, definesReachTheShader) {
     EXPECT_EQ(image.at(1, 1)[1], 8);
 }
 
+TEST_F(GlProgram, constantsHaveTheValueOfTheProgramOrTheirDefault) {
+    writeShader("constants.frag",
+                "#ifdef LIT\nconst float passed = 1.0;\n#else\nconst float passed = 0.0;\n#endif\nout vec4 value;\n"
+                "void main() { value = vec4(lit ? 1.0 : 0.0, passed, lightCount, 1); }\n");
+    const Image standard = computed(program({fullscreenShader, "constants.frag"}), 1, 1);
+    EXPECT_EQ(standard.at(0, 0)[0], 0);
+    EXPECT_EQ(standard.at(0, 0)[1], 0);
+    EXPECT_EQ(standard.at(0, 0)[2], 0);
+    const Image set =
+        computed(program({fullscreenShader, "constants.frag"}, {{"lightCount", "3"}, {"lit", "true"}}), 1, 1);
+    EXPECT_EQ(set.at(0, 0)[0], 1);
+    EXPECT_EQ(set.at(0, 0)[1], 1);
+    EXPECT_EQ(set.at(0, 0)[2], 3);
+}
+
+TEST_F(GlProgram, unknownConstantsAreErrors) {
+    try {
+        const Program built = program({fullscreenShader, "add.frag"}, {{"lightCounts", "3"}});
+        FAIL() << "the constant 'lightCounts' was accepted";
+    } catch (const Error& error) {
+        EXPECT_TRUE(says(error.what(), "there is no constant 'lightCounts'")) << error.what();
+    }
+}
+
 TEST_F(GlProgram, includesStandWhereTheyAreNamedEachTime) {
     writeShader("parts/one.glsl", "sum += 1.0;\n");
     writeShader("included.frag",

@@ -88,7 +88,7 @@ def test_eight_bits_are_encoded_and_exposed(tmp_path):
     defocus.write_image(tmp_path / "a.png", grey, tone_map="none", exposure=1)
     read = defocus.read_image(tmp_path / "a.png")
     assert numpy.allclose(read, 0.5, atol=0.005)
-    with pytest.raises(defocus.UsageError, match="tone_map: 'acse' is not one of none, aces, agx, neutral; did you mean"):
+    with pytest.raises(defocus.UsageError, match="tone_map: 'acse' is not one of none, aces, agx, neutral; did you mean 'aces'"):
         defocus.write_image(tmp_path / "b.png", grey, tone_map="acse")
     assert not (tmp_path / "b.png").exists()
 

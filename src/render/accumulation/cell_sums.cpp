@@ -44,10 +44,9 @@ glm::ivec2 meansOrigin(const glm::ivec2& squares, int k) {
 }  // namespace
 
 CellPasses::CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder)
-    : defines({{"LENS_CELLS", "1"},
-               {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
-               {"CELLS_BEHIND", std::to_string(cells.behind)},
-               {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", minCellVariance)}}) {
+    : defines({{"cellsInFront", std::to_string(cells.inFront)},
+               {"cellsBehind", std::to_string(cells.behind)},
+               {"minCellVariance", fmt::format("{:.4f}", minCellVariance)}}) {
     const auto pass = [&](const char* fragment, const ShaderDefines& own) {
         return Program({{fullscreenShader, fragment}, own, shaderFolder});
     };
@@ -57,7 +56,7 @@ CellPasses::CellPasses(const LensCells& cells, const std::filesystem::path& shad
     spread = pass("accumulation/spread_classes.frag", defines);
     average = means(defines);
     ShaderDefines nearest = defines;
-    nearest.emplace_back("NEAREST", "1");
+    nearest.emplace_back("nearestClass", "true");
     if (cells.inFront > 0) averageNearest = means(nearest);
     blur = pass("accumulation/blur_cells.frag", defines);
 }

@@ -76,11 +76,12 @@ void LayerSum::beginWave() {
 void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
     ShaderDefines defines = frame.defines();
     for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
-    if (samples_ % blockSamples == 0) defines.emplace_back("STARTS_BLOCK", "1");
+    if (samples_ % blockSamples == 0) defines.emplace_back("startsBlock", "true");
     if (blursCells_) defines.insert(defines.end(), cells_->defines().begin(), cells_->defines().end());
     const auto [entry, isNew] = addLayers_.try_emplace(defines);
     Program& addLayers = entry->second;
-    if (isNew) addLayers = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
+    const char* fragment = blursCells_ ? "accumulation/add_layers_to_cells.frag" : "accumulation/add_layers.frag";
+    if (isNew) addLayers = Program({{fullscreenShader, fragment}, defines, info_.shaderFolder});
     glDisable(GL_SCISSOR_TEST);
     const int next = 1 - block_.current;
     if (!blursCells_) block_.target[next].bind();

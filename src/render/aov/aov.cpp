@@ -18,8 +18,9 @@ AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
       scene_(world),
       surfaces_(scene_, {.fragmentShader = "aov/aov.frag",
-                         .defines = {{"READS_OWN_BLUR", "1"}},
+                         .defines = {},
                          .look = SurfaceLook::flat,
+                         .readsOwnBlur = true,
                          .shaderFolder = shaderFolder_}),
       edges_(scene_, {.fragmentShader = "aov/wireframe.frag",
                       .defines = {},
@@ -74,7 +75,8 @@ void AovPass::drawWireframe() {
     constexpr float nothing[4] = {};
     glClearNamedFramebufferfv(wireTarget_.name(), GL_COLOR, 0, nothing);
     edges_.prepare(pinhole_, frame_);
-    levelColours_.attach(6);
+    constexpr GLuint coloursUnit = 26;  // as in shaders/aov/wireframe.frag
+    levelColours_.attach(coloursUnit);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);
     glPolygonOffset(1, 8);  // depth is reversed: positive offsets are towards the camera

@@ -143,11 +143,11 @@ private:
         defines_ = frame.defines();
         const auto pass = [&](const char* shader) {
             ShaderDefines defines = frame.defines();
-            defines.emplace_back("REDUCTION", std::to_string(options_.reduction));
-            defines.emplace_back("TILE", std::to_string(tileSize));
-            if (options_.combined) defines.emplace_back("COMBINED", "1");
-            if (options_.nearPremultiplied && !options_.combined) defines.emplace_back("NEAR_PREMULTIPLIED", "1");
-            if (options_.biasByLuminance) defines.emplace_back("BIAS_BY_LUMINANCE", "1");
+            defines.emplace_back("reduction", std::to_string(options_.reduction));
+            defines.emplace_back("tileSize", std::to_string(tileSize));
+            if (options_.combined) defines.emplace_back("combinedFields", "true");
+            if (options_.nearPremultiplied && !options_.combined) defines.emplace_back("nearPremultiplied", "true");
+            if (options_.biasByLuminance) defines.emplace_back("biasByLuminance", "true");
             return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
         };
         split_ = pass("circular/split.frag");

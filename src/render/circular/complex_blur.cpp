@@ -55,14 +55,13 @@ int componentsAtOnce(ComplexStorage storage) {
 }
 
 ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
-    return {{"KERNEL_SIZE", std::to_string(info.components)},
-            {"COMPONENTS", std::to_string(components)},
-            {"AXES", fmt::format("vec2({:.9f}, {:.9f})", info.across, info.upwards)},
-            {"OVAL", info.across != info.upwards ? "1" : "0"},
-            {"BRACKETED", info.storage == ComplexStorage::rgb10A2 ? "1" : "0"},
-            {"LARGEST", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
-            {"TAPS_EXACT", info.taps == ComplexTaps::exact ? "1" : "0"},
-            {"TAPS_SETS", info.taps == ComplexTaps::sets ? "1" : "0"}};
+    return {{"kernelSize", std::to_string(info.components)},
+            {"components", std::to_string(components)},
+            {"kernelAxes", fmt::format("vec2({:.9f}, {:.9f})", info.across, info.upwards)},
+            {"bracketed", info.storage == ComplexStorage::rgb10A2 ? "true" : "false"},
+            {"largestSum", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
+            {"exactTaps", info.taps == ComplexTaps::exact ? "true" : "false"},
+            {"tapSets", info.taps == ComplexTaps::sets ? "true" : "false"}};
 }
 
 std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {
@@ -140,8 +139,8 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     const auto pass = [&](const ShaderDefines& defines) {
         return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
     };
-    reduce_ = pass({{"TILE", std::to_string(reduction)}});
-    reduceColor_ = pass({{"TILE", std::to_string(reduction)}, {"LARGEST_CHANNEL", "1"}});
+    reduce_ = pass({{"tileSize", std::to_string(reduction)}});
+    reduceColor_ = pass({{"tileSize", std::to_string(reduction)}, {"ofChannels", "true"}});
     int width = info_.width;
     int height = info_.height;
     do {

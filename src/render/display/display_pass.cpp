@@ -32,9 +32,9 @@ DisplayPass::DisplayPass(std::filesystem::path shaderFolder)
 const Program& DisplayPass::programFor(const DisplayInputs& inputs, const DisplaySettings& settings) {
     const bool marks = settings.focusPeaking || settings.focusPlane || settings.wireframe;
     ShaderDefines defines;
-    if (inputs.second != nullptr) defines.emplace_back("COMPARES", "1");
-    if (settings.overlay != DisplayOverlay::none) defines.emplace_back("OVERLAY", "1");
-    if (marks) defines.emplace_back("MARKS", "1");
+    if (inputs.second != nullptr) defines.emplace_back("compares", "true");
+    if (settings.overlay != DisplayOverlay::none) defines.emplace_back("overlays", "true");
+    if (marks) defines.emplace_back("marks", "true");
     std::string key;
     for (const auto& [name, value] : defines) key += name + ' ';
     const auto [entry, isNew] = programs_.try_emplace(key);

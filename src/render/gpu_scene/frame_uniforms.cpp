@@ -140,21 +140,27 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     const int levels = type == EnvironmentType::map
                            ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1
                            : 0;
-    defines_ = {{"BLOCK_SAMPLES", std::to_string(blockSamples)},
-                {"ENVIRONMENT", std::to_string(environmentNumber(type))},
-                {"BACKGROUND", std::to_string(plan.needsAlpha ? 0 : environmentNumber(type))},
-                {"ENVIRONMENT_LEVELS", fmt::format("{:.1f}", static_cast<double>(levels))},
-                {"ENVIRONMENT_LIGHTING", fmt::format("{:.6f}", world.environment.lighting)},
-                {"LIGHT_COUNT", std::to_string(world.lights.size())}};
+    defines_ = {{"blockSamples", std::to_string(blockSamples)},
+                {"environmentType", std::to_string(environmentNumber(type))},
+                {"backgroundType", std::to_string(plan.needsAlpha ? 0 : environmentNumber(type))},
+                {"environmentLevels", fmt::format("{:.1f}", static_cast<double>(levels))},
+                {"environmentLighting", fmt::format("{:.6f}", world.environment.lighting)},
+                {"lightCount", std::to_string(world.lights.size())}};
     const bool knownMap = type == EnvironmentType::map && environmentMap_;
     if (type == EnvironmentType::map && !knownMap) environmentMap_ = environmentTexture(*world.environment.map);
     if (!knownMap) irradiance_ = diffuseCoefficients(world.environment);
-    if (plan.usesOwnBlur) defines_.emplace_back("OWN_BLUR", "1");
-    if (plan.coc.chromatic > 0) defines_.emplace_back("CHROMATIC", "1");
+    if (type == EnvironmentType::map) defines_.emplace_back("ENVIRONMENT_MAP", "");
+    usesOwnBlur_ = plan.usesOwnBlur;
     countsInAlpha_ = barrelCuts(plan);
-    if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
-    if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
-    if (plan.usesCocControls && plan.coc.aberrates()) defines_.emplace_back("ABERRATIONS", "1");
+    const auto set = [&](bool condition, const char* name) {
+        if (condition) defines_.emplace_back(name, "true");
+    };
+    set(plan.usesOwnBlur, "usesOwnBlur");
+    set(plan.coc.chromatic > 0, "chromatic");
+    set(plan.usesCocControls, "cocControls");
+    set(plan.usesCocControls && plan.coc.aberrates(), "aberrations");
+    if (countsInAlpha_) defines_.emplace_back("catEye", fmt::format("{:.6f}", plan.view.lens.catEye));
+    if (countsInAlpha_ || plan.coc.chromatic > 0) defines_.emplace_back("WEIGHS_SAMPLES", "");
     layerCount_ = layerCount;
     uploadLighting(world);
     uploadSamples(plan, layerCount);
@@ -186,7 +192,7 @@ void FrameUniforms::uploadLighting(const World& world) {
     block.irradiance = irradiance_;
     for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i]);
     const bool constant = staysLitAlike(world) && isFinite(block);
-    defines_.emplace_back("MAX_LIGHTS",
+    defines_.emplace_back("maxLights",
                           std::to_string(constant ? std::max<std::size_t>(world.lights.size(), 1) : maxLights));
     if (constant) defines_.emplace_back("LIGHTING_VALUES", lightingText(block, world.lights.size()));
     lightingBlock_ = constant ? Buffer() : Buffer(sizeof block, &block);

@@ -42,7 +42,9 @@ public:
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // samples per wave K
+    // Whether surfaces have blur modifiers.
+    [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -61,8 +63,9 @@ private:
     Buffer waves_;         // per wave: index of its first sample, and of the first sample of its block
     Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock in shaders/accumulation/add_layers.frag
+    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl
     bool countsInAlpha_ = false;
+    bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;
 };

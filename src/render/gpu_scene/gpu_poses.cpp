@@ -56,16 +56,16 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
 
 void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& mesh) {
     if (!poses.texels) return;
-    defines.emplace_back("POSED", "1");
-    if (poses.moving) defines.emplace_back("MOVING", "1");
-    if (poses.cameraMoves) defines.emplace_back("CAMERA_MOVES", "1");
+    defines.emplace_back("POSED", "");
+    if (poses.moving) defines.emplace_back("moving", "true");
+    if (poses.cameraMoves) defines.emplace_back("cameraMoves", "true");
     if (poses.skinned && mesh.deformation.joints)
-        defines.emplace_back("SKIN_INFLUENCES", mesh.deformation.joints1 ? "8" : "4");
+        defines.emplace_back("skinInfluences", mesh.deformation.joints1 ? "8" : "4");
     if (poses.layout.z == 0) return;
-    defines.emplace_back("MORPHED", "1");
-    defines.emplace_back("MORPH_ATTRIBUTES", std::to_string(mesh.deformation.attributesPerTarget()));
-    if (mesh.deformation.morphNormals) defines.emplace_back("MORPH_NORMALS", "1");
-    if (mesh.deformation.morphTangents) defines.emplace_back("MORPH_TANGENTS", "1");
+    defines.emplace_back("morphed", "true");
+    defines.emplace_back("morphAttributes", std::to_string(mesh.deformation.attributesPerTarget()));
+    if (mesh.deformation.morphNormals) defines.emplace_back("morphNormals", "true");
+    if (mesh.deformation.morphTangents) defines.emplace_back("morphTangents", "true");
 }
 
 }  // namespace defocus::engine

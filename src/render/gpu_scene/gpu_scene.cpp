@@ -290,10 +290,14 @@ void GpuScene::prepareMaterial(int index) {
     }
 }
 
-// Texture units 5, 6 and 7 belong to the environment map and the poses.
+int GpuMaterialTextures::unit(std::size_t slot) const {
+    return static_cast<int>(slot - static_cast<std::size_t>(std::count(slots, slots + slot, nullptr)));
+}
+
 void GpuMaterialTextures::attach() const {
-    for (GLuint i = 0; i < materialTextureCount; ++i)
-        if (slots[i] != nullptr) slots[i]->attach(i < 5 ? i : i + 3);
+    constexpr GLuint firstUnit = 8;  // as in shaders/include/material_textures.glsl
+    for (std::size_t i = 0; i < materialTextureCount; ++i)
+        if (slots[i] != nullptr) slots[i]->attach(firstUnit + static_cast<GLuint>(unit(i)));
 }
 
 void bindLevel(GpuMesh& mesh, std::size_t level) {

@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Vertex attribute locations in shaders/accumulation/object.vert.
+// Vertex attribute locations of shaders/include/vertex.glsl and surface_vertex.glsl.
 enum AttributeLocation : unsigned {
     positionLocation,
     normalLocation,
@@ -77,7 +77,10 @@ void bindLevel(GpuMesh& mesh, std::size_t level);
 // Textures of a material in the order of textureUses(); null if unused.
 struct GpuMaterialTextures {
     const GlTexture* slots[materialTextureCount] = {};
-    // Binds the textures to the units used in shaders/include/surface_shading.glsl.
+    // Returns the index of a slot's texture among the material's textures.
+    [[nodiscard]] int unit(std::size_t slot) const;
+    [[nodiscard]] int count() const { return unit(materialTextureCount); }
+    // Binds the textures to the units that shaders/include/material_textures.glsl reads.
     void attach() const;
 };
 

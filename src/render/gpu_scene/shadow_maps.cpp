@@ -8,10 +8,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 18;  // texture unit of the maps in shaders/include/shadows.glsl
-constexpr GLuint projectionsUnit = 19;
+constexpr GLuint mapsUnit = 23;  // as in shaders/include/shadows.glsl
+constexpr GLuint projectionsUnit = 24;
 constexpr GLint firstSampleLocation = 2;
-constexpr GLint slotLocation = 3;  // uniform location in shaders/accumulation/object.vert
+constexpr GLint slotLocation = 3;  // as in shaders/shadows/caster.vert
 
 std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
@@ -27,13 +27,13 @@ ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
         if (first[place] < 0) first[place] = static_cast<int>(i);
         ++faces[place];
     }
-    return {{"SHADOWS", "1"},
-            {"SHADOW_MAPS", std::to_string(plan.shadows.maps.size())},
-            {"SHADOW_POINTS", std::to_string(plan.shadows.points)},
-            {"SHADOW_SIZE", std::to_string(plan.shadows.size)},
-            {"SHADOW_ERROR", fmt::format("{:.8e}", plan.shadows.casterError)},
-            {"SHADOW_FIRST", fmt::format("int[]({})", fmt::join(first, ","))},
-            {"SHADOW_FACES", fmt::format("int[]({})", fmt::join(faces, ","))}};
+    return {{"shadowed", "true"},
+            {"shadowMapCount", std::to_string(plan.shadows.maps.size())},
+            {"shadowPoints", std::to_string(plan.shadows.points)},
+            {"shadowSize", std::to_string(plan.shadows.size)},
+            {"shadowError", fmt::format("{:.8e}", plan.shadows.casterError)},
+            {"shadowFirst", fmt::format("int[]({})", fmt::join(first, ","))},
+            {"shadowFaces", fmt::format("int[]({})", fmt::join(faces, ","))}};
 }
 
 std::vector<float> texelsOf(const std::vector<ShadowProjection>& projections) {

@@ -1,6 +1,10 @@
 #include "render/gpu_scene/surface_draws.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -69,27 +73,13 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int materialIndex, std::uint32_t level,
                              SurfaceLook look) {
-    static constexpr const char* textureDefines[materialTextureCount] = {"BASE_COLOR_TEXTURE",
-                                                                         "METALLIC_ROUGHNESS_TEXTURE",
-                                                                         "NORMAL_TEXTURE",
-                                                                         "OCCLUSION_TEXTURE",
-                                                                         "EMISSIVE_TEXTURE",
-                                                                         "SPECULAR_TEXTURE",
-                                                                         "SPECULAR_COLOR_TEXTURE",
-                                                                         "TRANSMISSION_TEXTURE",
-                                                                         "THICKNESS_TEXTURE",
-                                                                         "CLEARCOAT_TEXTURE",
-                                                                         "CLEARCOAT_ROUGHNESS_TEXTURE",
-                                                                         "CLEARCOAT_NORMAL_TEXTURE",
-                                                                         "SHEEN_COLOR_TEXTURE",
-                                                                         "SHEEN_ROUGHNESS_TEXTURE"};
     constexpr std::size_t normalSlots[] = {2, 11};
     constexpr std::size_t transmissionSlots[] = {7, 8};
     const bool shaded = look == SurfaceLook::lit || look == SurfaceLook::seenThrough;
     const Material& material = scene.material(materialIndex);
     ShaderDefines defines;
     const auto set = [&](bool condition, const char* name) {
-        if (condition) defines.emplace_back(name, "1");
+        if (condition) defines.emplace_back(name, "true");
     };
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
     const GpuMaterialTextures& textures = scene.textures(materialIndex);
@@ -97,6 +87,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     const bool masked = material.alphaMode == AlphaMode::mask || passes;
     const bool transmits = look == SurfaceLook::seenThrough && material.transmits();
     const auto uses = textureUses(material);
+    std::array<int, materialTextureCount> units{};
     bool textured = false;
     bool transformed = false;
     bool bumped = false;
@@ -107,24 +98,30 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
         bumped |= used && ofNormals;
         textured |= used;
         transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
-        set(used, textureDefines[i]);
+        units[i] = used ? textures.unit(i) : -1;
     }
+    if (textured) {
+        defines.emplace_back("TEXTURED", "");
+        defines.emplace_back("textureCount", std::to_string(textures.count()));
+        defines.emplace_back("textureUnits", fmt::format("int[]({})", fmt::join(units, ",")));
+    }
+    if (bumped) defines.emplace_back("BUMPED", "");
     const bool lit = shaded && !material.unlit;
     const std::vector<PlacedLight>& lights = scene.world().lights;
-    set(textured, "TEXTURED");
-    set(transformed, "UV_TRANSFORMS");
-    set(!lit, "UNLIT");
-    set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
-    set(bumped, "TANGENTS");
-    set(look == SurfaceLook::caster && material.transmits(), "LETS_LIGHT_PASS");
-    set(transmits, "TRANSMISSION");
-    set(lit && material.hasOwnReflectance(), "OWN_REFLECTANCE");
-    set(lit && material.hasClearcoat(), "CLEARCOAT");
-    set(lit && material.hasSheen(), "SHEEN");
-    set(lit && level > 0, "COARSE_LEVEL");
-    set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
-    set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
-    set(material.doubleSided, "DOUBLE_SIDED");
+    const bool hasLocalLights = lit && std::any_of(lights.begin(), lights.end(), local);
+    if (hasLocalLights || transmits) defines.emplace_back("PLACED", "");
+    set(transformed, "uvTransforms");
+    set(lit, "lit");
+    set(lit && material.emissiveFactor != glm::vec3(0), "emissive");
+    set(look == SurfaceLook::caster && material.transmits(), "letsLightPass");
+    set(transmits, "transmissive");
+    set(lit && material.hasOwnReflectance(), "ownReflectance");
+    set(lit && material.hasClearcoat(), "clearcoat");
+    set(lit && material.hasSheen(), "sheen");
+    set(lit && level > 0, "coarseLevel");
+    set(hasLocalLights, "localLights");
+    set(static_cast<bool>(mesh.colors), "vertexColors");
+    set(material.doubleSided, "doubleSided");
     return defines;
 }
 

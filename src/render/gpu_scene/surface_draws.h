@@ -42,7 +42,7 @@ enum class SurfaceLook {
     seenThrough,  // like `lit`, but transmitting surfaces show the background
 };
 
-// Returns the defines for shaders/include/surface_shading.glsl for a material on a mesh.
+// Returns the defines of shaders/include/surface_shading.glsl and material_textures.glsl for a material on a mesh.
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int material, std::uint32_t level,
                              SurfaceLook look);
 

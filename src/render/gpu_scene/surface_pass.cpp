@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // max backdrops per wave; each needs a copy of all layers
-constexpr GLuint backdropUnit = 17;      // texture unit in shaders/accumulation/object.frag
-constexpr GLint shadowSlotLocation = 3;  // uniform location in shaders/accumulation/object.vert
+constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 22;      // as in shaders/include/transmission.glsl
+constexpr GLint shadowSlotLocation = 3;  // as in shaders/shadows/caster.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -130,45 +130,52 @@ ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
     ShaderDefines defines = frame_->defines();
     defines.insert(defines.end(), info_.defines.begin(), info_.defines.end());
     if (shadows_ != nullptr) defines.insert(defines.end(), shadows_->defines().begin(), shadows_->defines().end());
-    if (info_.look == SurfaceLook::caster) defines.emplace_back("SHADOW_CASTER", "1");
-    if (vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
+    if (info_.readsOwnBlur && frame_->usesOwnBlur()) defines.emplace_back("passesOwnBlur", "true");
+    if (vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "");
     return defines;
 }
 
 const Program& SurfacePass::program(const Draw& draw) {
     const Material& material = scene_->material(draw.material);
     const GpuMesh& mesh = scene_->mesh(draw.mesh);
-    const bool refined = draw.refinement != Refinement::none;
-    const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
-    ShaderDefines defines = passDefines(vertexShaderLayers);
+    ShaderDefines defines = passDefines(info_.vertexShaderLayers && draw.refinement == Refinement::none);
     const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.look);
     defines.insert(defines.end(), surface.begin(), surface.end());
     const auto set = [&](bool condition, const char* name) {
-        if (condition) defines.emplace_back(name, "1");
+        if (condition) defines.emplace_back(name, "true");
     };
+    const bool receivesShadows = shadows_ != nullptr && shaded() && !material.unlit;
+    if (receivesShadows) defines.emplace_back("PLACED", "");
     const bool colored = static_cast<bool>(mesh.colors);
-    set(colored && shaded() && draw.level == 0, "VERTEX_COLOR_RANGES");
-    set(colored && shaded() && draw.level > 0, "LEVEL_COLOR_RANGE");
-    set(static_cast<bool>(mesh.blurs), "VERTEX_BLURS");
-    set(draw.blurMoves && frame_->moments(), "BLUR_MOVES");
-    set(refined, "REFINED");
-    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // needs more shader stages
-    set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
-    set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
+    set(colored && shaded() && draw.level == 0, "colorRanges");
+    set(colored && shaded() && draw.level > 0, "levelColorRange");
+    set(static_cast<bool>(mesh.blurs), "vertexBlurs");
+    set(draw.blurMoves && frame_->moments(), "blurMoves");
+    set(material.alphaMode == AlphaMode::mask, "alphaTested");
+    set(material.alphaMode == AlphaMode::blend, "alphaBlended");
+    set(draw.screenDoor == ScreenDoor::coarseShare, "coarseShare");
+    set(draw.screenDoor == ScreenDoor::fineShare, "fineShare");
     poseDefines(defines, poses_[draw.object], mesh);
-    if (draw.screenDoor != ScreenDoor::open)
-        defines.emplace_back("SCREEN_DOOR", draw.screenDoor == ScreenDoor::coarseShare ? "true" : "false");
-    const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
-    if (isNew) {
-        std::vector<std::string> shaders = {"accumulation/object.vert", info_.fragmentShader};
-        if (draw.refinement == Refinement::subdivide) {
-            shaders.emplace_back("accumulation/object.tesc");
-            shaders.emplace_back("accumulation/object.tese");
-        }
-        if (!vertexShaderLayers) shaders.emplace_back(refined ? "accumulation/split.geom" : "accumulation/object.geom");
-        entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
-    }
+    std::vector<std::string> shaders = shadersOf(draw.refinement);
+    std::string key = keyOf(defines);
+    for (const std::string& shader : shaders) key += shader;
+    const auto [entry, isNew] = programs_.try_emplace(key);
+    if (isNew) entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
     return entry->second;
+}
+
+std::vector<std::string> SurfacePass::shadersOf(Refinement refinement) const {
+    if (refinement == Refinement::none) {
+        const bool casts = info_.look == SurfaceLook::caster;
+        std::vector<std::string> shaders = {casts ? "shadows/caster.vert" : "accumulation/object.vert",
+                                            info_.fragmentShader};
+        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/object.geom");
+        return shaders;
+    }
+    std::vector<std::string> shaders = {"accumulation/refined.vert", "accumulation/refined.geom", info_.fragmentShader};
+    if (refinement == Refinement::subdivide)
+        shaders.insert(shaders.end(), {"accumulation/refined.tesc", "accumulation/refined.tese"});
+    return shaders;
 }
 
 void SurfacePass::bindFrame() {

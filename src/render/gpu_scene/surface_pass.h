@@ -21,6 +21,7 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
+    bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool vertexShaderLayers = true;  // false: a geometry shader selects the layer
     std::filesystem::path shaderFolder;
 };
@@ -100,6 +101,7 @@ private:
         return info_.look == SurfaceLook::lit || info_.look == SurfaceLook::seenThrough;
     }
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
+    [[nodiscard]] std::vector<std::string> shadersOf(Refinement refinement) const;
     void bindFrame();
     void bindSolid(GLenum depthTest);
     void bindSamples(VertexArray& array) const;

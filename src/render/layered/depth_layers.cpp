@@ -4,7 +4,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint frontUnit = 20;  // texture unit in shaders/layered/peel.glsl
+constexpr GLuint frontUnit = 25;  // as in shaders/layered/peel.frag
 
 GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint32_t count) {
     return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(count)});
@@ -12,9 +12,7 @@ GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint3
 
 ShaderDefines definesOf(const DepthLayersInfo& info) {
     ShaderDefines defines = layerFormatDefines(info.format);
-    defines.emplace_back("PEELED", "1");
-    defines.emplace_back("READS_OWN_BLUR", "1");
-    if (info.blended) defines.emplace_back("BLENDED", "1");
+    if (info.blended) defines.emplace_back("blendedLayers", "true");
     return defines;
 }
 
@@ -57,9 +55,10 @@ DepthLayers::DepthLayers(GpuScene& scene, const DepthLayersInfo& info)
       front_(layersOf(info, TextureFormat::rgba32f, 1)),
       depth_(layersOf(info, TextureFormat::depth32f, 0)),
       shadows_(scene, vertexShaderMayPickLayer(), info.shaderFolder),
-      pass_(scene, {.fragmentShader = "accumulation/object.frag",
+      pass_(scene, {.fragmentShader = "layered/peel.frag",
                     .defines = definesOf(info),
                     .look = SurfaceLook::lit,
+                    .readsOwnBlur = true,
                     .vertexShaderLayers = vertexShaderMayPickLayer(),
                     .shaderFolder = info.shaderFolder}),
       anyDrawn_(newQuery()) {

@@ -43,8 +43,7 @@ public:
 
     // Returns the number of non-empty layers after the latest peel().
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    // Return texture arrays of all layers: premultiplied linear radiance, and the surface data defined in
-    // shaders/layered/peel.glsl.
+    // Texture arrays with all layers: premultiplied linear radiance, and surface data as in shaders/layered/peel.frag.
     [[nodiscard]] const GlTexture& colors() const { return colors_; }
     [[nodiscard]] const GlTexture& surfaces() const { return surfaces_; }
     [[nodiscard]] const DepthLayersInfo& info() const { return info_; }

@@ -47,9 +47,9 @@ LensRays::LensRays(const LensRaysInfo& info)
               .width = info.width,
               .height = info.height,
               .layers = static_cast<int>(info.layers)}),
-      base_({{"layered/extent.comp"}, {{"BASE", "1"}}, info.shaderFolder}),
+      base_({{"layered/extent.comp"}, {{"finestExtents", "true"}}, info.shaderFolder}),
       extend_({{"layered/extent.comp"}, {}, info.shaderFolder}),
-      bound_({{"layered/reach.comp"}, {{"LEVELS", std::to_string(extentLevels)}}, info.shaderFolder}) {
+      bound_({{"layered/reach.comp"}, {{"extentLevels", std::to_string(extentLevels)}}, info.shaderFolder}) {
     extents_.sampling(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }
 
@@ -57,8 +57,8 @@ void LensRays::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     frame_ = &frame;
     ShaderDefines defines = frame.defines();
     for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
-    if (info_.blended) defines.emplace_back("BLENDED", "1");
-    if (info_.vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
+    if (info_.blended) defines.emplace_back("blendedLayers", "true");
+    if (info_.vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "");
     if (!trace_ || traceDefines_ != defines) {
         traceDefines_ = defines;
         std::vector<std::string> shaders = {"accumulation/sky.vert", "layered/trace.frag"};

@@ -11,12 +11,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
-// Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations, so longer work needs
-// several dispatches.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;             // max tiles that an invocation visits per dispatch
-constexpr std::uint32_t maxSortedAtOnce = 65'536;            // max triangles of a tile; takes 136 · 256 iterations
-constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // matches shaders/lens_space/shade_vertices.comp
-constexpr std::size_t attributeBytes = 20 * sizeof(float);   // matches shaders/lens_space/vertex.vert
+// Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
+constexpr std::uint32_t maxTilesAtOnce = 50'000;             // tiles of a triangle that a thread visits
+constexpr std::uint32_t maxSortedAtOnce = 65'536;            // triangles of a tile; takes 136 · 256 iterations
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // as in shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // as in shaders/lens_space/attributes.vert
 
 // Returns the end of the range of rays that hit a level of an object. If two levels share a boundary sample, the level
 // with the larger share gets the sample's ray.
@@ -80,7 +79,7 @@ LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertice
       unusedTarget_({&unused_}) {
     sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
     ShaderDefines defines;
-    if (lightsVertices_) defines.emplace_back("FIRST_TRIANGLES", "1");
+    if (lightsVertices_) defines.emplace_back("lightsVertices", "true");
     trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
 }
 
@@ -92,7 +91,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     const std::size_t moments = std::max(scene_->world().shutter.poses.size(), plan.view.shutterCameras.size());
     parts_ = moving ? static_cast<std::uint32_t>(std::clamp<std::size_t>(moments - 1, 1, plan.samples.size())) : 1;
     defines_ = frame.defines();
-    if (moving) defines_.emplace_back("MOVING", "1");
+    if (moving) defines_.emplace_back("moving", "true");
     objects_ = objectBlocks(plan, *scene_, poses_);
 
     // Collect vertices and triangles of all levels that are drawn for some ray.
@@ -119,11 +118,11 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     makeTriangles();
 
     ShaderDefines binDefines = defines_;
-    binDefines.emplace_back("TILE", std::to_string(tileSize_));
+    binDefines.emplace_back("tileSize", std::to_string(tileSize_));
     if (binDefines != binDefines_) {
         binDefines_ = binDefines;
         fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
-        binDefines.emplace_back("COUNT", "1");
+        binDefines.emplace_back("countsOnly", "true");
         countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
         depthsProgram_ = Program({{"lens_space/depths.comp"}, defines_, shaderFolder_});
     }
@@ -243,13 +242,13 @@ bool LensFront::changesBlur(const Vertices& vertices) const {
 const Program& LensFront::vertexProgram(const Vertices& vertices, bool attributes) {
     const GpuMesh& mesh = scene_->mesh(plan_.objects[vertices.object].mesh);
     ShaderDefines defines = frame_->defines();
-    if (mesh.colors) defines.emplace_back("VERTEX_COLORS", "1");
-    if (mesh.blurs) defines.emplace_back("VERTEX_BLURS", "1");
-    if (changesBlur(vertices) && !attributes) defines.emplace_back("BLUR_MOVES", "1");
-    if (attributes) defines.emplace_back("ATTRIBUTES", "1");
+    if (mesh.colors) defines.emplace_back("vertexColors", "true");
+    if (mesh.blurs) defines.emplace_back("vertexBlurs", "true");
+    if (changesBlur(vertices) && !attributes) defines.emplace_back("blurMoves", "true");
     poseDefines(defines, poses_[vertices.object], mesh);
-    const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
-    if (isNew) entry->second = Program({{"lens_space/vertex.vert"}, defines, shaderFolder_});
+    const char* shader = attributes ? "lens_space/attributes.vert" : "lens_space/clip.vert";
+    const auto [entry, isNew] = programs_.try_emplace(shader + keyOf(defines));
+    if (isNew) entry->second = Program({{shader}, defines, shaderFolder_});
     return entry->second;
 }
 

@@ -34,8 +34,8 @@ public:
         const RaySets sets = kernel_->raySets(plan_, front_->parts());
         rays_ = Buffer::of(std::span<const GpuRay>(sets.table));
         ShaderDefines rayDefines = kernel_->rayDefines();
-        rayDefines.emplace_back("VARIANTS", std::to_string(sets.variants) + "u");
-        prepareSum(rayDefines);
+        rayDefines.emplace_back("rayVariants", std::to_string(sets.variants) + "u");
+        prepareSum();
         ShaderDefines defines = front_->defines();
         defines.insert(defines.end(), rayDefines.begin(), rayDefines.end());
         kernel_->start(plan_, sets, defines);
@@ -99,13 +99,12 @@ public:
     }
 
 private:
-    void prepareSum(const ShaderDefines& rayDefines) {
+    void prepareSum() {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
-        if (!sum_ || sumSize_ != size || sumDefines_ != rayDefines) {
-            sum_.reset();  // free the old sum first: memory may not hold both
-            sum_.emplace(size.x, size.y, rayDefines, options_.shaderFolder);
+        if (!sum_ || sumSize_ != size) {
+            sum_.reset();  // frees the old sum first: memory may not hold both
+            sum_.emplace(size.x, size.y, kernel_->addShader(), options_.shaderFolder);
             sumSize_ = size;
-            sumDefines_ = rayDefines;
         }
         sum_->reset();
     }
@@ -143,7 +142,6 @@ private:
     std::optional<RecordShading> shading_;
     std::optional<RaySum> sum_;
     glm::ivec2 sumSize_{0};
-    ShaderDefines sumDefines_;
     Buffer rays_;
     std::optional<std::uint32_t> part_;  // part of the exposure for which vertices are posed
     mutable FrameClock clock_;

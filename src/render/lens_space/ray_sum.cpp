@@ -5,10 +5,10 @@
 
 namespace defocus::engine {
 
-RaySum::RaySum(int width, int height, const ShaderDefines& defines, const std::filesystem::path& shaderFolder)
+RaySum::RaySum(int width, int height, const char* addShader, const std::filesystem::path& shaderFolder)
     : width_(width),
       height_(height),
-      addProgram_({{"lens_space/add.comp"}, defines, shaderFolder}),
+      addProgram_({{addShader}, {}, shaderFolder}),
       meanProgram_({{fullscreenShader, "lens_space/mean.frag"}, {}, shaderFolder}),
       sums_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 2 * sizeof(glm::vec4)),
       mean_({.format = TextureFormat::rgba32f, .width = width, .height = height}),

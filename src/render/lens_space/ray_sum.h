@@ -8,9 +8,9 @@ namespace defocus::engine {
 
 class RaySum {
 public:
-    // `defines` are VisibilityKernel::rayDefines and VARIANTS. Throws Error if the sum exceeds the max buffer size of
-    // shaders.
-    RaySum(int width, int height, const ShaderDefines& defines, const std::filesystem::path& shaderFolder);
+    // `addShader`: path of the shader that adds the records. Throws Error if the sum exceeds the buffer size that
+    // shaders can read.
+    RaySum(int width, int height, const char* addShader, const std::filesystem::path& shaderFolder);
 
     void reset() { rays_ = 0; }
     // Adds the radiance of the next `count` rays of each pixel. The records must be bound.

@@ -33,19 +33,18 @@ void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const
         listDefines_ = defines;
         listProgram_ = Program({{"lens_space/lists.comp"}, defines, shaderFolder_});
         ShaderDefines counting = defines;
-        counting.emplace_back("COUNT", "1");
+        counting.emplace_back("countsOnly", "true");
         countProgram_ = Program({{"lens_space/lists.comp"}, counting, shaderFolder_});
     }
-    constexpr const char* shade = "lens_space/shade.comp";
-    groupPrograms_ = {&program(shade, defines, {{"SKY", "1"}})};
+    groupPrograms_ = {&program("lens_space/shade_sky.comp", defines, {})};
     vertexPrograms_.clear();
     std::vector<GpuMaterial> materials;
     for (const ShadedGroup& group : front.groups()) {
         if (front.lightsVertices()) {
-            groupPrograms_.push_back(&program(shade, defines, {{"VERTEX_LIGHT", "1"}}));
+            groupPrograms_.push_back(&program("lens_space/interpolate_light.comp", defines, {}));
             vertexPrograms_.push_back(&program("lens_space/shade_vertices.comp", front.defines(), group.defines));
         } else {
-            groupPrograms_.push_back(&program(shade, defines, group.defines));
+            groupPrograms_.push_back(&program("lens_space/shade_surface.comp", defines, group.defines));
         }
         materials.push_back(scene_->materialBlock(group.material));
     }

@@ -25,9 +25,11 @@ public:
     [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Returns the rays for a plan. Throws Error if the method cannot draw the plan.
     [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
-    // Returns the defines for shaders that read rays and records, except VARIANTS.
+    // Returns the defines, other than rayVariants, of shaders that read rays and records.
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
-    // Returns the expected bytes of the records of one ray, from which the rays per wave are chosen.
+    // Returns the path of the shader that adds the shaded records of each pixel's rays.
+    [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
+    // Returns the min bytes of the records of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
     // Prepares a frame; called before its first wave. `defines` are those of the front end and of the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;

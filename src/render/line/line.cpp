@@ -66,7 +66,8 @@ public:
     [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t /*parts*/) const override {
         return lineSets(plan, turned_).sets;
     }
-    [[nodiscard]] ShaderDefines rayDefines() const override { return {{"LINES", "1"}}; }
+    [[nodiscard]] ShaderDefines rayDefines() const override { return {{"lineSamples", "true"}}; }
+    [[nodiscard]] const char* addShader() const override { return "line/add.comp"; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return 2 * expectedRecords * recordBytes; }
 
     void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) override {
@@ -165,14 +166,13 @@ private:
 
     void build(std::uint32_t segments) {
         ShaderDefines all = defines_;
-        all.emplace_back("TILE", std::to_string(lineTile));
-        all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
-        all.emplace_back("MOST_SHADING_POINTS", std::to_string(maxShadingPoints));
-        all.emplace_back("SEGMENTS", std::to_string(segments));
-        if (exact_) all.emplace_back("EXACT", "1");
+        all.emplace_back("tileSize", std::to_string(lineTile));
+        all.emplace_back("maxRays", std::to_string(blockSamples));
+        all.emplace_back("maxShadingPoints", std::to_string(maxShadingPoints));
+        all.emplace_back("segmentCapacity", std::to_string(segments));
         if (program_ && built_ == all) return;
         built_ = all;
-        program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
+        program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
     }
 
     // Returns the size in ranges of an invocation's state between dispatches; matches shaders/line/.

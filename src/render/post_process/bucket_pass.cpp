@@ -25,7 +25,7 @@ BucketPass::BucketPass(const PinholeImage& opaque, LayerFormat format, const std
     knownTarget_ = Target({&known_});
     imageTarget_ = Target(blurs);
 
-    const ShaderDefines defines = ownBlur ? ShaderDefines{{"OWN_BLUR", "1"}} : ShaderDefines{};
+    const ShaderDefines defines = ownBlur ? ShaderDefines{{"usesOwnBlur", "true"}} : ShaderDefines{};
     know_ = Program({{fullscreenShader, "post_process/bucket_surfaces.frag"}, defines, shaderFolder});
     fill_ = Program({{fullscreenShader, "post_process/bucket_blur.frag"}, defines, shaderFolder});
 }

@@ -11,13 +11,7 @@ namespace {
 
 constexpr std::uint32_t lightPoints = 16;  // points on each light for soft shadows in a pinhole image
 
-ShaderDefines definesOf(LayerFormat format) {
-    ShaderDefines defines = layerFormatDefines(format);
-    defines.emplace_back("READS_OWN_BLUR", "1");
-    return defines;
-}
-
-// Enables or disables writes of the surfaces' blur controls, which the sky and translucent surfaces must not change.
+// Enables or disables writing the surfaces' own blur. The sky and translucent surfaces must leave it unchanged.
 void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);
@@ -61,7 +55,8 @@ PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat for
                       : Target({&image_.color}, &image_.depth)),
       shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
-                        .defines = definesOf(format),
+                        .defines = layerFormatDefines(format),
+                        .readsOwnBlur = true,
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
                         .shaderFolder = shaderFolder}) {}
 

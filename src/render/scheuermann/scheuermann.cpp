@@ -137,17 +137,17 @@ private:
             return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
         };
         ShaderDefines blurriness = frame.defines();
-        if (thinLens_) blurriness.emplace_back("THIN_LENS", "1");
-        if (bytes_) blurriness.emplace_back("ENCODED", "1");
+        if (thinLens_) blurriness.emplace_back("thinLens", "true");
+        if (bytes_) blurriness.emplace_back("encodedColor", "true");
         blurriness_ = pass("scheuermann/blurriness.frag", std::move(blurriness));
-        reduce_ = pass("scheuermann/reduce.frag", {{"REDUCTION", std::to_string(smallReduction)}});
+        reduce_ = pass("scheuermann/reduce.frag", {{"reduction", std::to_string(smallReduction)}});
         preblur_ = pass("scheuermann/preblur.frag", {});
         ShaderDefines gather = {
-            {"TAPS", std::to_string(taps_)},
-            {"MOST_TAPS", std::to_string(maxTaps)},
-            {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
-            {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}};
-        if (bytes_) gather.emplace_back("ENCODED", "1");
+            {"diskTaps", std::to_string(taps_)},
+            {"maxDiskTaps", std::to_string(maxTaps)},
+            {"smallPixel", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
+            {"smallRadiusScale", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}};
+        if (bytes_) gather.emplace_back("encodedColor", "true");
         gather_ = pass("scheuermann/gather.frag", std::move(gather));
     }
 

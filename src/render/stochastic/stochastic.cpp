@@ -30,8 +30,8 @@ public:
         bounds_ = rays.lensBounds;
         boundBlock_ = Buffer(boundBytes);
         ShaderDefines all = defines;
-        all.emplace_back("TILE", std::to_string(pointTile));
-        all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
+        all.emplace_back("tileSize", std::to_string(pointTile));
+        all.emplace_back("maxRays", std::to_string(blockSamples));
         if (program_ && defines_ == all) return;
         defines_ = all;
         program_ = Program({{"stochastic/visible.comp"}, defines_, shaderFolder_});

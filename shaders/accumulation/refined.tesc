@@ -5,26 +5,23 @@
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/coc_pieces.glsl"
+#include "include/surface_corners.glsl"
 
 layout(vertices = 3) out;
 
-in Surface {
-#include "include/surface_varyings.glsl"
-} corners[];
 in Unsheared {
 #include "include/unsheared_varyings.glsl"
 } unsheared[];
 
-out Surface {
+out SurfaceVaryings {
 #include "include/surface_varyings.glsl"
-} toNext[];
+} passedOn[];
 out Unsheared {
 #include "include/unsheared_varyings.glsl"
 } unshearedOut[];
 
-#define SURFACE_CORNERS corners
-#define SURFACE_OUT toNext[gl_InvocationID]
-#include "include/surface_weighted.glsl"
+#define SURFACE_OUT passedOn[gl_InvocationID]
+#include "include/surface_write.glsl"
 
 // Returns the two smooth pieces of C.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
@@ -32,7 +29,6 @@ vec2 smoothPieces(vec3 pinhole, vec2 own) {
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
-#ifdef ABERRATIONS
 // Returns the aberration offsets for two rays at the lens rim, in halves of the image's width.
 vec4 aberrationPieces(vec3 pinhole) {
     float w = max(pinhole.z, frame.projection.z);
@@ -40,7 +36,6 @@ vec4 aberrationPieces(vec3 pinhole) {
     vec2 ndc = pinhole.xy / w;
     return w * vec4(aberration(ndc, vec2(1.0, 0.0)) * perAspect, aberration(ndc, vec2(0.0, 1.0) / perAspect) * perAspect);
 }
-#endif
 
 bool comesFirst(vec3 p, vec3 q) {
     if (p.x != q.x) return p.x < q.x;
@@ -66,31 +61,28 @@ float partsOf(int first, int second) {
     float end = q.z < near ? (near - p.z) / (q.z - p.z) : 1.0;
     vec2 atBegin = smoothPieces(mix(p, q, begin), mix(ownP, ownQ, begin));
     vec2 atEnd = smoothPieces(mix(p, q, end), mix(ownP, ownQ, end));
-#ifdef ABERRATIONS
     vec4 missedAtBegin = aberrationPieces(mix(p, q, begin));
     vec4 missedAtEnd = aberrationPieces(mix(p, q, end));
-#endif
     float deviation = 0.0;   // px
     for (int i = 1; i < 8; ++i) {
         float part = float(i) / 8.0;
         float at = mix(begin, end, part);
         vec3 middle = mix(p, q, at);
         vec2 away = abs(smoothPieces(middle, mix(ownP, ownQ, at)) - mix(atBegin, atEnd, part));
-#ifdef ABERRATIONS
-        vec4 missed = abs(aberrationPieces(middle) - mix(missedAtBegin, missedAtEnd, part));
-        away = max(away, max(missed.xy, missed.zw));
-#endif
+        if (aberrations) {
+            vec4 missed = abs(aberrationPieces(middle) - mix(missedAtBegin, missedAtEnd, part));
+            away = max(away, max(missed.xy, missed.zw));
+        }
         deviation = max(deviation, max(away.x, away.y) / max(middle.z, near) * frame.coc.z);
     }
     return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, 64.0);
 }
 
 void main() {
-    writeSurface(vec3(equal(ivec3(gl_InvocationID), ivec3(0, 1, 2))));
+    writeSurface(surfaceAt(gl_InvocationID));
     unshearedOut[gl_InvocationID].pinhole = unsheared[gl_InvocationID].pinhole;
     unshearedOut[gl_InvocationID].ownBlur = unsheared[gl_InvocationID].ownBlur;
     unshearedOut[gl_InvocationID].lensAndJitter = unsheared[gl_InvocationID].lensAndJitter;
-    unshearedOut[gl_InvocationID].ditherAndLayer = unsheared[gl_InvocationID].ditherAndLayer;
     unshearedOut[gl_InvocationID].bandShift = unsheared[gl_InvocationID].bandShift;
     if (gl_InvocationID == 0) {
         vec3 parts = vec3(partsOf(1, 2), partsOf(2, 0), partsOf(0, 1));

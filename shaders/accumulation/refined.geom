@@ -5,28 +5,18 @@
 // Each cut position depends only on the two ends of its edge, and not on their order. Neighbouring triangles therefore
 // agree, and no gap opens.
 
-#include "include/frame.glsl"
-#include "include/lens.glsl"
-#include "include/coc_pieces.glsl"
-
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 30) out;   // 5 pieces with at most 6 vertices each
 
-in Surface {
-#include "include/surface_varyings.glsl"
-} corners[];
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/coc_pieces.glsl"
+#include "include/surface_corners.glsl"
+#include "include/surface_output.glsl"
+
 in Unsheared {
 #include "include/unsheared_varyings.glsl"
 } unsheared[];
-
-out Surface {
-#include "include/surface_varyings.glsl"
-} surface;
-flat out float ditherOffset;
-
-#define SURFACE_CORNERS corners
-#define SURFACE_OUT surface
-#include "include/surface_weighted.glsl"
 
 // A convex piece, given by the barycentric coordinates of its vertices.
 struct Piece {
@@ -70,10 +60,9 @@ Piece kept(Piece piece, vec3 values) {
 void emit(vec3 weights) {
     precise vec3 pinhole = weights.x * unsheared[0].pinhole + weights.y * unsheared[1].pinhole + weights.z * unsheared[2].pinhole;
     precise vec2 own = weights.x * unsheared[0].ownBlur + weights.y * unsheared[1].ownBlur + weights.z * unsheared[2].ownBlur;
-    writeSurface(weights);
+    writeSurface(weightedSurface(weights));
     gl_Position = throughLens(pinhole, own, unsheared[0].lensAndJitter);
-    gl_Layer = int(unsheared[0].ditherAndLayer.y);
-    ditherOffset = unsheared[0].ditherAndLayer.x;
+    gl_Layer = int(corners[0].layer);
     EmitVertex();
 }
 
@@ -89,9 +78,7 @@ void emit(Piece piece) {
 }
 
 void main() {
-#ifdef CHROMATIC
-    bandShift = unsheared[0].bandShift;
-#endif
+    if (chromatic) bandShift = unsheared[0].bandShift;
     // Kink functions at the corners, ordered from front to back. They are linear where the pieces of C are.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {

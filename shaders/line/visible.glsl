@@ -1,84 +1,5 @@
 // Kernel 3 of the line samples: finds the surfaces that each line of a tile's pixels sees along its path over the lens.
-// A workgroup processes one tile and one line of each of its pixels.
-//
-// EXACT: each line keeps its visible parts as disjoint pieces. Every new segment is cut at their ends and at
-// intersections. Otherwise segments are kept in a buffer in shared memory, as published, and resolved at the end.
-
-#include "include/frame.glsl"
-#include "lens_space/triangles.glsl"
-#include "lens_space/rays.glsl"
-#include "lens_space/records.glsl"
-#include "line/line.glsl"
-#include "line/weights.glsl"
-
-layout(local_size_x = TILE, local_size_y = TILE) in;
-
-layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// Ends of the tiles' triangle lists in the entries.
-layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
-layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-layout(std430, binding = 1) buffer OutputBlock {
-    uint recordCount;       // number of requested records
-    uint droppedSegments;
-    uint droppedLight;      // in units of 1/1024 of a line
-    uint mergedSegments;
-    uint laterJobs;         // jobs deferred to later dispatches
-    uint unfinishedJobs;    // jobs of this dispatch that are not finished
-    // Per ray of the wave: first record, number of records. Then the deferred jobs, two elements each: (tile, ray) and
-    // (next entry, status). Then the saved state of the lines of unfinished jobs.
-    uvec2 ranges[];
-};
-struct Bounds {
-    vec4 box;               // box of the line over the variants: min (u, k·v), max (u, k·v)
-    // xy: unit vector across the line in (u, v); z: max offset of any variant from the middle along it.
-    vec4 strip;
-};
-layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[MOST_RAYS]; };
-
-layout(location = 2) uniform uint firstTile;       // first tile that the entries cover
-layout(location = 3) uniform uint recordCapacity;
-// Surface motion in px that one shading point covers; 0: one shading point per segment.
-layout(location = 5) uniform float shadingStep;
-// A job is the work of a workgroup: one tile and one line of each of its pixels. Mesa's software driver ends the loops
-// of a thread after a total of 65,535 rounds. Jobs that need more are deferred and continue in later dispatches.
-layout(location = 6) uniform uint maxRounds;      // approximate limit on loop rounds per dispatch; 0: none
-// x: 1 for deferred jobs, 0 for all tiles and rays; y: first job of the dispatch; z: start of the saved states; w:
-// where to store deferred jobs. y, z and w are indices into `ranges`.
-layout(location = 7) uniform uvec4 jobs;
-
-const uint threads = uint(TILE * TILE);
-const uint maxKept = 64u;
-// Max number of scans before the kept triangles' segments are added. A scan covers as many entries as there are
-// threads.
-const uint maxScans = 1024u;
-shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangle, double-sided
-shared uint keptHere[2];        // one bit for each thread whose candidate is kept
-shared uint keptCount;
-shared uint nextBase;
-shared uint open;               // true if some line may still see later triangles
-shared uint halted;             // status of threads that ran out of rounds: the flags below
-
-const uint hasSegments = 1u;    // visible segments are not yet added
-const uint hasNoRounds = 2u;
-
-const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // continues with the triangles from the next entry on
-const uint jobHasSeen = 2u;     // has scanned the triangles there; some segments are not yet added
-const uint jobIsDone = 3u;
-
-// A driver's vector of threads runs a loop as often as its slowest thread.
-const uint widestVector = 16u;
-uint commonRounds = 0u;         // rounds of loops that all threads run equally often
-uint ownRounds = 0u;
-
-bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }
-
-#ifdef EXACT
-#include "line/envelope.glsl"
-#else
-#include "line/segment_buffer.glsl"
-#endif
+// The including file defines how the segments of a line are kept.
 
 bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     vec2 minimum = vec2(1e30);
@@ -108,9 +29,7 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
     float blur = 0.0;   // C/w
     if (triangle == noTriangle) {
-#if BACKGROUND == 3
-        blur = frame.coc.w;   // other skies vary too slowly to need more than one point
-#endif
+        if (backgroundType == 3) blur = frame.coc.w;   // other skies vary too slowly to need more than one point
     } else {
         uvec4 vertices = triangles[triangle];
         for (int i = 0; i < 3; ++i) {
@@ -119,7 +38,7 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
         }
     }
     float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // px
-    return uint(clamp(ceil(way / shadingStep), 1.0, float(MOST_SHADING_POINTS)));
+    return uint(clamp(ceil(way / shadingStep), 1.0, float(maxShadingPoints)));
 }
 
 uint recordsOf(uint triangle, float p1, float p2, vec2 direction) { return p2 > p1 ? shadingPoints(triangle, p1, p2, direction) : 0u; }
@@ -246,8 +165,8 @@ void main() {
         status = ranges[job + 1u].y;
         if (status == jobIsDone) return;
     }
-    uint across = uint(imageSize.x + TILE - 1) / uint(TILE);
-    uvec2 corner = uvec2(tile % across, tile / across) * uint(TILE);
+    uint across = uint(imageSize.x + tileSize - 1) / uint(tileSize);
+    uvec2 corner = uvec2(tile % across, tile / across) * uint(tileSize);
     uvec2 pixel = corner + gl_LocalInvocationID.xy;
     Ray mine = rayOf(ray, pixel);
     vec2 place = placeOf(mine, pixel);
@@ -255,7 +174,7 @@ void main() {
     Interval whole = Interval(-mine.values.x, 1.0);
     vec2 margin = vec2(2e-3) / vec2(imageSize);   // 0.001 px
     vec2 tileMin = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
-    vec2 tileMax = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
+    vec2 tileMax = 2.0 * vec2(corner + uint(tileSize)) / vec2(imageSize) - 1.0 + margin;
 
     beginLine(mine.values.xy);
     uint end = tileEnds[tile];

@@ -1,0 +1,67 @@
+// Like add_layers.frag, and adds the layers to the sums of the lens cells.
+#include "accumulation/layer_light.glsl"
+#include "include/cells.glsl"
+
+layout(binding = 6) uniform sampler2DArray layerDepths;
+// Sums that the render target holds.
+layout(binding = 7) uniform sampler2DArray drawnSums;
+// Sums that do not fit into the render target.
+layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+// Classes that each tile holds, as a bit mask.
+layout(r32ui, binding = 1) uniform uimage2D heldClasses;
+// σ of the blur of a sample's image, as a fraction of |c|.
+layout(location = 3) uniform float cellBlur;
+
+layout(location = 0) out vec4 sumOut;
+layout(location = 1) out vec4 cellsOut[drawnClasses];
+
+// Threshold of stored alpha. Alpha-blended surfaces add their alpha to the 1 of opaque surfaces and sky.
+const float blendedAlpha = 1.001;
+
+// Adds a layer's pixel to the classes of its blur.
+void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
+    float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
+    float variance = value.a < blendedAlpha ? max(0.0, cellBlur * cellBlur * c * c - minCellVariance) : 0.0;
+    float inFront = c < 0.0 ? variance : 0.0;
+    float behind = variance - inFront;
+    value.a = 1.0;
+    for (int k = 0; k < cellsInFront; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
+    for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
+}
+
+// Returns the classes that hold a share of any of `samples`, one bit each. Their sums differ from the next class's sum
+// in the number of samples.
+uint heldBy(vec4 sums[cellClasses], float samples) {
+    uint held = 0u;
+    for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;
+    for (int k = cellsInFront; k < cellClasses; ++k) held |= sums[k].a != (k + 1 < cellClasses ? sums[k + 1].a : 0.0) ? 1u << k : 0u;
+    return held;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
+    vec4 compensation = vec4(0.0);   // discarded: blurred sums need only single precision
+    vec2 imagePlane = pixelOnImagePlane();
+    vec2 rim = barrelRim(imagePlane);
+    vec2 ndc = imagePlane * frame.projection.xy;
+    vec4 cells[cellClasses];
+    for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
+    for (int k = drawnClasses; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
+    float seen = 0.0;
+    for (int layer = 0; layer < layerCount; ++layer) {
+        if (catEye > 0.0 && isClipped(layer, rim)) continue;
+        seen += 1.0;
+        ivec3 texel = ivec3(pixel + firstPixel, layer);
+        vec4 value = layerLight(texel, imagePlane);
+        addLayer(sum, compensation, value, layer);
+        addToCells(cells, value, texel, ndc);
+    }
+    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers, hence exact
+    for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
+    for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+    uint held = heldBy(cells, sum.a);
+    ivec2 tile = pixel / cellTile;
+    if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
+    sumOut = sum;
+}

@@ -1,0 +1,80 @@
+// The layers of a wave, composited over the environment.
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/compensated.glsl"
+#include "include/environment.glsl"
+
+layout(binding = 0) uniform sampler2DArray layers;
+layout(binding = 1) uniform sampler2D sumSoFar;
+layout(std140, binding = 3) uniform ShiftBlock {
+    // Shift of the sky on the image plane at distance 1. With cocControls: the shifts for C/w = 1 and for the jitter.
+    vec4 sampleShifts[blockSamples];
+};
+layout(location = 0) uniform int layerCount;
+layout(location = 1) uniform int firstInBlock;
+// Pixel of the layers where the sums begin.
+layout(location = 2) uniform ivec2 firstPixel;
+
+#ifdef WEIGHS_SAMPLES
+layout(std140, binding = 4) uniform SampleBlock {
+    // Colour weights, and the wavelength's change of b in C(w).
+    vec4 sampleBands[blockSamples];
+    // xy: lens points, relative to the lens radius.
+    vec4 sampleLenses[blockSamples];
+};
+vec4 bandOf(int layer) { return chromatic ? sampleBands[firstInBlock + layer] : vec4(1.0, 1.0, 1.0, 0.0); }
+vec2 lensPointOf(int layer) { return sampleLenses[firstInBlock + layer].xy; }
+#else
+vec4 bandOf(int layer) { return vec4(1.0, 1.0, 1.0, 0.0); }
+vec2 lensPointOf(int layer) { return vec2(0.0); }
+#endif
+
+vec2 pixelOnImagePlane() {
+    return (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
+}
+
+// Returns the offset of the rim of the barrel, a circle as large as the aperture. The circle shifts across the aperture
+// with the pixel's distance from the centre, by catEye radii at the image's corners. For light from the right, the
+// circle shifts to the right.
+vec2 barrelRim(vec2 imagePlane) {
+    float aspect = frame.window.z / frame.window.w;
+    return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
+}
+
+// Returns true if the barrel clips the sample. `rim` is barrelRim().
+bool isClipped(int layer, vec2 rim) {
+    vec2 onLens = lensPointOf(layer) + rim;
+    return dot(onLens, onLens) > 1.0;
+}
+
+// Returns the sky radiance that a sample sees through this pixel. A map is drawn into the layers instead.
+vec3 behind(vec2 imagePlane, int layer) {
+    if (backgroundType == 1) return lighting.environment[0].rgb;
+    vec4 shifts = sampleShifts[firstInBlock + layer];
+    vec2 p = imagePlane;
+    if (cocControls) {
+        if (chromatic) bandShift = bandOf(layer).w;
+        vec2 place = imagePlane * frame.projection.xy;
+        float blur = relativeCircleOfConfusion(0.0, place, vec2(1.0, 0.0));
+        p += blur * shifts.xy;
+        p += shifts.zw;
+        if (aberrations) p -= aberration(place, -shifts.xy * frame.projection.xy) / frame.projection.xy;
+    } else {
+        p += shifts.xy;
+    }
+    vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
+    return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
+}
+
+// Returns the pixel of a layer. Without a background, alpha is the coverage.
+vec4 layerLight(ivec3 texel, vec2 imagePlane) {
+    vec4 value = texelFetch(layers, texel, 0);
+    if (backgroundType == 1 || backgroundType == 2) value.rgb += (1.0 - min(value.a, 1.0)) * behind(imagePlane, texel.z);
+    return value;
+}
+
+void addLayer(inout vec4 sum, inout vec4 compensation, vec4 value, int layer) {
+    if (backgroundType == 0) addCompensated(sum.a, compensation.a, value.a);
+    addCompensated(sum.rgb, compensation.rgb, value.rgb * bandOf(layer).rgb);
+}

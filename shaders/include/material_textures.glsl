@@ -1,0 +1,40 @@
+// Textures of the material. materialTextures holds only those that the material has. textureUnits[slot] is the index of
+// a texture there, or −1 for a texture that isn't used.
+
+layout(binding = 8) uniform sampler2D materialTextures[textureCount];
+
+// x: index in materialTextures, or −1; y: slot, in the order of textureUses().
+const ivec2 baseColorTexture = ivec2(textureUnits[0], 0);
+const ivec2 metallicRoughnessTexture = ivec2(textureUnits[1], 1);
+const ivec2 normalTexture = ivec2(textureUnits[2], 2);
+const ivec2 occlusionTexture = ivec2(textureUnits[3], 3);
+const ivec2 emissiveTexture = ivec2(textureUnits[4], 4);
+const ivec2 specularTexture = ivec2(textureUnits[5], 5);
+const ivec2 specularColorTexture = ivec2(textureUnits[6], 6);
+const ivec2 transmissionTexture = ivec2(textureUnits[7], 7);
+const ivec2 thicknessTexture = ivec2(textureUnits[8], 8);
+const ivec2 clearcoatTexture = ivec2(textureUnits[9], 9);
+const ivec2 clearcoatRoughnessTexture = ivec2(textureUnits[10], 10);
+const ivec2 clearcoatNormalTexture = ivec2(textureUnits[11], 11);
+const ivec2 sheenColorTexture = ivec2(textureUnits[12], 12);
+const ivec2 sheenRoughnessTexture = ivec2(textureUnits[13], 13);
+
+// Returns the texture coordinates for texture `slot`, from both UV sets.
+vec2 uvOf(int slot, vec4 uvSets) {
+    if (!uvTransforms) return uvSets.xy;
+    vec4 rowU = material.uvRows[2 * slot];
+    vec4 rowV = material.uvRows[2 * slot + 1];
+    vec2 uv = rowU.w == 0.0 ? uvSets.xy : uvSets.zw;
+    return vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0)));
+}
+
+// Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the pixel. The including stage defines it.
+vec4 surfaceTexel(int unit, int slot);
+
+// Returns the texture in this pixel, or white if it isn't used.
+vec4 materialTexel(ivec2 unitAndSlot) {
+    if (unitAndSlot.x < 0) return vec4(1.0);
+    return surfaceTexel(unitAndSlot.x, unitAndSlot.y);
+}
+
+vec4 texturedColor(vec4 baseColor) { return baseColor * materialTexel(baseColorTexture); }

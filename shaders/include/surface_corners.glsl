@@ -1,0 +1,27 @@
+// Surface at the corners of a triangle, for stages that create vertices.
+
+#include "include/surface.glsl"
+
+in SurfaceVaryings {
+#include "include/surface_varyings.glsl"
+} corners[];
+
+#define SURFACE_IN corners[corner]
+#include "include/surface_read.glsl"
+
+// Returns Σ weights · corner. On an edge (one weight 0), both adjacent triangles obtain the same sum.
+Surface weightedSurface(vec3 weights) {
+    Surface a = surfaceAt(0);
+    Surface b = surfaceAt(1);
+    Surface c = surfaceAt(2);
+    Surface s = a;   // flat attributes
+    s.color = weights.x * a.color + weights.y * b.color + weights.z * c.color;
+    s.normal = weights.x * a.normal + weights.y * b.normal + weights.z * c.normal;
+    s.agreement = weights.x * a.agreement + weights.y * b.agreement + weights.z * c.agreement;
+    s.toEye = weights.x * a.toEye + weights.y * b.toEye + weights.z * c.toEye;
+    s.position = weights.x * a.position + weights.y * b.position + weights.z * c.position;
+    s.uv = weights.x * a.uv + weights.y * b.uv + weights.z * c.uv;
+    s.tangent = weights.x * a.tangent + weights.y * b.tangent + weights.z * c.tangent;
+    s.ownBlur = weights.x * a.ownBlur + weights.y * b.ownBlur + weights.z * c.ownBlur;
+    return s;
+}

@@ -1,0 +1,14 @@
+// The surface in this fragment. main() must call readSurface() first.
+
+#include "include/surface.glsl"
+
+in SurfaceVaryings {
+#include "include/surface_varyings.glsl"
+} varyings;
+
+#define SURFACE_IN varyings
+#include "include/surface_read.glsl"
+
+Surface surface;
+
+void readSurface() { surface = surfaceAt(0); }

@@ -1,0 +1,35 @@
+// Reads the varyings SURFACE_IN of a corner. Attributes that the material doesn't need are 0.
+
+Surface surfaceAt(int corner) {
+    Surface s = Surface(vec4(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec2(0.0), 0.0, vec4(0.0),
+                        vec4(0.0), vec2(1.0, 0.0), 0.0, 0.0);
+    s.color = SURFACE_IN.color;
+    s.ditherOffset = SURFACE_IN.ditherOffset;
+    s.layer = SURFACE_IN.layer;
+#ifdef COLOR_RANGES
+    s.minColor = SURFACE_IN.minColor;
+    s.maxColor = SURFACE_IN.maxColor;
+#endif
+#ifdef LIT
+    s.normal = SURFACE_IN.normal;
+    s.toEye = SURFACE_IN.toEye;
+#endif
+#ifdef COARSE_LEVEL
+    s.agreement = SURFACE_IN.agreement;
+#endif
+#ifdef PLACED
+    s.position = SURFACE_IN.position;
+    s.lens = SURFACE_IN.lensAndBand.xy;
+    s.bandShift = SURFACE_IN.lensAndBand.z;
+#endif
+#ifdef TEXTURED
+    s.uv = SURFACE_IN.uv;
+#endif
+#ifdef BUMPED
+    s.tangent = SURFACE_IN.tangent;
+#endif
+#ifdef PASSES_OWN_BLUR
+    s.ownBlur = SURFACE_IN.ownBlur;
+#endif
+    return s;
+}

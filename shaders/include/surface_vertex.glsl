@@ -1,0 +1,36 @@
+// A vertex of a surface as one lens sample sees it. Each lens sample is an instance.
+
+#include "include/vertex.glsl"
+#include "include/layer_choice.glsl"
+#include "include/surface.glsl"
+#include "include/surface_output.glsl"
+
+layout(location = 6) in vec4 lensAndJitterIn;   // per instance
+layout(location = 7) in vec4 eyeAndDitherIn;    // per instance: lens point (m), dither offset, layer
+layout(location = 13) in vec3 momentIn;         // per instance, as in vertexAt()
+layout(location = 14) in float bandShiftIn;     // per instance
+// Colour range of the adjacent corners. Each channel is 256 · max + min, in units of 1/255.
+layout(location = 15) in vec4 colorRangeIn;
+
+Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndDitherIn.xy, 0.0)); }
+
+Surface surfaceOf(Vertex vertex, vec2 ownBlur) {
+    mat3 worldFromView = mat3(frame.worldFromView);
+    vec4 maximum = floor(colorRangeIn / 256.0);
+    Surface s;
+    s.color = vertexColors ? material.baseColor * colorIn : material.baseColor;
+    s.minColor = material.baseColor * ((colorRangeIn - 256.0 * maximum) / 255.0);
+    s.maxColor = material.baseColor * (maximum / 255.0);
+    s.normal = worldFromView * vertex.view.normal;
+    s.agreement = length(normalIn);
+    s.toEye = worldFromView * (vertex.eye - vertex.view.position);
+    s.position = worldFromView * vertex.view.position;
+    s.lens = lensAndJitterIn.xy;
+    s.bandShift = chromatic ? bandShiftIn : 0.0;
+    s.uv = vec4(uv0In, uv1In);
+    s.tangent = vec4(worldFromView * vertex.view.tangent, tangentIn.w);
+    s.ownBlur = ownBlur;
+    s.ditherOffset = eyeAndDitherIn.z;
+    s.layer = eyeAndDitherIn.w;
+    return s;
+}

@@ -1,0 +1,31 @@
+// Writes the varyings SURFACE_OUT.
+
+void writeSurface(Surface s) {
+    SURFACE_OUT.color = s.color;
+    SURFACE_OUT.ditherOffset = s.ditherOffset;
+    SURFACE_OUT.layer = s.layer;
+#ifdef COLOR_RANGES
+    SURFACE_OUT.minColor = s.minColor;
+    SURFACE_OUT.maxColor = s.maxColor;
+#endif
+#ifdef LIT
+    SURFACE_OUT.normal = s.normal;
+    SURFACE_OUT.toEye = s.toEye;
+#endif
+#ifdef COARSE_LEVEL
+    SURFACE_OUT.agreement = s.agreement;
+#endif
+#ifdef PLACED
+    SURFACE_OUT.position = s.position;
+    SURFACE_OUT.lensAndBand = vec3(s.lens, s.bandShift);
+#endif
+#ifdef TEXTURED
+    SURFACE_OUT.uv = s.uv;
+#endif
+#ifdef BUMPED
+    SURFACE_OUT.tangent = s.tangent;
+#endif
+#ifdef PASSES_OWN_BLUR
+    SURFACE_OUT.ownBlur = s.ownBlur;
+#endif
+}

@@ -1,0 +1,40 @@
+// A vertex of a mesh in view space, at rest or in a pose.
+
+layout(location = 0) in vec3 positionIn;
+layout(location = 1) in vec3 normalIn;
+layout(location = 2) in vec4 colorIn;
+layout(location = 3) in vec2 uv0In;
+layout(location = 4) in vec2 uv1In;
+layout(location = 5) in vec4 tangentIn;
+layout(location = 8) in vec3 blurIn;           // factor; added blur in mm on the sensor at shutter opening and closing
+
+struct Posed {
+    vec3 position;
+    vec3 normal;
+    vec3 tangent;
+};
+
+struct Vertex {
+    Posed view;     // in the view space of the middle of the exposure
+    vec3 eye;       // lens point (m) in the same space
+    vec3 pinhole;   // pinholePosition() in the view space of the vertex's own moment
+};
+
+#ifdef POSED
+#include "include/posing.glsl"
+#else
+Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
+    Posed view = Posed((object.viewFromObject * vec4(rest.position, 1.0)).xyz, mat3(object.normalMatrix) * rest.normal,
+                       mat3(object.viewFromObject) * rest.tangent);
+    return Vertex(view, eye, pinholePosition(view.position));
+}
+#endif
+
+// `moment`: shutter moment, fraction of the way to the next moment, time in [0, 1]. `eye`: lens point (m).
+Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
+
+// Returns the blur modifiers of the vertex at a time in [0, 1].
+vec2 vertexBlur(float time) {
+    if (!vertexBlurs) return vec2(object.values.w, 0.0);
+    return object.values.w * vec2(blurIn.x, frame.cocOther.y * mix(blurIn.y, blurIn.z, blurMoves ? time : 0.5));
+}

@@ -1,0 +1,25 @@
+// Kernel 1 of the lens-space methods: poses the vertices of a level for transform feedback, and outputs their shading
+// attributes.
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/vertex.glsl"
+
+layout(location = 0) uniform vec3 moment;   // as in vertexAt()
+
+layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // m from the camera along the world's axes
+layout(xfb_buffer = 0, xfb_offset = 16) out vec4 normalOut;    // in world axes; w: length in the mesh, the agreement
+layout(xfb_buffer = 0, xfb_offset = 32) out vec4 colorOut;
+layout(xfb_buffer = 0, xfb_offset = 48) out vec4 uvOut;        // both UV sets
+layout(xfb_buffer = 0, xfb_offset = 64) out vec4 tangentOut;
+
+void main() {
+    Posed view = vertexAt(moment, vec3(0.0)).view;
+    mat3 worldFromView = mat3(frame.worldFromView);
+    positionOut = vec4(worldFromView * view.position, 1.0);
+    normalOut = vec4(worldFromView * view.normal, length(normalIn));
+    colorOut = vertexColors ? colorIn : vec4(1.0);
+    uvOut = vec4(uv0In, uv1In);
+    tangentOut = vec4(worldFromView * view.tangent, tangentIn.w);
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,37 @@
+// Shades the records of one group. The including file defines lightOf().
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/environment.glsl"
+#include "lens_space/triangles.glsl"
+#include "lens_space/rays.glsl"
+#include "lens_space/records.glsl"
+#include "lens_space/groups.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 4) readonly buffer GroupBlock { Group groups[]; };
+layout(std430, binding = 5) readonly buffer ListBlock { uint list[]; };
+
+layout(location = 2) uniform uint group;
+layout(location = 3) uniform float lensRadius;   // m
+
+// Returns the light of a record's surface or of the sky, through a lens point to a position in the image.
+vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place);
+
+vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
+
+void main() {
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= groups[group].count) return;
+    uint at = list[groups[group].first + index];
+    Record record = records[at];
+    uint pixelCount = uint(imageSize.x * imageSize.y);
+    uint inImage = record.ray % pixelCount;
+    uvec2 pixel = uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
+    Ray ray = rayOf(record.ray / pixelCount, pixel);
+    vec2 place = placeOf(ray, pixel);
+    vec2 lens = lineSamples ? record.place * ray.lensAndPixel.xy : ray.lensAndPixel.xy;
+    vec4 light = lightOf(record, ray, lens, place) * record.weight;
+    records[at] = Record(floatBitsToUint(light.r), floatBitsToUint(light.g), light.b, light.a);
+}

@@ -1,0 +1,157 @@
+#include "gl/shader_constants.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct ShaderConstant {
+    std::string_view type;  // of GLSL
+    std::string_view name;
+    std::string_view standard;  // default
+    // Defined where the constant isn't the default, for the parts of a stage's interface that depend on it.
+    std::string_view macro = {};
+};
+
+// Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
+constexpr ShaderConstant constants[] = {
+    // Frame
+    {"int", "blockSamples", "64"},  // samples per block of the sum
+    {"int", "environmentType", "0"},
+    {"int", "backgroundType", "0"},
+    {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
+    {"float", "environmentLighting", "1.0"},  // scale of the environment's light on surfaces
+    {"int", "lightCount", "0"},
+    {"int", "maxLights", "1"},         // capacity of the lighting
+    {"bool", "usesOwnBlur", "false"},  // surfaces have blur modifiers
+    {"bool", "chromatic", "false"},
+    {"bool", "cocControls", "false"},
+    {"bool", "aberrations", "false"},
+    {"float", "catEye", "0.0"},
+    {"float", "layerLargest", "0.0"},  // max value of a layer; 0: no limit
+    {"bool", "startsBlock", "false"},
+
+    // Surfaces
+    {"bool", "lit", "false", "LIT"},
+    {"bool", "coarseLevel", "false", "COARSE_LEVEL"},
+    {"bool", "transmissive", "false", "TRANSMISSIVE"},
+    {"bool", "ownReflectance", "false"},
+    {"bool", "clearcoat", "false"},
+    {"bool", "sheen", "false"},
+    {"bool", "emissive", "false"},
+    {"bool", "localLights", "false"},
+    {"bool", "doubleSided", "false"},
+    {"bool", "alphaTested", "false"},
+    {"bool", "alphaBlended", "false"},
+    {"bool", "letsLightPass", "false"},  // a transmitting shadow caster
+    {"bool", "vertexColors", "false"},
+    {"bool", "colorRanges", "false", "COLOR_RANGES"},
+    {"bool", "levelColorRange", "false"},
+    {"bool", "uvTransforms", "false"},
+    {"int", "textureCount", "1"},
+    {"int[14]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
+    {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
+    {"bool", "coarseShare", "false"},  // draws only the pixels of a boundary sample that show the coarser level
+    {"bool", "fineShare", "false"},    // or the finer level
+
+    // Poses
+    {"bool", "moving", "false", "MOVING"},
+    {"bool", "cameraMoves", "false"},
+    {"int", "skinInfluences", "0"},
+    {"bool", "morphed", "false"},
+    {"int", "morphAttributes", "1"},
+    {"bool", "morphNormals", "false"},
+    {"bool", "morphTangents", "false"},
+    {"bool", "vertexBlurs", "false"},
+    {"bool", "blurMoves", "false"},
+
+    // Shadows
+    {"bool", "shadowed", "false", "SHADOWED"},
+    {"int", "shadowMapCount", "0"},
+    {"int", "shadowPoints", "0"},
+    {"int", "shadowSize", "0"},
+    {"float", "shadowError", "0.0"},
+    {"int[]", "shadowFirst", "int[](-1)"},
+    {"int[]", "shadowFaces", "int[](0)"},
+
+    // Lens cells
+    {"int", "cellsInFront", "0"},
+    {"int", "cellsBehind", "0"},
+    {"float", "minCellVariance", "0.0"},
+    {"bool", "nearestClass", "false"},
+
+    // Layered
+    {"bool", "blendedLayers", "false"},
+    {"bool", "finestExtents", "false"},
+    {"int", "extentLevels", "1"},
+
+    // Lens space
+    {"int", "tileSize", "1"},  // px; also of the circular method
+    {"int", "maxRays", "1"},   // per wave
+    {"uint", "rayVariants", "1u"},
+    {"bool", "countsOnly", "false"},
+    {"bool", "lightsVertices", "false"},
+    {"bool", "lineSamples", "false"},
+    {"int", "segmentCapacity", "1"},
+    {"int", "maxShadingPoints", "1"},
+
+    // Circular
+    {"int", "kernelSize", "1"},
+    {"int", "components", "1"},  // components of the kernel that a pass filters
+    {"vec2", "kernelAxes", "vec2(1.0)"},
+    {"bool", "bracketed", "false"},
+    {"float", "largestSum", "0.0"},
+    {"bool", "exactTaps", "false"},
+    {"bool", "tapSets", "false"},
+    {"bool", "ofChannels", "false"},
+    {"int", "reduction", "1"},  // factor per side; also of the method scheuermann
+    {"bool", "combinedFields", "false"},
+    {"bool", "nearPremultiplied", "false"},
+    {"bool", "biasByLuminance", "false"},
+
+    // Scheuermann
+    {"bool", "thinLens", "false"},
+    {"bool", "encodedColor", "false"},
+    {"int", "diskTaps", "1"},
+    {"int", "maxDiskTaps", "1"},
+    {"float", "smallPixel", "1.0"},
+    {"float", "smallRadiusScale", "1.0"},
+
+    // Display
+    {"bool", "compares", "false"},
+    {"bool", "overlays", "false"},
+    {"bool", "marks", "false"},
+};
+
+bool isMacro(const std::string& name) {
+    return std::ranges::none_of(name, [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+}  // namespace
+
+std::string shaderPreamble(const ShaderDefines& defines, const std::string& source) {
+    std::string macros;
+    for (const auto& [name, value] : defines) {
+        if (isMacro(name))
+            macros += fmt::format("#define {} {}\n", name, value);
+        else if (std::ranges::find(constants, name, &ShaderConstant::name) == std::end(constants))
+            fail("shaders: there is no constant '{}'", name);
+    }
+    std::string declarations;
+    for (const ShaderConstant& constant : constants) {
+        const auto set = std::ranges::find(defines, constant.name, &ShaderDefines::value_type::first);
+        const std::string_view value = set != defines.end() ? std::string_view(set->second) : constant.standard;
+        if (!constant.macro.empty() && value != constant.standard)
+            macros += fmt::format("#define {}\n", constant.macro);
+        // Compilers take about 5 µs for each declaration.
+        if (source.find(constant.name) == std::string::npos) continue;
+        declarations += fmt::format("const {} {} = {};\n", constant.type, constant.name, value);
+    }
+    return macros + declarations;
+}
+
+}  // namespace defocus::engine
