@@ -148,7 +148,7 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t count = static_cast<std::size_t>(max) + 1;
-    // These floats are never touched, so their pages take no memory.
+    // The memory of `count` floats is never touched, so its pages are never allocated.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }
     };

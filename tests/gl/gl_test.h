@@ -1,5 +1,5 @@
 #pragma once
-// Fixture of GL tests: one context per suite and a folder for shaders. A GL error that a test leaves behind fails it.
+// Fixture of GL tests: one context per suite and a folder for shaders. A test fails if it leaves a GL error behind.
 
 #include <gtest/gtest.h>
 

@@ -46,8 +46,9 @@ TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
 }
 
 TEST(Lens, focusBreathingIsTheThinLens) {
-    // A thin lens focused at s has the image distance i = f·s/(s − f), and tan(θx/2) is half the sensor's width over i.
-    // On the sensor, the CoC at depth z is A·|z − s|/z · i/s. In the image, it has W/horizontalAperture px per mm.
+    // A thin lens focused at s has the image distance i = f·s/(s − f), and tan(θx/2) is half the width of the sensor
+    // over i. On the sensor, the CoC at depth z is A·|z − s|/z · i/s. The image has W/horizontalAperture px per mm of
+    // the sensor.
     Lens lens;
     lens.focusBreathing = true;
     lens.focusDistance = 1;

@@ -219,8 +219,8 @@ TEST(Sequences, pixelOfSobolIsNearlyANet) {
         }
 }
 
-// Scrambling keeps Halton's intervals: the first bᵏ points have one coordinate of base b in each interval of length
-// b⁻ᵏ.
+// Scrambling keeps Halton's intervals: on the axis of base b, each interval of length b⁻ᵏ contains one of the first bᵏ
+// points.
 TEST(Sequences, scramblingHaltonKeepsItsIntervals) {
     for (const std::uint32_t seed : {0u, 5u}) {
         std::array<int, 64> columns{};

@@ -166,8 +166,8 @@ struct DollyStep {
 
 constexpr double dollyRadius = 0.2;  // radius of the sphere, m
 
-// Returns the λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the distance by
-// `ratio`.
+// Returns the distance and λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the
+// distance by `ratio`.
 std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
     std::vector<DollyStep> steps;

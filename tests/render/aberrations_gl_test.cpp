@@ -37,7 +37,7 @@ RenderSettings fullDetail(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // a pinhole image, too, draws all samples
+    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
     return settings;
 }
 
@@ -85,7 +85,7 @@ constexpr double ownVariance = 5.0 / 12;
 // is brighter: there, the point is the image of an area smaller by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
-    constexpr double share = 0.05;  // A
+    constexpr double share = 0.05;  // A, relative to half the image's width
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
@@ -106,7 +106,7 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
 // a ray is B·m·(3u² + v²) along m and 2·B·m·u·v across m. Over the disk, its mean is B·m, and its variances are B²·m²/2
 // and B²·m²/6. Rays of the rim enlarge the point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
-    for (const double share : {0.03, -0.03}) {  // B
+    for (const double share : {0.03, -0.03}) {  // B, relative to half the image's width
         const glm::dvec2 place(134, 60);
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
@@ -121,8 +121,8 @@ TEST_F(Aberrations, comaMakesComets) {
 }
 
 // Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
-// along the line and c²/16 across it. An astigmatic lens has two foci: at one depth, a point becomes a line across the
-// other axis.
+// along the line and c²/16 across it. An astigmatic lens has two foci: at the depth where c = −L, a point becomes a
+// line across the first one.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);

@@ -32,7 +32,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // a pinhole image, too, draws all samples
+    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 

@@ -100,7 +100,7 @@ TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
             const LensRay behind = refractedRay(camera, image, eye);
             const glm::dvec2 axis(image.x * tangent, image.y * tangent * 120 / 200);
             for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
-                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // px, > 0 in front
+                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // blur in px, > 0 in front
                 const double shift = tangent * std::min(plain, 7.0) / 200;          // lateral offset per m of depth
                 const LensRay& ray = z < camera.lensDepth ? eye : behind;
                 const double along = z + ray.origin.z;

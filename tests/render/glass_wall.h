@@ -15,7 +15,7 @@ protected:
         return result;
     }
 
-    // Returns glass that reflects nothing and transmits `tint`.
+    // Returns glass that reflects nothing and colours transmitted light by `tint`.
     static Material clear(const glm::vec3& tint = glm::vec3(1)) {
         Material result = glass();
         result.baseColorFactor = glm::vec4(tint, 1);

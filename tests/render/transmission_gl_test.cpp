@@ -82,7 +82,8 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     EXPECT_GT(compared, 200);
 }
 
-// Panes behind each other, with an alpha-blended surface in between, are all visible, whatever their order in the file.
+// Panes behind each other, with an alpha-blended surface in between, are all visible, independent of their order in the
+// file.
 TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     for (const bool nearestFirst : {false, true}) {
         const auto small = litWall(clear({1, 0.5f, 1}));

@@ -49,7 +49,7 @@ protected:
         return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     }
 
-    // Returns the px per millimetre on the sensor.
+    // Returns the number of pixels per millimetre of the sensor.
     static double perMillimetre(const SmallWorld& small) {
         return small.view.width / small.view.lens.horizontalAperture;
     }

@@ -19,7 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-// A renderer that returns an image of one colour and claims any number of samples.
+// A renderer that returns an image of one colour and claims to have drawn any number of samples.
 class Pretender final : public Renderer {
 public:
     explicit Pretender(float colour, std::uint32_t claimed, int width = 64) : image_(width, 48, 4), claimed_(claimed) {
@@ -246,7 +246,8 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     EXPECT_EQ(namesLeftOut(), "unshaded ");
 }
 
-// A method draws motion exactly if it claims to: its image changes if the spheres move by 0.2 m during the exposure.
+// A method's image changes with spheres that move by 0.2 m during the exposure if and only if the method claims to draw
+// motion.
 TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

@@ -24,6 +24,8 @@ namespace {
 
 // ---- Pareto front ---------------------------------------------------------------------------------------------------
 
+// The Pareto front of these trials is a, b, d and e.
+//
 // error
 //  4 | a
 //  3 |   b   c

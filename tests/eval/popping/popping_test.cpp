@@ -125,7 +125,8 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
 // ---- pixels of the objects
 // -------------------------------------------------------------------------------------------
 
-// A pixel of an object with a blur of 6 px marks the pixels within 3 px as the objects'. The background marks none.
+// A pixel of an object with a blur of 6 px marks the pixels within 3 px as pixels of objects. The background marks
+// none.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);

@@ -24,7 +24,8 @@ GrownClusters grow(const Soup& soup) {
     return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, max);
 }
 
-// Returns a sheet of n × n unit squares with its rows along x. The half beyond x = n/2 is folded up by 90°.
+// Returns a sheet of n × n unit squares. The half with x ≤ n/2 lies in the plane z = 0, and the rest is folded up by
+// 90°.
 Soup foldedSheet(std::uint32_t n) {
     Soup sheet;
     for (std::uint32_t y = 0; y <= n; ++y)
@@ -65,8 +66,8 @@ std::vector<glm::vec3> clusterPoints(const Soup& soup, const GrownClusters& grow
     return points;
 }
 
-// Fans of 300,000 triangles around one vertex are clustered in reasonable time, since the search examines a bounded
-// number of triangles per vertex. Without that bound, the test would take minutes.
+// 300,000 triangles around one vertex are clustered in reasonable time, since the search examines a bounded number of
+// triangles per vertex. Without that bound, the test would take minutes.
 TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
     Soup fan;
     Soup point;

@@ -71,7 +71,7 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// Stored errors are at least 0.9 of the result of a far denser measurement. Their median is at most 1.3 of it.
+// Stored errors are at least 0.9 of the result of a far denser measurement, and the median ratio is below 1.3.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();
@@ -142,7 +142,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // At each end, the outline shrinks by no more than the stored error.
+    // The outline shrinks at each end by no more than the stored error.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

@@ -126,7 +126,7 @@ TEST(SurfaceDistance, ShiftedTriangle) {
     // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt over the area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
-    // The backward distance of the corner (4, 0) is 1, from the corner (3, 0). The line x + y = 3 would be nearer only
+    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The line x + y = 3 is nearer only
     // beyond its end.
     EXPECT_LE(d.backward.maximum, 1);
     EXPECT_NEAR(d.backward.maximum, 1, 0.06);

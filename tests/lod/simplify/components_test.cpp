@@ -124,7 +124,7 @@ TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
 }
 
 TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
-    // Of parts of equal size, each quarter of the unit square keeps a quarter.
+    // Each quarter of the unit square keeps a quarter of the parts, which are of equal size.
     const Mesh mesh = tetrahedra(2048, [](std::uint32_t) { return 0.004f; });
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

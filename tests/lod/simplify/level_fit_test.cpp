@@ -108,8 +108,8 @@ TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     EXPECT_NEAR(fitted.colors[{0}].a, 1, 1e-5f);
 }
 
-// Fitted colours may be negative, so that a triangle keeps its mean colour. The surface is dark except at one corner,
-// the best linear fit is below 0 at the opposite side, and clamping it would brighten the triangle.
+// Fitted colours may be negative, so that a triangle keeps its mean colour. The surface is dark except at one corner.
+// The best linear fit is below 0 on the opposite side, and clamping the fit would brighten the triangle.
 TEST(LevelFit, coloursOvershootRatherThanBrighten) {
     OneTriangle t = oneTriangle();
     double mean = 0;

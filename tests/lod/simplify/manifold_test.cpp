@@ -43,6 +43,8 @@ TEST(Manifold, TetrahedronIsClosed) {
     EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
+// The two triangles of a square share the diagonal.
+//
 // 3---2
 // | / |
 // 0---1

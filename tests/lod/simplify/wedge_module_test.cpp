@@ -8,11 +8,13 @@
 namespace defocus::engine {
 namespace {
 
-//  6---7---8
-//  | / | / |
-//  3---4---5   one chart
-//  | / | / |
-//  0---1---2
+// Returns a grid of 2 × 2 quads that form one chart.
+//
+// 6---7---8
+// | / | / |
+// 3---4---5
+// | / | / |
+// 0---1---2
 Vertices grid() {
     Vertices vertices;
     for (int v = 0; v < 9; ++v) {
@@ -25,11 +27,11 @@ Vertices grid() {
 // The positions of grid(), but the right column of quads has its own vertices where both columns meet. Its uv are
 // shifted by `jump` cells.
 //
-// 6---7 11---8
-// | / |  | / |
-// 3---4 10---5
-// | / |  | / |
-// 0---1 9----2
+//   6---7 11---8
+//   | / |  | / |
+//   3---4 10---5
+//   | / |  | / |
+//   0---1 9----2
 Vertices tornGrid(float jump) {
     Vertices vertices = grid();
     for (const std::size_t v : {1u, 4u, 7u}) {
@@ -89,8 +91,8 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
     EXPECT_EQ(wedges.collapse_priority(CollapseInfo(surface.mesh(), surface.edge(4, 1))), 0);
 }
 
-// Where a crease begins, corners take the surviving vertex with the most similar normal. The crease runs upwards from
-// vertex 4, where the right column has other normals; below it, vertex 1 has a single normal.
+// At the lower end of a crease, corners take the surviving vertex with the most similar normal. The crease runs upwards
+// from vertex 4, where the right column has other normals; below it, vertex 1 has a single normal.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
         Vertices vertices = tornGrid(0);

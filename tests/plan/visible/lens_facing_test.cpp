@@ -42,8 +42,8 @@ double sheared(const LensTriangle& triangle, double u, double v) {
     return glm::dot(q[0], glm::cross(q[1], q[2]));
 }
 
-// Returns the determinant's max over the lens, by sampling. It lies on the rim because the determinant is linear over
-// the lens.
+// Returns the determinant's max over the lens, by sampling. The max lies on the rim because the determinant is linear
+// over the lens.
 double sampledLargest(const LensTriangle& triangle, double radius) {
     double largest = sheared(triangle, 0, 0);
     constexpr int points = 720;

@@ -215,7 +215,7 @@ TEST_F(Accumulation, environmentMapOfOneColourIsTheUniformEnvironment) {
     EXPECT_LT(largestDifference(mapped, rendered(*small, settingsFor(8))), 5e-3);
 }
 
-// Adds a lamp and a spotlight to the sun.
+// Adds a lamp and a spotlight to the world's lights.
 void addLocalLights(SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;

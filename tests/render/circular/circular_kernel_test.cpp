@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // F(1) = e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the factor F(1) is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
@@ -136,7 +136,7 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// The kernels are no farther from a disk than Niemitalo's, each of which is compared at its best extent and disk
+// The fitted kernels are no farther from a disk than Niemitalo's, each of which is compared at its best extent and disk
 // radius.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
@@ -224,8 +224,8 @@ TEST(CircularKernel, noSmallChangeComesCloser) {
 
 // ---- separable passes, tap by tap -------------------------------------------------------------------------------
 
-constexpr int blurRadius = 40;  // px
-constexpr int side = 100;       // px
+constexpr int blurRadius = 40;  // radius of the disk, px
+constexpr int side = 100;       // side of the image, px
 using Field = std::vector<std::complex<double>>;
 
 std::size_t at(int x, int y) {

@@ -112,8 +112,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 50);
 }
 
-// Expects every ray through the grid to meet a triangle, whatever the triangle's position in the tile's list. A lost
-// triangle would leave a hole.
+// Expects every ray through the grid to meet a triangle, independent of the triangle's position in the tile's list. A
+// lost triangle would leave a hole.
 void expectWholeGrid(const Image& image) {
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {

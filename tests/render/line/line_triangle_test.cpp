@@ -26,7 +26,7 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
     }
     const double determinant = glm::determinant(matrix);
     if (std::abs(determinant) < 1e-9) return {};
-    const glm::dvec3 weights = glm::inverse(matrix) * glm::dvec3(line.place, 1);  // weights for w = 1
+    const glm::dvec3 weights = glm::inverse(matrix) * glm::dvec3(line.place, 1);  // corner weights for w = 1
     const double w = 1 / (weights.x + weights.y + weights.z);
     const glm::dvec3 barycentric = w * weights;
     const double margin = 1e-6;

@@ -39,7 +39,7 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
     const double h = 0.3;  // u > h is a segment of the circle
     double halfPlane = 0, offCentreDisk = 0;
-    const double distance = 0.45, radius = 0.35;  // of a disk that does not contain the centre
+    const double distance = 0.45, radius = 0.35;  // a disk beside the centre
     for (int i = 0; i < lines; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// An object of a list from front to back. Its blur is in px.
+// An object with its blur in px. Objects are listed from front to back.
 struct Flat {
     double blur = 0;
     bool blended = true;
