@@ -71,7 +71,7 @@ TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
     }
 }
 
-// Each vertex draws a pixel: x is the vertex's `place`, y the instance.
+// Vertex shader in which each vertex draws one pixel: its column is `place`.x, its row the instance.
 constexpr const char* pixelOfVertex = R"(
 layout(location = 2) in vec2 place;
 layout(location = 5) in float shade;
@@ -102,7 +102,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     array.bind(5, shadeBuffer, 0, 1);
     array.attribute(6, 1, GL_FLOAT, false, true);
     array.bind(6, stepBuffer, 0, sizeof(float));
-    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // vertex 2 is skipped
+    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // no index refers to vertex 2
     const Buffer indexBuffer = Buffer::of(std::span<const std::uint16_t>(used));
     array.indices(indexBuffer);
 
@@ -148,7 +148,7 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t count = static_cast<std::size_t>(max) + 1;
-    // Untouched pages take no memory.
+    // The memory of `count` floats is never touched, so its pages are never allocated.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }
     };

@@ -1,4 +1,4 @@
-// Free device memory by the texts of the two OpenGL extensions. Both drivers answer in KiB.
+// Tests of the free device memory that extensions of NVIDIA and AMD report in KiB.
 
 #include "gl/device_memory.h"
 

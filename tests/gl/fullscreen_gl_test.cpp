@@ -6,7 +6,7 @@ namespace {
 
 using FullscreenPass = GlTest;
 
-// A pass covers each pixel once: adding one leaves exactly one, also on the diagonal between two triangles.
+// A full-screen pass covers each pixel exactly once: additive blending onto 0 gives the drawn colour everywhere.
 TEST_F(FullscreenPass, addsOnceToEachPixel) {
     const GlTexture texture({.format = TextureFormat::rgba32f, .width = 33, .height = 21});
     const Target target({&texture});
@@ -20,11 +20,11 @@ TEST_F(FullscreenPass, addsOnceToEachPixel) {
     fullscreen.drawAdding(one);
     const Image twice = readBack(texture, 4);
     for (int c = 0; c < 4; ++c) EXPECT_EQ(twice.at(32, 20)[c], 2 * (c == 3 ? 0.5f : static_cast<float>(c + 1)));
-    fullscreen.draw(one);  // replaces instead of adding
+    fullscreen.draw(one);  // without blending, the colour is replaced
     for (const float value : readBack(texture, 1).pixels) ASSERT_EQ(value, 1);
 }
 
-// A pass ignores state that earlier passes left enabled.
+// A full-screen pass draws every pixel even if depth test, culling and blending are still enabled from earlier passes.
 TEST_F(FullscreenPass, ignoresDepthCullingAndBlending) {
     const GlTexture color({.format = TextureFormat::rgba32f, .width = 4, .height = 4});
     const GlTexture depth({.format = TextureFormat::depth32f, .width = 4, .height = 4});

@@ -1,5 +1,5 @@
 #pragma once
-// A test with its suite's context, and shaders that the test writes. Fails if a test leaves a GL error behind.
+// Fixture of GL tests: one context per suite and a folder for shaders. A test fails if it leaves a GL error behind.
 
 #include <gtest/gtest.h>
 
@@ -28,17 +28,17 @@ protected:
         std::filesystem::create_directories((folder_ / path).parent_path());
         std::ofstream(folder_ / path) << text;
     }
-    // Links shaders that the test wrote or that are embedded.
+    // Returns the program of shaders that are embedded or that the test wrote.
     [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
         return Program({std::move(shaders), std::move(defines), folder_.path()});
     }
-    // Program that covers the entire target; `body` assigns `value`, a vec4.
+    // Returns a program that draws the entire target. The fragment code `body` assigns the vec4 `value`.
     [[nodiscard]] Program fragmentProgram(const std::string& declarations, const std::string& body) const {
         writeShader("test.frag",
                     "layout(location = 0) out vec4 value;\n" + declarations + "\nvoid main() {\n" + body + "\n}\n");
         return program({fullscreenShader, "test.frag"});
     }
-    // Returns the result of `program` at each pixel of a float target.
+    // Returns the values that `program` writes to a float target of the given size.
     [[nodiscard]] static Image computed(const Program& program, int width, int height) {
         const GlTexture texture({.format = TextureFormat::rgba32f, .width = width, .height = height});
         const Target target({&texture});
@@ -46,7 +46,7 @@ protected:
         Fullscreen().draw(program);
         return readBack(texture, 4);
     }
-    // Returns the texels of a level as a shader fetches them.
+    // Returns the texels of a mip level as a shader fetches them.
     [[nodiscard]] Image fetched(const GlTexture& texture, int level = 0) const {
         const Program fetch =
             fragmentProgram("layout(binding = 0) uniform sampler2D source;",

@@ -24,7 +24,7 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// Returns whether a compiler message points at `line`. Mesa writes 0:7(12), NVIDIA 0(7).
+// Returns whether a compiler message refers to `line`. For line 7, Mesa writes 0:7(12) and NVIDIA 0(7).
 bool pointsAtLine(const std::string& fault, int line) {
     const std::string number = std::to_string(line);
     return says(fault, "0:" + number + "(") || says(fault, "0(" + number + ")");
@@ -72,7 +72,7 @@ TEST_F(GlProgram, includesStandWhereTheyAreNamedEachTime) {
 
 TEST_F(GlProgram, theFoldersShaderReplacesTheEmbeddedOne) {
     writeShader("replaced.frag", "out vec4 value;\nvoid main() { value = vec4(1); }\n");
-    // outside the view: draws nothing
+    // A position outside the clip volume replaces the embedded full-screen shader, so nothing is drawn.
     writeShader(fullscreenShader, "void main() { gl_Position = vec4(2, 2, 0, 1); }\n");
     const Program nothing = program({fullscreenShader, "replaced.frag"});
     const GlTexture texture({.width = 1, .height = 1});
@@ -96,7 +96,7 @@ TEST_F(GlProgram, compileErrorsNameStageFileAndItsOwnLine) {
     EXPECT_TRUE(says(fault, "nowhere")) << fault;
     EXPECT_TRUE(pointsAtLine(fault, 4)) << fault;
     EXPECT_EQ(std::ranges::count(fault, '\n'), 0) << fault;
-    // In an included file, lines are counted within that file.
+    // Errors in an included file are reported with that file's own line numbers.
     writeShader("parts/long.glsl", "\n\nfloat here = elsewhere;\n");
     const std::string inside = faultOf({fullscreenShader, "broken.frag"});
     EXPECT_TRUE(says(inside, "elsewhere") && pointsAtLine(inside, 3)) << inside;

@@ -6,7 +6,7 @@ namespace {
 
 using ReadBack = GlTest;
 
-// OpenGL's bottom left pixel is the first pixel of the last row.
+// The first row of an image is the top row, which is the last row in OpenGL.
 TEST_F(ReadBack, rowZeroIsTheTop) {
     const Image image = computed(fragmentProgram("", "value = vec4(gl_FragCoord.xy, 2.0, 3.0);"), 5, 7);
     for (int y = 0; y < 7; ++y)

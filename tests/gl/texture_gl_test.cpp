@@ -12,7 +12,7 @@ namespace {
 
 using GlTextureTest = GlTest;
 
-// Decodes sRGB (IEC 61966-2-1).
+// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1).
 double linearOf(double code) {
     const double encoded = code / 255;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -34,7 +34,8 @@ TEST_F(GlTextureTest, bytesAreSharesOf255) {
     for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_NEAR(image.pixels[i], bytes[i] / 255.0, 1e-6) << i;
 }
 
-// Colours are decoded, alpha is not. The tolerance is half a step between codes, as drivers decode by polynomials.
+// sRGB textures decode colours but not alpha. The tolerance is half a step between codes, since drivers decode by
+// polynomials.
 TEST_F(GlTextureTest, sRgbCodesAreDecodedAndAlphaIsNot) {
     GlTexture texture({.format = TextureFormat::srgb8Alpha8, .width = 256, .height = 1});
     const std::vector<std::uint8_t> bytes = allCodes();
@@ -57,7 +58,7 @@ TEST_F(GlTextureTest, floatsKeepTheirValueAndHalvesTenBits) {
         texture.upload(0, 2, 1, values.data());
         const Image image = fetched(texture);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;  // drivers may truncate
+            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;  // some drivers truncate
             EXPECT_NEAR(image.pixels[i], values[i], relative * std::abs(values[i])) << i;
         }
     }
@@ -104,7 +105,7 @@ TEST_F(GlTextureTest, mipmapsAreMeans) {
     const Image first = fetched(texture, 1);
     for (int y = 0; y < size / 2; ++y)
         for (int x = 0; x < size / 2; ++x) {
-            const int row = size / 2 - 1 - y;  // row of the texture: images start at the top
+            const int row = size / 2 - 1 - y;  // texture rows start at the bottom, image rows at the top
             double mean = 0;
             for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
                 mean += 0.25 *
@@ -115,14 +116,14 @@ TEST_F(GlTextureTest, mipmapsAreMeans) {
     EXPECT_NEAR(last.at(0, 0)[0], sum / (size * size), 1e-4);
 }
 
-// A texture of a red and a green texel, nearest filter: the texel for coordinates beyond [0, 1].
+// Wrap modes fold coordinates outside [0, 1] back into a texture, here of a red and a green texel.
 TEST_F(GlTextureTest, wrapModesFoldTheCoordinates) {
     GlTexture texture({.format = TextureFormat::rgba32f, .width = 2, .height = 1});
     const std::array<float, 8> values = {1, 0, 0, 1, 0, 1, 0, 1};
     texture.upload(0, 2, 1, values.data());
     const Program sample = fragmentProgram("layout(binding = 0) uniform sampler2D source;",
                                            "value = texture(source, vec2(gl_FragCoord.x * 0.5 - 1.0, 0.5));");
-    // Texels at u = −0.75, −0.25, 0.25, 0.75, 1.25, 1.75.
+    // Returns the colours of the samples at u = −0.75, −0.25, 0.25, 0.75, 1.25 and 1.75 as letters r and g.
     const auto letters = [&](GLenum wrap) {
         texture.sampling(GL_NEAREST, GL_NEAREST, wrap, GL_CLAMP_TO_EDGE);
         texture.attach(0);
@@ -188,7 +189,7 @@ TEST_F(GlTextureTest, beyondMemoryIsAnError) {
     GLint limit = 0, layers = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    EXPECT_THROW(GlTexture({.width = limit, .height = limit, .layers = layers}), Error);  // 2 TB and more
+    EXPECT_THROW(GlTexture({.width = limit, .height = limit, .layers = layers}), Error);  // at least 2 TB
     while (glGetError() != GL_NO_ERROR) {
     }
 }

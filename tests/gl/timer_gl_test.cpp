@@ -8,7 +8,7 @@ namespace {
 
 using Timer = GlTest;
 
-// Runs a span of at least `milliseconds` by any clock. A slow machine only makes it longer.
+// Times a span of at least `milliseconds` of wall time; on a slow machine the span is longer.
 void spanOf(GpuTimer& timer, double milliseconds) {
     using Clock = std::chrono::steady_clock;
     timer.begin();
@@ -30,7 +30,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     GpuTimer timer;
     spanOf(timer, 8);
     const double first = timer.milliseconds();
-    EXPECT_GE(first, 4);  // half, as clocks differ
+    EXPECT_GE(first, 4);  // half of the 8 ms, since GPU and CPU clocks differ
     EXPECT_EQ(timer.milliseconds(), first) << "reading adds no time";
     spanOf(timer, 8);
     spanOf(timer, 8);
@@ -38,11 +38,11 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     timer.reset();
     EXPECT_EQ(timer.milliseconds(), 0);
     spanOf(timer, 1);
-    timer.reset();  // also discards a span that was not read
+    timer.reset();  // also discards spans that were not read
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 
-// A span excludes the time between its parts; a span around all parts includes it.
+// A timer excludes the time between its spans. A timer around all of the spans includes that time.
 TEST_F(Timer, leavesOutWhatLiesBetween) {
     GpuTimer all, two, between;
     all.begin();

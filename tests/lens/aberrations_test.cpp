@@ -46,8 +46,9 @@ TEST(Aberrations, areTheGradientOfTheWavefront) {
     }
 }
 
-// At the right edge of an image 36 mm wide, astigmatism gives a line and coma a comet of the stated lengths. Rays of
-// one circle on the lens form a circle at twice the angle, within the comet's angle of 60°.
+// At the right edge of an image 36 mm wide, astigmatism turns a point into a line and coma into a comet, each as long
+// as stated in mm. Coma maps a circle on the lens to a circle that is traversed twice, and all of these circles lie
+// within an angle of 60°.
 TEST(Aberrations, areAsLongOnTheSensorAsTheySay) {
     const ClipCircleOfConfusion line = aberratedLens(0.9, 0);
     const double length = aberration(line, {1, 0}, {1, 0}).x - aberration(line, {1, 0}, {-1, 0}).x;
@@ -78,7 +79,8 @@ TEST(Aberrations, reachHoldsEveryRayAndIsReached) {
     }
 }
 
-// The range of blur contains every ray's deviation; culling, levels and rates rely on it.
+// The max blur over a box bounds the deviation of every ray, aberrations included. Culling, level selection and shading
+// rates rely on this bound.
 TEST(Aberrations, widenTheRangeOfTheBlur) {
     const ClipCircleOfConfusion coc = aberratedLens(0.8, 0.6);
     const CocBox box{.zNear = 1.5, .zFar = 3, .ndcMin = {-0.2, 0.1}, .ndcMax = {0.9, 0.8}};

@@ -15,9 +15,9 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int gridSize = 700;  // cells per side of the square: 490,000 points
+constexpr int gridSize = 700;  // cells per side of the unit square: 490,000 points in total
 
-// Returns the centres of the square's cells, mapped to the lens.
+// Returns the centres of the unit square's cells, mapped to the lens.
 std::vector<glm::dvec2> mapped(const Lens& lens) {
     const Aperture aperture = makeAperture(lens);
     std::vector<glm::dvec2> points;
@@ -27,14 +27,14 @@ std::vector<glm::dvec2> mapped(const Lens& lens) {
     return points;
 }
 
-constexpr int cellCount = 24;  // per side, over [−1, 1]²
+constexpr int cellCount = 24;  // cells per side of [−1, 1]²
 
 std::size_t cellOf(const glm::dvec2& p) {
     const auto index = [](double c) { return std::clamp(static_cast<int>((c + 1) / 2 * cellCount), 0, cellCount - 1); };
     return static_cast<std::size_t>(index(p.y) * cellCount + index(p.x));
 }
 
-// Returns each cell's share of the light, from `light` at 40 × 40 points per cell.
+// Returns each cell's share of the total light. `light` is evaluated at 40 × 40 points per cell.
 template <typename Light>
 std::vector<double> expectedShares(const Light& light) {
     constexpr int fine = 40 * cellCount;
@@ -57,7 +57,7 @@ std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
     return shares;
 }
 
-// Returns the share of light in the wrong cell: half the sum of all cells' differences.
+// Returns the share of light that lies in the wrong cell: half the sum of the absolute differences of all cells.
 double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / 2;
@@ -71,7 +71,7 @@ TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const std::vector<glm::dvec2> points = mapped(lens);
     const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
-    // The bound distinguishes shapes: slightly different ones exceed it.
+    // The bound above distinguishes shapes: a slightly different shape exceeds it.
     Lens other = lens;
     other.bladeRotation += 0.1;
     other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);
@@ -84,7 +84,7 @@ TEST_P(ApertureOf, liesInTheUnitDisk) {
     double farthest = 0;
     for (const glm::dvec2& p : mapped(GetParam().lens())) farthest = std::max(farthest, glm::length(p));
     EXPECT_LE(farthest, 1 + 1e-12);
-    EXPECT_GT(farthest, 0.95);  // a polygon reaches the rim with its corners
+    EXPECT_GT(farthest, 0.95);  // a polygon's corners lie on the rim
 }
 
 TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
@@ -96,7 +96,7 @@ TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
         EXPECT_GT(fromCentre, 0.3 * lens.obstruction);
 }
 
-// The square's diagonals meet in the centre, where a ring is cut open. Elsewhere, neighbours stay neighbours.
+// The concentric map from the square to the disk and its inverse cancel, also on the square's diagonals and centre.
 TEST(ConcentricDisk, isUndoneByItsInverse) {
     for (int y = 0; y <= 16; ++y)
         for (int x = 0; x <= 16; ++x) {
@@ -119,13 +119,13 @@ TEST_P(ApertureOf, isContinuous) {
             for (const glm::dvec2& move : {glm::dvec2(step, 0), glm::dvec2(0, step)})
                 farthest = std::max(farthest, glm::length(apertureSample(aperture, glm::dvec2(x, y) + move) - here));
         }
-    EXPECT_LT(farthest, 300 * step);  // allows for √ at the rim of a soft disk and around a ring's centre
+    EXPECT_LT(farthest, 300 * step);  // allows for the steep √ at a soft disk's rim and a ring's centre
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ApertureOf, testing::ValuesIn(apertureShapes),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// ---- images
+// ---- aperture images
 
 Lens lensWith(Image image) {
     Lens lens;
@@ -157,7 +157,7 @@ TEST(ApertureImage, whiteOneIsADisk) {
 
 TEST(ApertureImage, colourPassesByItsLuminance) {
     Image image(2, 1, 3);
-    image.pixels = {1, 0, 0, 0, 1, 0};  // red, green
+    image.pixels = {1, 0, 0, 0, 1, 0};  // a red pixel, then a green one
     double right = 0;
     for (const glm::dvec2& p : mapped(lensWith(image))) right += p.x > 0 ? 1.0 / (gridSize * gridSize) : 0;
     EXPECT_NEAR(right, 0.7152 / (0.7152 + 0.2126), 0.005);
@@ -177,8 +177,8 @@ TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
 }
 
 TEST(ApertureImage, goodPointsStayWellSpread) {
-    // An even 16 × 16 grid is mapped through the image of a disk. The map keeps cells of the square connected, so half
-    // of the points lie right of the centre.
+    // A white aperture image keeps an even 16 × 16 grid evenly spread: half of the points lie on either side of the
+    // centre.
     Image white(64, 64, 1);
     std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
     const Aperture aperture = makeAperture(lensWith(white));
@@ -205,7 +205,7 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
     };
     Image image(8, 8, 1);
     EXPECT_NE(message(image).find("black"), std::string::npos);
-    *image.at(0, 0) = 1;  // outside the disk
+    *image.at(0, 0) = 1;  // the only bright pixel lies outside the disk
     EXPECT_NE(message(image).find("black"), std::string::npos);
     *image.at(3, 5) = -1;
     EXPECT_NE(message(image).find("-1 at pixel 3,5"), std::string::npos);

@@ -1,4 +1,4 @@
-// The lens of a file's camera: the field of view is the camera's, and its sensor or focal length gives the rest.
+// Tests of the lens of a file's camera, which keeps the camera's field of view and takes its sensor and focal length.
 #include "lens/camera_lens.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// A camera of 50 mm on 36 x 24 mm, fitted vertically.
+// Returns a camera with a focal length of 50 mm and a sensor of 36 × 24 mm; the vertical field of view fits the sensor.
 Camera physicalCamera() {
     Camera camera;
     camera.yfov = 2 * std::atan(24.0 / (2 * 50));

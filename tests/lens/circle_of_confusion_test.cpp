@@ -20,7 +20,7 @@ Lens lensAt(double focusDistance) {
     return lens;
 }
 
-// Returns a lens with random controls, many at once.
+// Returns a lens with a random subset of the blur controls.
 Lens anyLens(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     Lens lens = lensAt(0.5 + 4 * unit(random));
@@ -40,7 +40,8 @@ double random(std::mt19937& source, double min, double max) {
     return std::uniform_real_distribution<double>(min, max)(source);
 }
 
-// Munkberg et al. 2012, Eq. 1 and 2 with inverted signs: the kink lies at w = −a/(b + R), and C is unchanged behind it.
+// For C = a/w + b, a foreground limit R clamps C at all depths w ≤ −a/(b + R), and C is unchanged at larger depths
+// (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
 TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
@@ -65,7 +66,8 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
-// The range in focus is sharp, and the near and the far blur are preserved (Munkberg et al. 2012).
+// A focus range is sharp from end to end. Blur close to the lens is preserved, and so is blur at infinity unless the
+// range refocuses (Munkberg et al. 2012).
 TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
@@ -76,17 +78,17 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         lens.focusRangeRefocuses = refocuses;
         const ClipCircleOfConfusion range = clipCircleOfConfusion(lens, 1000, 750);
         for (const double z : {1.5, 1.7, 2.0, 4.0, 5.0}) EXPECT_NEAR(circleOfConfusion(range, z, 1000), 0, 1e-9);
-        // The blur grows continuously from both ends of the range.
+        // The blur is continuous at both ends of the range.
         EXPECT_NEAR(circleOfConfusion(range, 1.5 * (1 - 1e-9), 1000), 0, 1e-5);
         EXPECT_NEAR(circleOfConfusion(range, 5 * (1 + 1e-9), 1000), 0, 1e-5);
         EXPECT_LT(circleOfConfusion(range, 1.4, 1000), -1);
         EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
-        // Near the lens, |C| depends only on the aperture.
+        // Close to the lens, the focus range leaves C unchanged.
         EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
-        // Far away, C is unchanged, or that of a focus at 5 m.
+        // At infinity, the focus range leaves C unchanged. If the range refocuses, C is that of a lens focused at 5 m.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
-        // Between, C is A·W/(2 tan)·(1/s)·(1 − 5/z), or ·(1/5 − 1/z).
+        // At 8 m, C is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if the range refocuses.
         const double atInfinity = circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
                     refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);
@@ -101,7 +103,7 @@ TEST(CircleOfConfusion, tiltedPlaneIsInFocus) {
     const double tanX = tanHalfHorizontalFov(lens);
     for (const double x : {-0.5, 0.0, 0.8})
         for (const double y : {-0.6, 0.3}) {
-            const double z = 3 - std::tan(-0.4) * x - std::tan(0.7) * y;  // m, view space
+            const double z = 3 - std::tan(-0.4) * x - std::tan(0.7) * y;  // depth of the focus plane in view space, m
             const glm::dvec2 ndc(x / (z * tanX), y / (z * tanX) * 1.5);
             EXPECT_NEAR(circleOfConfusion(coc, z, 1200, ndc), 0, 1e-9);
         }
@@ -117,7 +119,7 @@ TEST(CircleOfConfusion, curvedFocusSurfaceIsWhereDesignSays) {
     }
 }
 
-// The range of C over a box contains every point of the box; level selection and culling rely on it.
+// The range of C over a box contains C at every point of the box. Level selection and culling rely on this range.
 TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     std::mt19937 source(7);
     for (int trial = 0; trial < 400; ++trial) {
@@ -147,8 +149,8 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// A triangle is cut at the near plane. Between the cut and a vertex no farther than the kink, the interpolated |C/w|
-// stays within the limit (Munkberg et al. 2012, 4.1).
+// A foreground limit holds for interpolated |C/w| from the near plane, where triangles are clipped, to any vertex whose
+// blur is limited (Munkberg et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;
@@ -162,14 +164,14 @@ TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
             const double linear = (1 - t) * clip(near) + t * clip(far);
             EXPECT_LE(std::abs(linear / w) * 1000, 15 * (1 + 1e-12)) << "w = " << w;
         }
-    // Without the cut, interpolation from behind the camera has no bound.
+    // Without clipping at the near plane, interpolation from a vertex behind the camera exceeds the limit.
     const double behind = -1;
     const double t = (near - behind) / (kink - behind);
     const double uncut = (1 - t) * (coc.a + coc.front * behind) + t * clip(kink);
     EXPECT_GT(std::abs(uncut / near) * 1000, 15);
 }
 
-// The bound on C's distance from its chord holds for random edges inside the box.
+// For random edges, C deviates from the value interpolated between an edge's ends by no more than cocDeviation().
 TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
     std::mt19937 source(11);
     const int width = 1000;
@@ -188,7 +190,7 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         const double shrink = std::pow(10.0, random(source, -3, 0));
         ends[1] = ends[0] + (ends[1] - ends[0]) * shrink;
         const auto ndcOf = [&](const glm::dvec3& p) { return glm::dvec2(p) / (tanHalf * p.z); };
-        // Vertex attributes are linear along the edge.
+        // In every second trial, the blur attributes vary linearly along the edge.
         const bool vary = trial % 2 == 0;
         const glm::dvec2 factors(random(source, 0, 2), random(source, 0, 2));
         const glm::dvec2 added(random(source, -0.05, 0.05), random(source, -0.05, 0.05));

@@ -1,4 +1,4 @@
-// Depth of field against textbook formulas and tables, and against the renderer's blur.
+// Tests of depth of field against textbook formulas and tables, and against the renderer's blur.
 #include "lens/depth_of_field.h"
 
 #include <gtest/gtest.h>
@@ -22,11 +22,11 @@ Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathi
     return lens;
 }
 
-// Blur disk on the sensor in mm by Newton's and Gauss's equations, independent of the code under test. The sensor
-// stands at the image of s, a point at z is imaged at i(z) = f·z/(z − f). A cone from the aperture f/N meets the sensor
-// in a disk of f/N·|i(s) − i(z)|/i(z).
+// Returns the diameter of the blur disk on the sensor, mm, by Newton's and Gauss's equations, independent of the code
+// under test. A point at depth z is imaged at i(z) = f·z/(z − f) behind the lens, and the sensor lies at i(s). The cone
+// from the aperture f/N meets the sensor in a disk of diameter f/N·|i(s) − i(z)|/i(z).
 double diskOfTheThinLens(const Lens& lens, double z) {
-    const double f = lens.focalLength;  // all in mm
+    const double f = lens.focalLength;  // mm
     const auto image = [&](double depth) { return 1000 * depth * f / (1000 * depth - f); };
     const double sensor = image(lens.focusDistance);
     const double at = std::isinf(z) ? f : image(z);
@@ -34,7 +34,8 @@ double diskOfTheThinLens(const Lens& lens, double z) {
 }
 
 TEST(DepthOfField, limitsOfATextbookLens) {
-    // 50 mm at f/8 with 0.03 mm: H = 2500/0.24 + 50 = 10466.67 mm.
+    // A 50 mm lens at f/8 with an acceptable circle of 0.03 mm has the hyperfocal distance H = 2500/0.24 + 50 =
+    // 10466.67 mm.
     const Lens lens = lensOf(50, 8, 3, true);
     const DepthOfField depth = depthOfField(lens, 0.03);
     EXPECT_NEAR(depth.hyperfocal, 10.4666667, 1e-6);
@@ -55,7 +56,8 @@ TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
         }
 }
 
-// The C of rendered images, for any aspect and any blur scale.
+// At both limits of the depth of field, the blur of rendered images equals the acceptable circle for any image width
+// and blur scale.
 TEST(DepthOfField, blurOfTheImageAtTheLimitsIsTheAcceptableOne) {
     for (const bool breathing : {false, true})
         for (const int width : {640, 300}) {

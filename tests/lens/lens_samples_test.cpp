@@ -55,8 +55,8 @@ TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
     }
 }
 
-// The lens must stay covered within each part of the time or the band. In each eighth, the mean of n independent points
-// of the disk would deviate by √(0.5/n).
+// Within each eighth of the exposure time and of the chromatic band, 64 of 512 samples still cover the lens. Their mean
+// is closer to the lens centre than √(0.5/64), the RMS distance for independent points.
 TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
     for (const Sequence sequence : allSequences) {
         glm::dvec2 times[8] = {};

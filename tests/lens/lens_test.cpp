@@ -13,8 +13,8 @@ namespace defocus::engine {
 namespace {
 
 TEST(Lens, circleOfConfusionOfATextbookExample) {
-    // 50 mm at f/2, focused at 2 m: A = 25 mm and tan(θx/2) = 36/100. At 4 m, c = 0.025·(1/2 − 1/4)·1000/(0.72) =
-    // 8.6806 px.
+    // A 50 mm lens at f/2, focused at 2 m: A = 25 mm and tan(θx/2) = 36/100. In an image 1000 px wide, a point at 4 m
+    // has c = 0.025·(1/2 − 1/4)·1000/0.72 = 8.6806 px.
     Lens lens;
     lens.fStop = 2;
     lens.focusDistance = 2;
@@ -46,8 +46,9 @@ TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
 }
 
 TEST(Lens, focusBreathingIsTheThinLens) {
-    // For a thin lens, the image distance is i = f·s/(s − f), and tan(θx/2) is half the sensor's width over i. On the
-    // sensor, the CoC is A·|z − s|/z · i/s, at W/horizontalAperture px per mm.
+    // A thin lens focused at s has the image distance i = f·s/(s − f), and tan(θx/2) is half the width of the sensor
+    // over i. On the sensor, the CoC at depth z is A·|z − s|/z · i/s. The image has W/horizontalAperture px per mm of
+    // the sensor.
     Lens lens;
     lens.focusBreathing = true;
     lens.focusDistance = 1;

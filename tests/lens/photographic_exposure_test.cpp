@@ -1,4 +1,4 @@
-// Exposure against photographers' tables and ISO 12232.
+// Tests of exposure against photographers' tables and ISO 12232.
 #include "lens/photographic_exposure.h"
 
 #include <gtest/gtest.h>
@@ -18,11 +18,11 @@ Lens exposed(double fStop, double time, double iso) {
 
 TEST(PhotographicExposure, exposureValuesOfTheTables) {
     EXPECT_NEAR(exposureValue100(exposed(1, 1, 100)), 0, 1e-12);
-    EXPECT_NEAR(exposureValue100(exposed(16, 1.0 / 128, 100)), 15, 1e-12);  // "sunny 16", in whole stops
+    EXPECT_NEAR(exposureValue100(exposed(16, 1.0 / 128, 100)), 15, 1e-12);  // the "sunny 16" rule, in full stops
     EXPECT_NEAR(exposureValue100(exposed(2, 1.0 / 32, 400)), 5, 1e-12);
 }
 
-// A surface of luminance L exposes the sensor with H = q·L·t/N² lx·s, q = 0.65. By ISO 12232, a sensor of speed S
+// By ISO 12232, a surface of luminance L exposes the sensor with H = q·L·t/N² lx·s, q = 0.65. A sensor of speed S
 // saturates at H = 78/S lx·s, which maps to display white (1).
 TEST(PhotographicExposure, whiteIsWhatSaturatesTheSensor) {
     for (const auto& [fStop, time, iso] :

@@ -1,5 +1,5 @@
 #pragma once
-// Properties of every pyramid, for any mesh.
+// Properties that every pyramid has, for any mesh.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A cluster's bounds hold for its triangles, and clusters tile the ranges of the primitives.
+// Expects each cluster's bounds to hold for its triangles, and the clusters to tile the index ranges of the primitives.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();
@@ -32,7 +32,7 @@ inline void expectClustersHold(const Pyramid& pyramid) {
                 glm::dvec3 p[3];
                 for (std::uint32_t k = 0; k < 3; ++k) p[k] = glm::dvec3(level.positions[pyramid.indices[i + k]]);
                 for (const glm::dvec3& corner : p) ASSERT_LE(glm::distance(corner, glm::dvec3(c.centre)), c.radius);
-                if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // draws nothing
+                if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // degenerate, so nothing is drawn
                 const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
                 const double longest =
                     std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
@@ -45,8 +45,8 @@ inline void expectClustersHold(const Pyramid& pyramid) {
     }
 }
 
-// λ grows with the target from level 0 to the last level. Its slope is bounded by the min growth between levels: 5 %
-// for edges, 25 % for errors, with the largest slope at an interval's end.
+// Expects λ to grow with the target from level 0 to the last level without jumps. The min growth per level bounds the
+// slope of λ: 5 % for edges and 25 % for errors, where the slope is largest at an interval's end.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;
@@ -115,7 +115,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     expectContinuousLevels(pyramid);
 }
 
-// The part with the largest area keeps its shape as long as another part has more triangles.
+// Expects the part with the largest area to keep its shape as long as another part has more triangles.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

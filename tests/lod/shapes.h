@@ -1,5 +1,5 @@
 #pragma once
-// Small meshes with seams and borders as in real files, and counts over the surface with vertices joined by position.
+// Small meshes with seams and borders as in real files. Counts over their surfaces join vertices at the same position.
 
 #include <algorithm>
 #include <array>
@@ -30,9 +30,9 @@ inline Mesh singlePrimitive(Vertices vertices, std::vector<std::uint32_t> indice
     return mesh;
 }
 
-// Returns columns × rows quads over (u, v) ∈ [0, 1]² of two triangles each, with (columns + 1)·(rows + 1) vertices. If
-// `place` closes the surface, the vertices of both ends stay separate, as at a UV seam. Triangles with coincident
-// corners, at poles, are omitted.
+// Returns columns × rows quads of two triangles each, with (columns + 1)·(rows + 1) vertices at the positions `place(i,
+// j)`. If `place` closes the surface, the vertices at both ends stay separate, as at a UV seam. Triangles with
+// coincident corners, as at poles, are omitted.
 template <typename Place>
 Mesh parametricSurface(std::uint32_t columns, std::uint32_t rows, const Place& place) {
     Vertices vertices;
@@ -63,7 +63,7 @@ inline double turn(std::uint32_t i, std::uint32_t count) {
     return 2 * std::numbers::pi * (i % count) / count;
 }
 
-// Returns a unit sphere with a UV seam and a pole vertex per column; `bump` modulates the radius.
+// Returns a unit sphere with a UV seam and one pole vertex per column; `bump` is the amplitude of the radius.
 inline Mesh sphere(std::uint32_t columns, std::uint32_t rows, double bump = 0) {
     return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
         if (j == 0 || j == rows) return glm::dvec3(0, 0, j == 0 ? -1 : 1);
@@ -84,15 +84,15 @@ inline Mesh torus(std::uint32_t columns, std::uint32_t rows) {
     });
 }
 
-// Returns the unit square at z = 0.
+// Returns the unit square at z = 0 in `cells` × `cells` quads.
 inline Mesh flatGrid(std::uint32_t cells) {
     return parametricSurface(cells, cells, [=](std::uint32_t i, std::uint32_t j) {
         return glm::dvec3(static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0);
     });
 }
 
-// Returns a closed slab with `holes` square holes along x, so its genus is `holes`. The edge of a hole has `cells`
-// quads.
+// Returns a closed slab with a row of `holes` square holes along x, so its genus is `holes`. Each side of a hole has
+// `cells` quads.
 inline Mesh slab(std::uint32_t holes, int cells) {
     const int columns = 2 * static_cast<int>(holes) + 1;
     const auto solid = [&](int i, int j) {
@@ -142,7 +142,8 @@ inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size
     return indices;
 }
 
-// Uses of an undirected edge, joined by position: forward minus backward, and in total.
+// Number of faces at an undirected edge, whose ends are joined by position: `balance` is forward minus backward uses,
+// `count` their sum.
 struct EdgeUse {
     int balance = 0;
     int count = 0;
@@ -162,14 +163,14 @@ inline std::map<std::pair<PositionKey, PositionKey>, EdgeUse> edgeUses(const std
     return edges;
 }
 
-// Returns whether every edge, joined by position, has exactly two faces, one in each direction.
+// Returns whether each edge has exactly two faces, one in each direction. Vertices at the same position are joined.
 inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
     const auto edges = edgeUses(positions, indices);
     return std::all_of(edges.begin(), edges.end(),
                        [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
 }
 
-// Returns the part of each vertex, numbered from 0. Parts share no position.
+// Returns for each vertex the index of its part, from 0. Vertices at the same position belong to the same part.
 inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     std::map<PositionKey, std::uint32_t> ids;
     std::vector<std::uint32_t> places;
@@ -216,13 +217,14 @@ inline double surfaceArea(const std::vector<glm::vec3>& positions, const std::ve
     return area;
 }
 
-// Returns the position of part `i`: points spread evenly over the unit square (Roberts 2018).
+// Returns the position of part `i`. Every prefix of the positions is evenly spread over the unit square (Roberts 2018).
 inline glm::vec3 scatteredPlace(std::uint32_t i) {
     return {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * i, 1.0)),
             static_cast<float>(std::fmod(0.5 + 0.5698402909980532 * i, 1.0)), 0};
 }
 
-// A square sheet of thickness 0.004: front, back and rim share smooth normals, as in scans and sculpted fins.
+// Returns a square sheet of thickness 0.004. Its front, back and rim share smooth normals, as in scans and sculpted
+// fins.
 inline Mesh thinSheet(std::uint32_t cells) {
     Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
         const std::uint32_t around = i % (2 * cells + 2);

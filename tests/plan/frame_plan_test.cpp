@@ -37,7 +37,8 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// In continuous mode, the two levels cover all samples and share only the boundary sample, if there is one.
+// In continuous mode, the two levels of an object together draw every sample. Both draw only the boundary sample, if
+// there is one.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -99,8 +100,8 @@ TEST(FramePlan, objectsOutsideTheWidenedFrustumAreLeftOut) {
     EXPECT_FALSE(leftOut(planFrame(small->world, small->view, everything), "Object 4"));
 }
 
-// An object must not be culled if its blurred image reaches the frame. The test tries lens points and box corners by
-// brute force.
+// No object is culled whose blurred image reaches the frame. The expected result is found by brute force over lens
+// points and corners of the bounding box.
 TEST(FramePlan, cullingIsConservative) {
     const auto small = fiveSpheres();
     const Bounds box = small->world.pyramids[0].bounds;
@@ -150,7 +151,7 @@ TEST(FramePlan, unusedLevelsAreLeftOut) {
 
 TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
     const auto small = fiveSpheres();
-    small->world.pose.objects[0].worldFromObject = glm::dmat4(1);  // around the camera
+    small->world.pose.objects[0].worldFromObject = glm::dmat4(1);  // the object surrounds the camera
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
     const auto found =
         std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
@@ -159,13 +160,14 @@ TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
 }
 
 struct DollyStep {
-    double distance = 0;  // of the sphere's centre, m
+    double distance = 0;  // depth of the sphere's centre, m
     double lambda = 0;
 };
 
 constexpr double dollyRadius = 0.2;  // radius of the sphere, m
 
-// A sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the distance by `ratio`.
+// Returns the distance and λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the
+// distance by `ratio`.
 std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
     std::vector<DollyStep> steps;
@@ -180,10 +182,10 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     return steps;
 }
 
-// Bound on the change of λ in a step. An edge at distance n projects to a length in proportion to 1/n. At λ, the
-// levels' edges, interpolated in their logarithm, project to τ = max(kBlur·c, kSize). Edges grow at least by the factor
-// `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ, by at most kBlur·K·(1/n −
-// 1/n'), and τ is at least kSize.
+// λ has no jumps while a sphere moves away: the change in each step stays below a bound. An edge at distance n projects
+// to a length proportional to 1/n. At λ, an object's edges, interpolated in their logarithm between levels, project to
+// τ = max(kBlur·c, kSize). Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth.
+// Only c = K·|1/s − 1/n| changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -193,8 +195,8 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
         growth = std::min(growth, levels[l].meanEdge / levels[l - 1].meanEdge);
     const Lens& lens = small->view.lens;
     const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
-                        lens.horizontalAperture;  // K, px·m
-    const double reach = 1.03 * dollyRadius;      // radius with the ripples
+                        lens.horizontalAperture;  // K in c = K·|1/s − 1/n|, px·m
+    const double reach = 1.03 * dollyRadius;      // radius including the sphere's ripples, m
     const std::vector<DollyStep> steps = dolly(settings, 1.001);
     for (std::size_t i = 1; i < steps.size(); ++i) {
         const double before = steps[i - 1].distance - reach;
@@ -216,7 +218,7 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
         return largest;
     };
     const std::vector<DollyStep> steps = dolly(settings, 1.002);
-    // A continuous λ changes half as much in half a step; a jump keeps its size.
+    // Half the step changes a continuous λ half as much; a jump would keep its size.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
     EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";
@@ -267,8 +269,8 @@ TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) 
     EXPECT_EQ(metricWith({.size = 2}), LodMetric::error);
 }
 
-// Levels by a single cause are at most as coarse as with both causes. A pinhole has only the size as a cause, so all
-// causes give its levels by size.
+// Levels chosen by blur alone or by projected size alone are at most as coarse as levels chosen by both. A pinhole has
+// no blur, so both causes select levels by size, and blur alone selects full detail.
 TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
     const auto small = fiveSpheres();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {

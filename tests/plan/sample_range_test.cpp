@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// The levels that draw a sample of an object, and their share of the pixels.
+// The levels of an object that draw one sample, and the coarse level's share of pixels if both draw the sample.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;

@@ -1,4 +1,4 @@
-// Astigmatism and coma: the moments of a point's blur against closed forms, and the sky seen through the lens.
+// Tests of astigmatism and coma: the moments of a point's blur against closed forms, and the sky seen through the lens.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,11 +37,12 @@ RenderSettings fullDetail(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // the pinhole image also draws all samples
+    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
     return settings;
 }
 
-// Image of a bright point of 2 x 2 px: its energy, its centre in px, and its moments about the centre in px².
+// The image of a bright point of 2 × 2 px: its energy, its centre in px, and its second moments about the centre in
+// px².
 struct Spot {
     glm::dvec2 centre{0};
     glm::dmat2 moments{0};
@@ -76,15 +77,15 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
 constexpr glm::dvec2 middle{80, 60};
 constexpr double perHalfWidth = 80;  // px
 constexpr double inFocus = 2;        // m
-// Variance that the point's two pixels (1/3) and the jitter inside a pixel (1/12) add, in px².
+// Variance in px² of the sharp point: 1/3 from its width of two pixels, and 1/12 from the jitter inside a pixel.
 constexpr double ownVariance = 5.0 / 12;
 
-// Over the disk E[u²] = 1/4, so the line towards the image's centre has the variance (A·|m|²)²/4 along itself and none
-// across. The line's outer half is brighter: there the point is the image of a smaller area, by 3·A·(m·l), which moves
-// the mean by ¾·A²·|m|²·m.
+// Astigmatism A turns a point at the image position m into a line towards the image's centre, for lens points l = (u,
+// v). Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4 along the line and 0 across it. The line's outer half
+// is brighter: there, the point is the image of an area smaller by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
-    constexpr double share = 0.05;  // A
+    constexpr double share = 0.05;  // A, relative to half the image's width
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
@@ -101,10 +102,11 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     }
 }
 
-// ∇W is B·m·(3u² + v²) along and 2·B·m·u·v across. Over the disk its mean is B·m and its variances are B²·m²/2 and
-// B²·m²/6. Rays of the rim enlarge the point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
+// Coma B turns a point at the image position m into a comet, for lens points (u, v) with u along m. The deviation ∇W of
+// a ray is B·m·(3u² + v²) along m and 2·B·m·u·v across m. Over the disk, its mean is B·m, and its variances are B²·m²/2
+// and B²·m²/6. Rays of the rim enlarge the point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
-    for (const double share : {0.03, -0.03}) {  // B
+    for (const double share : {0.03, -0.03}) {  // B, relative to half the image's width
         const glm::dvec2 place(134, 60);
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
@@ -118,8 +120,9 @@ TEST_F(Aberrations, comaMakesComets) {
     }
 }
 
-// A blur of c px and a line of L px add up to the variance (c + L)²/16 along the line and c²/16 across. An astigmatic
-// lens has two foci: at one depth the point becomes a line across.
+// Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
+// along the line and c²/16 across it. An astigmatic lens has two foci: at the depth where c = −L, a point becomes a
+// line across the first one.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);

@@ -1,4 +1,4 @@
-// The bokeh of each aperture against the aperture's definition, drawn without the renderer.
+// Tests of the bokeh of each aperture against the aperture's definition, drawn without the renderer.
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ protected:
 };
 std::unique_ptr<GlContext> ApertureBokeh::context_;
 
-constexpr double square = 5;  // px
+constexpr double square = 5;  // side of the bright square, px
 constexpr double energy = 2500;
-constexpr double depth = 6;  // m, behind the focus: the bokeh shows the aperture upright
+constexpr double depth = 6;  // m; behind the focus, the bokeh shows the aperture upright
 
-// A view whose lens blurs the square to about two thirds of the image's height.
+// Returns a view whose lens blurs the square to about two thirds of the image's height.
 View wideView() {
     View view = bokehView(96, 72);
     view.lens.fStop = 0.05;
@@ -74,7 +74,7 @@ TEST_F(ApertureBokeh, showsTheApertureImageUpright) {
     expectBokeh(view, "image");
 }
 
-// The bound on misplaced light distinguishes a shape from similar ones.
+// The bound on misplaced light distinguishes similar shapes: a rotated or curved triangle exceeds it.
 TEST_F(ApertureBokeh, differsFromOtherShapes) {
     View view = wideView();
     view.lens.bladeCount = 3;

@@ -1,6 +1,6 @@
 #pragma once
-// Soft shadows on the GPU against the ray tracer's shadow rays: a matt ball before a wall, under one light and through
-// a wide lens.
+// Helpers that compare soft shadows of the GPU with those of the ray tracer: a matt ball in front of a wall, under one
+// light and through a wide lens.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// The controls of C(w) in the image: each control keeps its promise, and large triangles look like small ones.
+// Tests of the controls of C(w) in images: each control has its documented effect, and large triangles look like small
+// ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // the pinhole image also draws all samples
+    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
@@ -44,7 +45,7 @@ double rootMeanSquare(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// A checkered floor 0.5 m below the camera, from `begin` to `end` m ahead, of `cells` x `cells` squares of two
+// Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m ahead, of `cells` × `cells` squares of two
 // triangles.
 std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) {
     auto small = std::make_unique<SmallWorld>();
@@ -93,7 +94,7 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
-// The same floor in white before black, with triangles of many shapes: jittered corners and diagonals in both
+// Returns the same floor in white before black, with triangles of many shapes: jittered corners and diagonals in both
 // directions.
 std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
     auto small = checkeredFloor(cells, begin, end);
@@ -101,7 +102,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     Mesh& mesh = small->scene.meshes[0];
     std::minstd_rand random(7);
-    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };  // [−1, 1]
+    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };  // in [−1, 1]
     const auto across = static_cast<std::size_t>(cells) + 1;
     const glm::vec2 cell(5.0 / cells, (end - begin) / cells);
     for (std::size_t i = 0; i < mesh.vertices.positions.size(); ++i) {
@@ -125,7 +126,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 struct Control {
     const char* name;
     std::function<void(Lens&)> set;
-    double begin;  // m, of the floor
+    double begin;  // near end of the floor, m ahead of the camera
 };
 
 void PrintTo(const Control& control, std::ostream* out) {
@@ -134,8 +135,9 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// C is linear inside a triangle, so a large triangle across a kink of C moves the focus (Munkberg et al. 2012, Figures
-// 2 and 10). A floor of two triangles must look like one of many, whose own deviation is small.
+// C is interpolated linearly inside a triangle, so a large triangle across a kink of C would move the focus (Munkberg
+// et al. 2012, Figures 2 and 10). Two large triangles are therefore divided, and their floor looks like one of many
+// small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
@@ -153,13 +155,13 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
-// Neighbouring triangles divide their common edge alike: no black shows through a white floor of uneven triangles.
+// Neighbouring triangles divide their common edge alike, so no black shows through a white floor of uneven triangles.
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // The blur of the floor's edges does not reach pixels nearer than 5 m. A hole in one sample costs 1/16; the rest is
-    // rounding.
+    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one sample
+    // would cost 1/16; smaller differences are rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -192,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),
     [](const testing::TestParamInfo<Control>& control) { return std::string(control.param.name); });
 
-// Three patches side by side at 1, 2.5 and 8 m, on black.
+// Returns three patches side by side at 1, 2.5 and 8 m, in front of black.
 std::unique_ptr<SmallWorld> threePatches() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.6f, 1}));
@@ -258,7 +260,7 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
-// A range that refocuses keeps the aperture at both ends.
+// At both ends of a range that refocuses, the blur equals that of a lens focused at that end, with the same aperture.
 TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -286,8 +288,8 @@ TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
-// A moving object in front keeps its motion blur and loses its defocus; nothing else changes (Munkberg et al. 2012,
-// Figure 4).
+// A foreground limit removes the defocus of a moving object in front, but not its motion blur; nothing else changes
+// (Munkberg et al. 2012, Figure 4).
 TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const auto small = threePatches();
     small->world.shutter.poses.assign(2, small->world.pose);
@@ -309,8 +311,8 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
 }
 
-// With any aperture, a selected object has the pinhole's edges and the others keep their bokeh (Munkberg et al. 2012,
-// Figure 8).
+// An object whose blur is scaled to zero has the pinhole's edges under any aperture, and the other objects keep their
+// bokeh (Munkberg et al. 2012, Figure 8).
 TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     const auto small = threePatches();
     const Image circular = rendered(*small, 256);
@@ -343,7 +345,7 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 0.25;
     const Image expected = rendered(*small, 64);
     small->world.pose.objects[2].cocScale = 1;
-    // The third patch gets its own mesh, with the attribute.
+    // The third patch gets its own mesh with a blur attribute of 0.25.
     Mesh scaled = quad(0);
     scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
     scaled.blurBounds = boundsOf(scaled.vertices.blurs);
@@ -358,7 +360,7 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     const auto small = threePatches();
     Lens& lens = small->view.lens;
     lens.fStop = 0.5;
-    // Patches at (X, depth) lie on one plane: depth = s − tan(swing)·X.
+    // The patches at (X, depth) lie on the plane depth = s − tan(swing)·X.
     const double m = std::tan(0.9);
     lens.focusSwing = 0.9;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -403,7 +405,7 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods use the same CoC: with all blur limited to zero they give the pinhole image.
+// Post-process methods use the same CoC: if all blur is limited to zero, they give the pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

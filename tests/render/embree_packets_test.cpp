@@ -1,4 +1,4 @@
-// Packets of the ray tracer against its single rays in double precision, and against closed forms (no GPU).
+// Tests of the ray tracer's packets against its single rays in double precision, and against closed forms (no GPU).
 
 #include <gtest/gtest.h>
 
@@ -117,14 +117,14 @@ TEST(EmbreePacketTiles, imagesThatCutPacketsAreWhole) {
     }
 }
 
-// A ray continues behind the back of a single-sided surface and shows the surface beyond.
+// A ray that hits the back of a single-sided surface continues and shows the surface beyond.
 TEST(EmbreePacketCulling, raysGoOnBehindBacks) {
     View view = bokehView(32, 32);
     view.lens.dofEnabled = false;
     Scene scene = rectangleScene(view, {{0, 0, 20, 32, 2}, {8, 0, 32, 32, 3}}, glm::vec3(1));
     std::vector<std::uint32_t>& indices = scene.meshes[0].primitives[0].indices;
     ASSERT_EQ(indices.size(), 6u);
-    std::swap(indices[1], indices[2]);  // turns both triangles of the nearer rectangle
+    std::swap(indices[1], indices[2]);  // reverses both triangles of the nearer rectangle
     std::swap(indices[4], indices[5]);
     const Image image = tracedImage(scene, view, 4);
     for (int x = 0; x < 32; ++x) EXPECT_EQ(*image.at(x, 16), x < 8 ? 0 : 1) << x;

@@ -1,4 +1,4 @@
-// The ray tracer, the reference of other tests, against closed forms (no GPU, no code of the rasterizer).
+// Tests of the ray tracer, the reference of other tests, against closed forms (no GPU, no code of the rasterizer).
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST(EmbreePinhole, EdgeThroughAPixelGivesItsCoveredShare) {
     View view = bokehView(64, 48);
     view.lens.dofEnabled = false;
     const Image image = traced(rectangleScene(view, {{10.25, 5, 31, 20.5, 3}}, glm::vec3(1)), view, 256);
-    // A (0, 2)-net of 256 points puts 192 of them in three quarters of the pixel and 128 in its half.
+    // A (0, 2)-net of 256 points has 192 points in three quarters of the pixel and 128 in half of it.
     EXPECT_NEAR(*image.at(10, 10), 0.75, 1.0 / 256);
     EXPECT_NEAR(*image.at(20, 20), 0.5, 1.0 / 256);
     EXPECT_NEAR(*image.at(10, 20), 0.375, 2.0 / 256);
@@ -80,12 +80,12 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     view.lens.focusDistance = 1;
     const double still = lensCamera(view).tanHalfHorizontal;
     view.lens.focusBreathing = true;
-    // The sensor lies at 1/(1/f − 1/s) instead of at f: 1/(1/0.05 − 1) = 0.0526 m.
+    // With focus breathing, the sensor lies at 1/(1/f − 1/s) instead of f: 1/(1/0.05 − 1) = 0.0526 m.
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
-// A ray of a lens with limited foreground blur (Munkberg, Toth and Akenine-Möller 2012) passes through the points that
-// C, limited in front, demands: X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d.
+// With a foreground limit (Munkberg, Toth and Akenine-Möller 2012), a ray passes through the points that the limited C
+// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d and the lens point (u, v).
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -100,8 +100,8 @@ TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
             const LensRay behind = refractedRay(camera, image, eye);
             const glm::dvec2 axis(image.x * tangent, image.y * tangent * 120 / 200);
             for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
-                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // px, > 0 in front
-                const double shift = tangent * std::min(plain, 7.0) / 200;          // radius as a slope
+                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // blur in px, > 0 in front
+                const double shift = tangent * std::min(plain, 7.0) / 200;          // lateral offset per m of depth
                 const LensRay& ray = z < camera.lensDepth ? eye : behind;
                 const double along = z + ray.origin.z;
                 const glm::dvec2 place(ray.origin.x + along * ray.direction.x, ray.origin.y + along * ray.direction.y);
@@ -150,13 +150,13 @@ TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     View view = bokehView(64, 64);
     view.lens.bladeCount = 3;
     view.lens.bladeRotation = std::numbers::pi / 2;  // the first corner points up
-    // Behind the focus, the image of a point moves with the lens point (C > 0), so a corner points up. In front it
-    // points down.
+    // Behind the focus, the image of a point moves with the lens point (C > 0), so the bokeh has a corner at the top.
+    // In front of the focus, the corner is at the bottom.
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
-        const int lit = static_cast<int>(0.8 * radius);             // towards the corner
-        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;  // beyond the flat side of the quad's image
+        const int lit = static_cast<int>(0.8 * radius);             // px towards the corner
+        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;  // px towards the flat side, outside the bokeh
         const bool upright = depth > view.lens.focusDistance;
         EXPECT_GT(*image.at(32, upright ? 31 - lit : 32 + lit), 0.5f * *image.at(32, 32));
         EXPECT_EQ(*image.at(32, upright ? 32 + dark : 31 - dark), 0);
@@ -202,7 +202,7 @@ TEST(EmbreeCulling, SingleSidedSurfacesAreSeenFromTheirFrontOnly) {
               scene.meshes[0].primitives[0].indices[2]);  // reverses the lower right triangle
     EXPECT_EQ(*traced(scene, view, 1).at(24, 20), 0);
     EXPECT_EQ(*traced(scene, view, 1).at(7, 12), 1);  // the upper left triangle is still visible
-    // A mirrored object's outside stays its outside, although its winding is reversed.
+    // A mirrored object shows the same side, although its winding is reversed.
     scene.nodes[0].matrix = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
     EXPECT_EQ(*traced(scene, view, 1).at(7, 20), 0);
     EXPECT_EQ(*traced(scene, view, 1).at(24, 12), 1);
@@ -223,7 +223,7 @@ TEST(EmbreeCulling, NothingNearerThanTheNearPlaneIsSeen) {
 TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
     View view = bokehView(64, 48);
     view.lens.dofEnabled = false;
-    const double pitch = 0.4;  // looking up
+    const double pitch = 0.4;  // rad, the camera looks up
     view.worldFromCamera = glm::rotate(glm::dmat4(1), pitch, glm::dvec3(1, 0, 0));
     Environment sky;
     sky.zenith = glm::vec3(1, 0, 0);
@@ -247,7 +247,7 @@ TEST(EmbreeBackground, NoneIsTransparentAndKeepsCoverageInAlpha) {
     const Image image = traced(rectangleScene(view, {{8.5, 0, 32, 32, 3}}, glm::vec3(0.5f)), view, 256, none);
     EXPECT_EQ(image.at(2, 16)[3], 0);
     EXPECT_NEAR(image.at(8, 16)[3], 0.5, 1.0 / 256);
-    EXPECT_NEAR(image.at(8, 16)[0], 0.25, 1.0 / 256);  // premultiplied
+    EXPECT_NEAR(image.at(8, 16)[0], 0.25, 1.0 / 256);  // premultiplied colour
     EXPECT_EQ(image.at(20, 16)[3], 1);
 }
 
@@ -280,8 +280,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
     const World world = flatWorld(scene, blackBackground());
     FramePlan plan = planOf(view, 1);
-    // A lens point further right and up moves objects behind the focus right and up. A pixel point further right and up
-    // moves the image left and down.
+    // Moving the lens point right and up moves objects behind the focus right and up. Moving the pixel point right and
+    // up moves the image left and down.
     LensSample sample;
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);
@@ -290,7 +290,7 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
-    // 0.2 px further: crosses a pixel edge only together with the pixel offset of 0.4
+    // A lens point 0.2 px further moves the image across a pixel edge only together with the pixel offset of 0.4.
     sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
     const Moments further = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
@@ -334,7 +334,8 @@ TEST(EmbreeTexture, TexelsLieWhereGltfPutsThem) {
     EXPECT_EQ(image.at(24, 8)[1], 1);
     EXPECT_EQ(image.at(8, 24)[2], 1);
     EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // sRGB 188/255
-    // Bilinear filtering of decoded texels, about a quarter of the way between the red and the green texel's centres.
+    // Filtering is bilinear between decoded texels, here about a quarter of the way between the centres of the red and
+    // the green texel.
     scene.textures[0].magnification = Filter::linear;
     const Image smooth = traced(scene, view, 256);
     EXPECT_NEAR(smooth.at(12, 8)[0], 1 - (12.5 / 32 - 0.25) * 2, 0.05);

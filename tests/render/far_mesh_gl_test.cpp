@@ -1,4 +1,4 @@
-// Meshes whose vertices lie far from their own origin.
+// Tests of meshes whose vertices lie far from the origin of their object.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ TEST(MeshOrigin, movesAlongTheAxesOnWhichTheMeshIsFar) {
     EXPECT_EQ(meshOrigin(boxAround({17'000, 2, -8}, 1)), glm::dvec3(17'000, 0, -8));
 }
 
-// A board whose vertices are moved by `offset` and moved back by its object's matrix. All numbers are multiples of 1/8,
-// so nothing is rounded.
+// Returns a mesh whose vertices are shifted by `offset` and moved back by the object's matrix. All coordinates are
+// multiples of 1/8, so nothing is rounded.
 std::unique_ptr<SmallWorld> shiftedBoard(const glm::vec3& offset, bool morphed) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({1, 1, 1, 1}));
@@ -59,7 +59,8 @@ Image shiftedImage(SmallWorld& small, double cameraX) {
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
-// A camera step of 0.5 mm moves the picture as much as for a mesh around its origin.
+// A mesh far from its object's origin looks like the same mesh around the origin, also when the camera moves in steps
+// of 0.5 mm.
 TEST(FarMesh, looksLikeTheSameMeshAroundItsOrigin) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     for (const bool morphed : {false, true}) {

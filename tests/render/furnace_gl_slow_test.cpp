@@ -1,4 +1,5 @@
-// Surfaces in a white furnace, with light 1 from everywhere: none reflects more than it receives, or less than zero.
+// Tests of surfaces in a white furnace, with light 1 from everywhere: no surface reflects more than it receives, or
+// less than zero.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-// A wall whose normal has about this cosine to the view axis, large enough to fill the frame.
+// Returns a wall that fills the frame and whose normal has approximately this cosine to the view axis.
 std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -49,9 +50,9 @@ Material furnaceMaterial(float base, float metallic, float roughness) {
 
 constexpr double rounding = 1e-5;
 constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
-constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // the field of view adds 20° on either side
+constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // cosines to the view axis; pixels deviate by up to 20°
 
-// The base of a white dielectric reflects all the light that its coat lets through.
+// A white dielectric reflects all of the light: the base reflects what its coat lets through.
 TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {
@@ -73,7 +74,8 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
                 }
 }
 
-// Single scattering between rough facets loses light, and loses more the rougher they are. A mirror loses none.
+// A white metal loses light only through its roughness. Single scattering between rough facets loses more light the
+// rougher they are, and a mirror loses none.
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {

@@ -1,5 +1,5 @@
 #pragma once
-// Panes of glass before the camera (KHR_materials_transmission and _volume).
+// Helpers for tests of glass panes in front of the camera (KHR_materials_transmission and _volume).
 
 #include "render/lit_wall.h"
 
@@ -15,7 +15,7 @@ protected:
         return result;
     }
 
-    // Returns glass that reflects nothing.
+    // Returns glass that reflects nothing and colours transmitted light by `tint`.
     static Material clear(const glm::vec3& tint = glm::vec3(1)) {
         Material result = glass();
         result.baseColorFactor = glm::vec4(tint, 1);

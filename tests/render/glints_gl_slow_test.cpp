@@ -1,5 +1,5 @@
-// Glints of a glossy surface that are far smaller than a pixel. With few samples they leave no isolated white pixels,
-// and they send as much light as with many samples and without the filter that spreads them.
+// Tests of glints of a glossy surface that are far smaller than a pixel. With few samples, they leave no isolated white
+// pixels. They send as much light as with many samples and without the filter that spreads them.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// A ball about 40 px across, with a ripple every 5 to 10 px.
+// Returns a ball about 40 px across, with a ripple every 5 to 10 px.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -45,8 +45,8 @@ PlacedLight sun(const glm::dvec3& direction, float intensity) {
     return placed;
 }
 
-// Suns in all directions, evenly on a spiral from pole to pole (Vogel 1979), with a different offset for each `set`. A
-// single sun would measure the positions of the ripples' caustics rather than their light.
+// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979), with a different offset for each
+// `set`. A single sun would measure the positions of the ripples' caustics rather than their light.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;
@@ -59,8 +59,8 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     return suns;
 }
 
-// Renders a frame's first samples, whose glints are spread, if `filtered`; otherwise samples after a million, whose
-// glints are not.
+// Renders the ball with or without the filter that spreads glints. The filter acts on a frame's first samples only, so
+// unfiltered images use samples after the first million.
 Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
     RenderSettings settings;
     settings.sampleCount = samples;

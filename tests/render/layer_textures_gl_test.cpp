@@ -1,5 +1,5 @@
-// Textures of the KHR_materials extensions, slot by slot: the channel that is read, its decoding, and the product with
-// its factor. Each pixel is compared with the value computed from its texel.
+// Tests of textures of the KHR_materials extensions, slot by slot: the channel that is read, its decoding, and the
+// product with its factor. Each pixel is compared with the value computed from its texel.
 
 #include <gtest/gtest.h>
 
@@ -26,12 +26,12 @@ std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Ma
     return small;
 }
 
-// Returns the relative error of a decoded texel that the driver's decoding may cause.
+// Returns the relative error that a driver's decoding of the texel may cause.
 glm::dvec3 relativeErrors(const Texel& texel) {
     return decodingErrors(texel) / decoded(texel);
 }
 
-// Expects a wall of `material` under two suns to show, at each texel, the surface that `surfaceOf` computes from that
+// Expects a wall of `material` under two suns to show, at each texel, the surface that `surfaceOf` computes from the
 // texel.
 void expectSurface(const Material& material, TextureUse Material::*slot,
                    const std::function<GltfSurface(const Texel&)>& surfaceOf, bool isColor = false) {
@@ -66,7 +66,7 @@ TEST_F(LayerTextures, redOfTransmissionLetsThrough) {
     });
 }
 
-// Beer-Lambert absorption: c^(d/D).
+// The green channel scales the thickness d in Beer-Lambert absorption, c^(d/D).
 TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
     Material glass = blackMaterial();
     glass.baseColorFactor = glm::vec4(1);
@@ -105,7 +105,7 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    glossy.baseColorFactor = {0, 0, 0, 1};  // no base colour: only the reflectance has a strongest channel
+    glossy.baseColorFactor = {0, 0, 0, 1};  // black base colour: only the reflectance has a strongest channel
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(
         glossy, &Material::specularColor,
@@ -166,7 +166,7 @@ TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
 
 // ---- sheen
 
-// Expects cloth to show, at each texel, the sheen that `sheenOfTexel` computes from that texel: colour and roughness.
+// Expects cloth to show, at each texel, the sheen that `sheenOfTexel` computes from the texel as colour and roughness.
 void expectSheen(const Material& cloth, TextureUse Material::*slot,
                  const std::function<std::pair<glm::dvec3, double>(const Texel&)>& sheenOfTexel, bool isColor = false) {
     const auto small = texturedWall(cloth, slot);

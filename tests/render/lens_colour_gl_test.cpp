@@ -1,4 +1,4 @@
-// Axial chromatic aberration and the cat's eye, measured on the bokeh of one bright point.
+// Tests of axial chromatic aberration and the cat's eye effect, measured on the bokeh of one bright point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,8 +73,9 @@ View viewOf(double fStop) {
     return view;
 }
 
-// A band's second moment is E[w(t)·c(t)²]/8, as a disk of diameter c has c²/8. The point's own 2 x 2 px add 2/3, the
-// pixel filter 1/6 (a box has the variance 1/12 per axis), and the read-out another box.
+// Each wavelength band t is blurred according to its own focus. A band's second moment is E[w(t)·c(t)²]/8, as a disk of
+// diameter c has c²/8. The point's own 2 × 2 px add 2/3, the pixel filter 1/6 (a box has the variance 1/12 per axis),
+// and the read-out another box.
 TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     View view = viewOf(0.35);
     view.lens.axialChromaticAberration = 0.08;
@@ -104,7 +105,8 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     EXPECT_GT(blob.moment.b, 1.1 * blob.moment.r) << "behind the focus blue is blurred more";
 }
 
-// Each aberration alone. With both, a pixel's own selection of samples would be tinted by sampling noise.
+// A grey scene stays grey under each aberration alone. With both, a pixel's own selection of samples would be tinted by
+// sampling noise.
 TEST_F(LensColour, greyStaysGrey) {
     const Scene empty;
     Environment grey = blackBackground();
@@ -127,8 +129,9 @@ TEST_F(LensColour, greyStaysGrey) {
         }
 }
 
-// In the corner the aperture is the intersection of two circles that are `catEye` radii apart, with its short axis
-// towards the image's centre. Its total brightness is unchanged, as its rays weigh more.
+// With the cat's eye effect, the aperture seen from the image's corner is the intersection of two circles that are
+// `catEye` radii apart. Its short axis points towards the image's centre. Its total brightness is unchanged, as its
+// rays weigh more.
 TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     View view = viewOf(0.35);
     view.lens.catEye = 0.8;
@@ -138,7 +141,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     const Blob round = blobOf(renderedPoint(view, 108, 16, depth));
     const Blob cut = blobOf(inCorner);
 
-    // Second moments along the direction to the centre and across that direction.
+    // Second moments of the cut bokeh along the direction to the centre and across that direction.
     const glm::dvec2 outward = glm::normalize(glm::dvec2(108 - 64, 16 - 48));
     double along = 0;
     double across = 0;
@@ -150,7 +153,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected moments of points inside both circles, as seen from each pixel of the bokeh.
+    // Expected moments, from points that lie inside both circles as seen from each pixel of the bokeh.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

@@ -22,8 +22,8 @@ namespace defocus::engine {
 
 inline constexpr double wallDepth = 2;  // m in front of the camera
 
-// The camera looks along no axis and does not stand at the origin, so that world axes and camera axes cannot be
-// confused.
+// Returns the wall and its camera. The camera looks along no axis and does not stand at the origin, so that world axes
+// and camera axes cannot be confused.
 inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -35,7 +35,7 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
         glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -1, 2)), 0.7, glm::dvec3(0, 1, 0)), 0.4,
                     glm::dvec3(1, 0, 0));
     place(*small, 0,
-          // [−1, 1]² m, of which 0.72 are visible
+          // The wall spans [−1, 1]² m; the frame shows [−0.72, 0.72] m of its width.
           glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     small->view.width = 32;
@@ -60,7 +60,7 @@ inline Image wallImage(const SmallWorld& small) {
 struct WallPoint {
     int x = 0, y = 0;
     glm::dvec3 position{0.0};
-    glm::dvec3 normal{0.0};  // towards the camera
+    glm::dvec3 normal{0.0};  // unit normal, towards the camera
     glm::dvec3 toEye{0.0};
     glm::dvec2 uv{0.0};  // first texture coordinate set
 };
@@ -69,7 +69,7 @@ inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     const View& view = small.view;
     const FramePlan plan = wallPlan(small);
     const glm::dvec2 offset(plan.samples[0].pixel);
-    const double tanX = 36.0 / (2 * 50);  // default lens of a view
+    const double tanX = 36.0 / (2 * 50);  // of the default lens
     std::vector<WallPoint> points;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -95,8 +95,9 @@ struct GltfSurface {
     double grazing = 1;           // reflectance of the dielectric part at grazing incidence
 };
 
-// Returns f(l, v)·(n·l)₊ by the appendix's equations: Lambert, Schlick's Fresnel and GGX. Masking and shadowing follow
-// Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v), n·l + n·v, α).
+// Returns f(l, v)·(n·l)₊ by the equations of glTF 2.0, appendix B: Lambert, Schlick's Fresnel and GGX. Masking and
+// shadowing follow Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v),
+// n·l + n·v, α).
 inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n, const glm::dvec3& v,
                                  const glm::dvec3& l) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
@@ -117,8 +118,8 @@ inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n
     return nl * ((1.0 - reflected) * diffuse + fresnel * (distribution * visibility));
 }
 
-// Light on a point: illuminance across the light's direction, and the unit direction towards the light
-// (KHR_lights_punctual).
+// Light that reaches a point: the illuminance of a surface that faces the light, and the unit direction towards the
+// light (KHR_lights_punctual).
 struct Illumination {
     glm::dvec3 illuminance{0.0};
     glm::dvec3 toLight{0.0};
@@ -169,8 +170,9 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
             << "at " << point.x << ", " << point.y << ", channel " << c;
 }
 
-// Single precision over some dozens of operations errs by 2e-5. In D, the cosine of the half vector is compared with
-// α², which magnifies rounding. `slope` is the change of the light over the position's uncertainty.
+// Expects a pixel to have the radiance `expected` to within rounding. Single precision over some dozens of operations
+// errs by 2e-5. The GGX distribution compares the half vector's cosine with α², which magnifies rounding. `slope` is
+// the change of the light over the position's uncertainty.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

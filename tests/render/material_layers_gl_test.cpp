@@ -1,5 +1,5 @@
-// KHR_materials_ior, _specular, _clearcoat and _sheen: a wall's radiance against their equations in double precision,
-// and energy in a white furnace.
+// Tests of KHR_materials_ior, _specular, _clearcoat and _sheen: a wall's radiance against their equations in double
+// precision, and energy in a white furnace.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ double reflectanceOf(double ior) {
     return std::pow((ior - 1) / (ior + 1), 2);
 }
 
-// Image in a furnace of light 1, of a wall whose normal has about this cosine to the view axis.
+// Returns the image of a wall in a furnace of light 1. The wall's normal has approximately this cosine to the view
+// axis.
 Image furnace(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -77,7 +78,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // both factors are ignored by metal
+    colored.metallicFactor = 1;  // metal ignores both factors
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 
@@ -88,8 +89,8 @@ TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
     expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
 }
 
-// A coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light, which is all the light that black shows. With a
-// glowing base, coat and base add up to 1.
+// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light, which is all the
+// light that a black wall shows. With a glowing base, coat and base add up to 1.
 TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     Material coated = nothing();
     coated.clearcoatFactor = 1;
@@ -121,7 +122,7 @@ TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
 
 // ---- sheen --------------------------------------------------------------------------------------
 
-// ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
+// Returns the albedo of sheen, ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
 double sheenAlbedo(double nv, double roughness) {
     constexpr int rings = 300, sectors = 300;
     const double sv = std::sqrt(1 - nv * nv);

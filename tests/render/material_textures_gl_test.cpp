@@ -1,5 +1,5 @@
-// Textured pixels against computed ones: the meaning of each channel, its decoding, and the texel's position on the
-// surface.
+// Tests of textured pixels against computed ones: the meaning of each channel, its decoding, and the texel's position
+// on the surface.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
     });
 }
 
-// Occlusion, in the red channel, darkens only the environment's light. Lamps and emission pass.
+// Occlusion, in the red channel, darkens only the environment's light, not the light of lamps and emission.
 TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     Material material;
     material.metallicFactor = 0;
@@ -47,7 +47,7 @@ TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     });
 }
 
-// Emission is the sRGB texel times a linear factor, which may exceed 1, and needs no lamp.
+// Emission is the decoded sRGB texel times a linear factor, which may exceed 1, and needs no lamp.
 TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
     Material material;
     material.emissiveFactor = {5, 0.5f, 1};
@@ -77,7 +77,8 @@ TEST_F(MaterialTextures, theNormalTextureTiltsTheNormal) {
     });
 }
 
-// Texture alpha times the factor cuts a hole below the cutoff, but not at the cutoff.
+// An alpha mask discards pixels whose texture alpha times the factor is below the cutoff. At the cutoff, pixels are
+// kept.
 TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     Material material = unlitMaterial({1, 1, 1, 0.5f});
     material.alphaMode = AlphaMode::mask;
@@ -99,7 +100,7 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     }
     EXPECT_GT(holes, 100);
     EXPECT_GT(left, 100);
-    // An alpha of 1 · 1 is not below a cutoff of 1.
+    // An alpha of 1 · 1 is kept at a cutoff of 1.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
     const Image full = wallImage(*small);
@@ -183,7 +184,8 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
         }
 }
 
-// Each code is decoded, then multiplied by the linear factor and the linear vertex colours.
+// Each 8-bit code of a base colour texture is decoded, then multiplied by the linear factor and the linear vertex
+// colours.
 TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     Mesh& mesh = small->scene.meshes[0];
@@ -211,11 +213,11 @@ TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
         ASSERT_TRUE(nearestCode(5.0 * pixel[1], texel[1])) << texel[1] << ": " << pixel[1];
         ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
     }
-    // at least 80 codes lie in the visible part
+    // At least 80 of the 256 codes lie in the visible part.
     EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);
 }
 
-// Vertex colours are linear with 16 bits. With 8 bits, the first would become zero.
+// Dark vertex colours are kept, since they are linear with 16 bits. With 8 bits, the first colour would become zero.
 TEST_F(MaterialTextures, darkVertexColoursAreKept) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     small->scene.meshes[0].vertices.colors.assign(4, {118.0f / 65535, 0.0005f, 0.3f, 1});
@@ -225,7 +227,7 @@ TEST_F(MaterialTextures, darkVertexColoursAreKept) {
         expectRadiance(image, point, {118.0 / 65535, 0.0005, 0.3}, glm::dvec3(8e-6));
 }
 
-// Fitted colours of a level may lie outside [0, 1].
+// Fitted colours of a level may lie outside [0, 1] and are not clamped.
 TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
@@ -244,7 +246,7 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
         expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }
 
-// Filtering interpolates decoded light, not codes. The interpolation weights have at least 8 bits.
+// Texture filtering interpolates decoded light, not codes. The interpolation weights have at least 8 bits.
 TEST_F(MaterialTextures, filteringMixesLight) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     const auto code = [](int column, int) { return column == 0 ? Texel{0, 40, 255, 255} : Texel{255, 200, 90, 255}; };

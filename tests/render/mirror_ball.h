@@ -1,5 +1,5 @@
 #pragma once
-// A ball of white metal, far from the camera.
+// Fixture for a ball of white metal, far from the camera.
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
-    static constexpr double ballDepth = 200;  // m: so far that reflected light leaves in one direction
+    static constexpr double ballDepth = 200;  // m; so far that all visible light leaves in one direction
     static constexpr double ballRadius = 1;
     static constexpr double ballFocalLength = 2000;  // mm
 
-    // A smooth ball of white metal, about 36 px across in 64 × 48 px.
+    // Returns a ball of white metal without bumps, about 36 px across in an image of 64 × 48 px.
     static std::unique_ptr<SmallWorld> mirrorBall(float roughness) {
         auto small = std::make_unique<SmallWorld>();
         Material metal;

@@ -1,4 +1,4 @@
-// Near-mirrors and their brightness at every level of detail.
+// Tests of the brightness of near-mirrors at every level of detail.
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Motion blur against closed forms and against renders of single moments.
+// Tests of motion blur against closed forms and against renders of single moments.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Image renderedInFloat(const World& world, const View& view, const RenderSettings
     return imageInFloats(world, planFrame(world, view, settings));
 }
 
-// Returns the time that the plan gives a sample.
+// Returns the time of a sample within the exposure, as the plan chooses it.
 double timeOf(const View& view, std::uint32_t index) {
     return static_cast<double>(lensSamples(view.lens, RenderSettings{}.sequence, index, 1, 0).front().time);
 }
@@ -71,8 +71,8 @@ struct WhiteSquare : SmallWorld {
     }
 };
 
-// A square of width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a. The covered share of the exposure is
-// a trapezoid.
+// A square that moves past leaves a trapezoid: the share of the exposure in which it covers a pixel. A square of width
+// 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
 TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     constexpr double a = 8, way = 40;
     WhiteSquare square(a);
@@ -84,7 +84,7 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
         const double place = x + 0.5 - 64;
         const double from = std::max((place - a) / way + 0.5, 0.0);
         const double to = std::min((place + a) / way + 0.5, 1.0);
-        // Tolerance: half a pixel's width, and the discrepancy of the sample times.
+        // The tolerance covers half a pixel's width and the discrepancy of the sample times.
         ASSERT_NEAR(image.at(x, 48)[0], std::max(to - from, 0.0), 0.02) << "column " << x;
     }
 }
@@ -125,7 +125,8 @@ TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     EXPECT_TRUE(sameBits(circular(), still));
 }
 
-// The corners of a turning square move along arcs. A single segment moves them along chords.
+// Motion segments follow a rotation. Over many segments, the corners of a turning square move along arcs; over a single
+// segment, they move along chords.
 TEST_F(Motion, segmentsFollowARotation) {
     WhiteSquare square(16);
     const glm::dmat4 middle = square.world.pose.objects[0].worldFromObject;
@@ -149,13 +150,13 @@ TEST_F(Motion, segmentsFollowARotation) {
     // 16 segments of 11.25° deviate from the arc by 0.5 % of the radius, a tenth of a pixel.
     EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
     EXPECT_LT(compareImages(exact, one).psnr, 20);
-    // With one segment, half a turn moves corners along straight lines through the centre, so the square shrinks to a
-    // point and sends less light.
+    // Over a single segment, half a turn moves the corners along straight lines through the centre. The square shrinks
+    // to a point on the way and sends less light.
     EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
 
-// Returns the mean of one-sample renders. Each renders the still scene at its sample's moment.
+// Returns the mean of renders of one sample each, which show the still scene at the sample's moment.
 Image meanOfMoments(const World& world, const View& view, std::uint32_t samples) {
     Image sum;
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -175,8 +176,8 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
     return sum;
 }
 
-// Skin, moving camera, defocus, and a lamp that must not turn with the camera, all at once. `fStop` and `candela` suit
-// the size of the figure.
+// Expects motion blur to equal the mean of its moments for a skinned figure, a moving camera, defocus, and a lamp that
+// does not turn with the camera. `fStop` and `candela` suit the size of the figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;
     const auto small = posedWorld(path, 0.3, clip);
@@ -211,7 +212,7 @@ TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     expectMeanOfMoments(path, 2, 0.02, 20'000);  // the fox is a hundred metres long
 }
 
-// Five spheres with a morph target that move along straight lines before a moving camera.
+// Returns five spheres with a morph target, which openShutter() moves along straight lines before a moving camera.
 std::unique_ptr<SmallWorld> straightWays() {
     auto small = fiveSpheres();
     small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
@@ -239,7 +240,7 @@ void openShutter(SmallWorld& small, const std::vector<double>& shares) {
     }
 }
 
-// Translation is linear, so one segment is exact, also for morph targets and under blur controls.
+// Translation is linear in time, so one motion segment is exact, also for morph targets and under blur controls.
 TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
     constexpr std::uint32_t samples = 16;
     for (const bool controlled : {false, true}) {

@@ -1,4 +1,4 @@
-// Skins and morph targets on the GPU against static meshes that the CPU posed at the same moment.
+// Tests of skins and morph targets on the GPU against static meshes that the CPU posed at the same moment.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ RenderSettings levelZeroSettings() {
     return settings;
 }
 
-// GPU and CPU round differently in single precision: pixels may differ where an edge passes close to a sample.
+// Expects both images to be equal up to rounding. GPU and CPU round differently in single precision, so pixels may
+// differ where an edge passes close to a sample.
 void expectSamePicture(const Image& posed, const Image& baked, const std::string& what) {
     const Difference difference = compareImages(baked, posed);
     EXPECT_EQ(difference.nonFinite, 0u) << what;
@@ -56,7 +57,7 @@ TEST_P(PosingOf, equalsTheBakedMeshes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, PosingOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Coarse levels are posed too: an unlit figure's coarsest level against the same level posed on the CPU.
+// Coarse levels are posed too: an unlit figure's coarsest level equals the same level posed on the CPU.
 TEST_F(Posing, coarseLevelsArePosedToo) {
     for (const char* file : {"meshes/reed.glb", "Fox.glb", "RiggedFigure.glb"}) {
         const auto posed = posedWorld(modelPath(file), 0.4, 0);
@@ -73,7 +74,7 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
     }
 }
 
-// Eight influences, one of them beyond the skin's joints, combine with morph targets that have normals.
+// A skin with eight influences, one of them beyond the skin's joints, combines with morph targets that have normals.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
     Material plain;

@@ -1,4 +1,4 @@
-// Directional, point and spot lights in each pixel against glTF's equations in double precision.
+// Tests of directional, point and spot lights in each pixel against glTF's equations in double precision.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ Material materialOf(const GltfSurface& surface) {
     return material;
 }
 
-// GPUs snap corners to a grid of 1/256 px, so interpolated positions may be off by half a step. Returns the change of
-// the light over that distance.
+// Returns the change of the light over half a step of the grid of 1/256 px to which GPUs snap corners. Interpolated
+// positions may be off by that distance. Returns 0 for software rasterizers.
 glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point, const std::vector<PlacedLight>& lights,
                              const SmallWorld& small) {
     if (currentIsSoftware()) return glm::dvec3(0);
@@ -46,7 +46,7 @@ void expectClosedForm(const GltfSurface& surface, const std::vector<PlacedLight>
     EXPECT_GT(brightest, 1e-3) << "the light reaches the wall";
 }
 
-// A lamp 1.2 m in front of the wall, off its centre.
+// Returns a lamp 1.2 m in front of the wall, off the wall's centre.
 PlacedLight lampBefore(const SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;
@@ -88,7 +88,8 @@ TEST_F(PunctualLights, aLampFallsOffWithTheSquareOfItsDistance) {
     expectClosedForm(surface, small->world.lights, *small);
 }
 
-// The range of 1.3 m ends within the wall: the nearest point is 1.2 m away, the frame's corners more.
+// A lamp's light ends at its range of 1.3 m. The nearest point of the wall is 1.2 m away, and the corners of the frame
+// are beyond the range.
 TEST_F(PunctualLights, aLampsRangeEndsItsLight) {
     const GltfSurface surface{{0.8, 0.8, 0.8}, 0, 1};
     const auto small = litWall(materialOf(surface));
@@ -129,7 +130,8 @@ TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
     EXPECT_GT(dark, 50);
 }
 
-// Few lights are constants of the shader and many are read from a buffer. Both add up.
+// Several lights add up, both a few lights that are constants of the shader and many lights that are read from a
+// buffer.
 TEST_F(PunctualLights, severalAddUp) {
     const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};
     const auto small = litWall(materialOf(surface));

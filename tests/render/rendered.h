@@ -1,5 +1,5 @@
 #pragma once
-// Complete images from a renderer, with all samples of a plan.
+// Helpers that render complete images, with all samples of a plan.
 
 #include "plan/frame_plan.h"
 #include "render/methods.h"
@@ -13,7 +13,7 @@ inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
-// Image by a method given as on the command line, with 32-bit float layers.
+// Returns the image by a method written as on the command line, with 32-bit float layers.
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);
     RendererOptions options;
@@ -22,7 +22,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
     return imageOf(*use.method->make(world, options), plan);
 }
 
-// Image by the accumulation, with 32-bit float layers.
+// Returns the image by the accumulation, with 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

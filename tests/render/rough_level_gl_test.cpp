@@ -1,4 +1,4 @@
-// Shading of coarse levels, whose normals describe a relief that their triangles have lost.
+// Tests of the shading of coarse levels, whose normals describe a relief that their triangles have lost.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// A square of edge 2 with 12 × 12 hills of slopes up to 27° and the normals of that relief.
+// Returns a square of edge 2 with 12 × 12 hills of slopes up to 27°, and with the normals of that relief.
 Mesh hills() {
     constexpr int cells = 96;
     constexpr double waves = 12;
@@ -60,8 +60,8 @@ double meanLight(const SmallWorld& small, LodMode lod) {
     return sum / covered;
 }
 
-// In an oblique view, the hillsides that face the eye cover more of the picture. A flat level with only a mean normal
-// is too dark, by 0.06 at 55°.
+// A flat level is as bright as the relief that it replaces. In an oblique view, the hillsides that face the eye cover
+// more of the picture. With only a mean normal, the flat level would be too dark, by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     Material matt;
@@ -83,7 +83,7 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             PlacedLight sun;
             sun.direction = glm::normalize(way);
             small.world.lights = {sun};
-            // In units of the radiance of a white face towards the sun.
+            // Both means are in units of the radiance of a white face towards the sun.
             const double reference = std::numbers::pi * meanLight(small, LodMode::off);
             EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)
                 << degrees << ' ' << way.x;

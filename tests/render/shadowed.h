@@ -1,5 +1,5 @@
 #pragma once
-// Shadows of edges under a disk of light: scenes, images and closed forms.
+// Fixture for shadows of edges under a disk of light: scenes, images and closed forms.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ protected:
         return material;
     }
 
-    // A white wall that fills the image of a pinhole camera at the origin, without a light.
+    // Returns a white wall that fills the image of a pinhole camera at the origin, without a light.
     static std::unique_ptr<SmallWorld> wall() {
         auto small = std::make_unique<SmallWorld>();
         small->scene.materials.push_back(matt());
@@ -52,7 +52,7 @@ protected:
         small.world.lights.push_back(sun);
     }
 
-    // Adds a board parallel to the wall, `height` m in front of it, 4 m wide from x = `left`.
+    // Adds a board 4 m wide, parallel to the wall and `height` m in front of it. Its left edge is at x = `left`.
     static void addEdge(SmallWorld& small, double left, double height) {
         place(small, 0,
               glm::scale(glm::translate(glm::dmat4(1), {left + 2, 0, height - receiverDepth}), glm::dvec3(2, 6, 1)));
@@ -80,12 +80,12 @@ protected:
         return renderer->image();
     }
 
-    // Returns the x on the wall that the column's centre shows.
+    // Returns the x of the wall point that the column's centre shows, m.
     static double wallX(const View& view, int column) {
         return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
     }
 
-    // Returns, for each column of the image's middle row, the light relative to the light without shadows.
+    // Returns the light of each column in the image's middle row, relative to the light without shadows.
     static std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
                                          const std::string& method = "accumulation") {
         RenderSettings without = settings;
@@ -105,8 +105,9 @@ protected:
         return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
     }
 
-    // The sun stands 45° to the right; t is the tangent of half its diameter. A point of its disk at a·t from its
-    // centre casts the edge, d in front of the wall, to left − d·(1 + t·a)/(1 − t·a).
+    // Returns the lit share of the sun at x on the wall, behind an edge at `left` and d in front of the wall. The sun
+    // stands 45° to the right, and t is the tangent of half its diameter. A point of the sun's disk at a·t from the
+    // disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
     static double litShareBehindEdge(double x, double left, double d, double t) {
         const double q = (left - x) / d;
         return diskShare((q - 1) / ((q + 1) * t));

@@ -1,4 +1,4 @@
-// Shadows for every size of waves, and by multirate and post-process methods.
+// Slow tests of shadows for every wave size, and by multirate and post-process methods.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // groups use other points on the lights
+              35);  // groups use different points on the lights
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);

@@ -1,4 +1,4 @@
-// Shadows of edges under a disk of light, against closed forms.
+// Tests of shadows of edges under a disk of light, against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,15 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             finish(*small);
             const RenderSettings settings = settingsFor(256, Shadows::on);
             const std::vector<double> shares = litShares(*small, settings);
-            // The lookup is lifted by at most a texel, which moves the edge by as much at 45°.
+            // The bias lifts the shadow map's lookup by at most a texel, which moves the shadow's edge by as much at
+            // 45°.
             const FramePlan plan = planFrame(small->world, small->view, settings);
             const double bias = shadowProjections(small->world, plan, {}).front().texel;
             double width = 0;  // number of columns in the penumbra
             double expectedWidth = 0;
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = wallX(small->view, x);
-                if (std::abs(place) > 0.7 * height) continue;  // the board itself hides the wall further right
+                if (std::abs(place) > 0.7 * height) continue;  // farther right, the board itself hides the wall
                 const double share = shares[static_cast<std::size_t>(x)];
                 EXPECT_LT(share, litShareBehindEdge(place - bias, height, height, t) + 0.04) << place;
                 EXPECT_GT(share, litShareBehindEdge(place + bias, height, height, t) - 0.04) << place;
@@ -61,8 +62,8 @@ TEST_F(Shadowed, umbraIsDarkAndWhatNothingHidesIsLitUnchanged) {
     }
 }
 
-// A board stands on the wall with its foot at x = 0. The wall is dark from the foot on, except for the bias and a
-// texel's width.
+// No light leaks at a contact. A board stands on the wall with its foot at x = 0, and the wall is dark from the foot
+// on, except for the bias and a texel's width.
 TEST_F(Shadowed, noLightLeaksAtAContact) {
     const auto small = wall();
     addSun(*small, {1, 0, 1}, glm::radians(1.0));
@@ -79,15 +80,15 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // the board is 1 m high, and a texel is wider along the wall than across the light
+            continue;  // the shadow is 1 m long, and a texel is wider along the wall than across the light
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
     EXPECT_GT(dark, 15);
 }
 
-// Planes at grazing incidence, and a rippled ball whose facets could shadow themselves. The ball's lit side, well
-// inside its outline, is as bright as without shadows.
+// Surfaces do not shadow themselves. A plane at grazing incidence and the lit side of a rippled ball, well inside its
+// outline, are as bright as without shadows.
 TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     for (const double degrees : {0.0, 45.0, 80.0, 87.0}) {
         const auto small = wall();
@@ -110,8 +111,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall: the shadow measures 0.8 m. The lamp uses one
-// map, or six if an object stands behind it too.
+// Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of
+// 0.8 m. The lamp uses one map, or six if an object also stands behind the lamp.
 TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     for (const bool amid : {false, true}) {
         for (const LightType type : {LightType::point, LightType::spot}) {
@@ -132,7 +133,7 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
             const std::vector<double> shares = litShares(*small, settingsFor(16, Shadows::on));
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = std::abs(wallX(small->view, x));
-                if (place < 0.29) continue;  // the camera sees the board there
+                if (place < 0.29) continue;  // there, the board hides the wall
                 if (std::abs(place - 0.4) < 0.08) continue;
                 EXPECT_NEAR(shares[static_cast<std::size_t>(x)], place < 0.4 ? 0 : 1, 1e-4) << place;
             }

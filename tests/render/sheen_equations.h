@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Lambda of Estevez and Kulla 2017, as KHR_materials_sheen prints it.
+// Returns the function Lambda of Estevez and Kulla 2017, as KHR_materials_sheen prints it.
 inline double sheenLambda(double cosine, double alpha) {
     const auto l = [&](double x) {
         const double t = (1 - alpha) * (1 - alpha);

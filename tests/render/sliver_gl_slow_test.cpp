@@ -1,4 +1,4 @@
-// Triangles far narrower than the fraction of a pixel to which rasterizers round corners.
+// Tests of triangles far narrower than the fraction of a pixel to which rasterizers round corners.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double sliverDepth = 2;   // m
-constexpr double sliverTan = 0.36;  // half of the view's width at distance 1
+constexpr double sliverTan = 0.36;  // tangent of half the horizontal field of view
 
 class RandomUnits {
 public:
@@ -25,7 +25,7 @@ private:
     std::uint64_t state_ = 1;
 };
 
-// Slivers in all directions, 1e-6 to 1 px wide. The corners of each are all dark or all bright.
+// Returns slivers in all directions, 1e-6 to 1 px wide. The corners of each sliver are all dark or all bright.
 Mesh slivers(int count, double pixel) {
     Mesh mesh;
     RandomUnits random;

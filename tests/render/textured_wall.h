@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Decodes sRGB (IEC 61966-2-1).
+// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1).
 inline double linearOf(int code) {
     const double encoded = code / 255.0;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -36,7 +36,7 @@ inline int addTexture(Scene& scene, int size, const std::function<Texel(int colu
     return static_cast<int>(scene.textures.size()) - 1;
 }
 
-// Returns a texel; all channels of all texels have different values.
+// Returns a texel of a 4 × 4 texture. All channels of all texels have different values.
 inline Texel scrambled(int column, int row) {
     const int i = 4 * row + column;
     return {(i * 37 + 11) % 256, (i * 61 + 50) % 256, (i * 89 + 5) % 256, (i * 23 + 90) % 256};
@@ -50,7 +50,7 @@ inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     return glm::ivec2(glm::floor(place));
 }
 
-// Returns the tolerance of decoding: half the step to the next code, as drivers decode by polynomials.
+// Returns the tolerance for a decoded code: half the step to the next code, since drivers decode by polynomials.
 inline double decodingError(int code) {
     return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Images by the ray tracer of scenes without pyramids.
+// Helpers that render images of scenes without pyramids by the ray tracer.
 
 #include <cstdint>
 

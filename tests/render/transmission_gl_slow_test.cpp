@@ -1,4 +1,4 @@
-// A pane of glass before a blurred scene.
+// Slow tests of a pane of glass before a blurred scene.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace defocus::engine {
 namespace {
 
-// A pane without effect in front of all spheres leaves the image unchanged through a lens: each sample shows its own
-// background.
+// A pane that neither reflects nor tints, in front of all spheres, leaves the image through a lens unchanged, because
+// each sample shows its own background.
 TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
     const auto without = fiveSpheres();
     const auto with = fiveSpheres();

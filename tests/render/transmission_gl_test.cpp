@@ -1,4 +1,5 @@
-// KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, by the accumulation.
+// Tests of KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, by the
+// accumulation.
 
 #include "render/glass_wall.h"
 
@@ -30,7 +31,7 @@ TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
             }
 }
 
-// Beer-Lambert absorption: c^(d/D). The thickness scales with the object, the attenuation distance does not.
+// A slab absorbs by Beer-Lambert, c^(d/D). The thickness d scales with the object, the attenuation distance D does not.
 TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
     const glm::dvec3 color(0.5, 0.25, 1);
     for (const double thickness : {0.1, 0.4})
@@ -64,7 +65,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     const glm::dvec3 normal(placed[2]);
     int compared = 0;
     for (const WallPoint& point : wallPoints(*small)) {
-        // The view ray meets the tilted pane at `entry`. The pane rotates about the centre of the untilted one.
+        // The view ray meets the tilted pane at `entry`. The pane is rotated about its centre.
         const glm::dvec3 eye(small->view.worldFromCamera[3]);
         const double along = glm::dot(glm::dvec3(placed[3]) - eye, normal) / glm::dot(-point.toEye, normal);
         const glm::dvec3 entry = eye - point.toEye * along;
@@ -72,7 +73,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
         if (std::max(std::abs(on.x), std::abs(on.y)) > 0.95) continue;
         const glm::dvec3 exit = entry + 0.5 * glm::refract(-point.toEye, normal, 1 / 1.5);
         const glm::dvec3 seen(cameraFromWorld * glm::dvec4(exit, 1));
-        const double right = 4 * seen.x / -seen.z;  // x in m on the wall behind
+        const double right = 4 * seen.x / -seen.z;  // horizontal position on the wall behind the pane, m
         const double edge = 4 * 0.36 * (1 - 2.0 / image.width);
         if (std::abs(right) > edge || std::abs(seen.y / seen.z) > 0.36 * 0.75 * 0.9) continue;
         ASSERT_NEAR(image.at(point.x, point.y)[0], (right / 2 + 1) / 2, 2e-4) << point.x << ' ' << point.y;
@@ -81,7 +82,8 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     EXPECT_GT(compared, 200);
 }
 
-// Panes behind each other, with an alpha-blended surface in between, are all visible, in any order of the file.
+// Panes behind each other, with an alpha-blended surface in between, are all visible, independent of their order in the
+// file.
 TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     for (const bool nearestFirst : {false, true}) {
         const auto small = litWall(clear({1, 0.5f, 1}));
@@ -97,7 +99,7 @@ TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     }
 }
 
-// More panes than backdrop copies still show the background.
+// The background is still visible behind more panes than there are backdrop copies.
 TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     const auto small = litWall(clear(glm::vec3(0.9f)));
     light(*small);
@@ -135,7 +137,8 @@ Spread redOf(const Image& image) {
     return {sum / count, std::sqrt(squares / count - sum * sum / count / count)};
 }
 
-// Red varies across the wall behind the pane. A rougher pane leaves less of that variation and keeps the light.
+// A rough pane blurs the wall behind it and keeps the wall's light. Red varies across the wall, and a rougher pane
+// leaves less of that variation.
 TEST_F(Transmission, roughnessSpreadsWhatLiesBehindAndKeepsItsLight) {
     double before = 1;
     Spread smooth;

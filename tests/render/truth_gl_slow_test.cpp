@@ -1,5 +1,6 @@
-// The rasterizer against an independent ray tracer on real geometry, and against the closed forms of a small quad's
-// bokeh. With DEFOCUS_TEST_OUTPUT set to a folder, images and their differences (× 16 around grey) are written there.
+// Tests of the rasterizer against an independent ray tracer on real geometry, and against the closed forms of a small
+// quad's bokeh. With DEFOCUS_TEST_OUTPUT set to a folder, images and their differences (× 16 around grey) are written
+// there.
 
 #include <gtest/gtest.h>
 
@@ -43,8 +44,8 @@ void writeForPeople(const std::string& name, const Image& reference, const Image
     writeImage(path / (name + "-difference.png"), differenceImage(reference, image, 16));
 }
 
-// At equal lens points, the remaining difference has no structure: no shift, no scale and no change of the blur's
-// width. The bounds are far below the noise of 256 samples against an independent sequence.
+// Expects the difference from the ray tracer at equal lens points to have no structure: no shift, no scale and no
+// change of the blur's width. The bounds are far below the noise of 256 samples against an independent sequence.
 void expectNoStructure(const std::string& name, const TruthScene& baked, const Image& image,
                        const RenderSettings& settings) {
     const Image planned = traced(baked.world, baked.view, settings, EmbreeSampling::planned);
@@ -62,7 +63,7 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_NEAR(widened, 0, 5e-4) << name;      // fraction of the blur's width
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // growth in px over the image's width
+    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // px over the image's width
 }
 
 void expectTruth(const std::string& name, Scene scene) {
@@ -76,10 +77,10 @@ void expectTruth(const std::string& name, Scene scene) {
     const Difference difference = compareImages(reference, image);
     EXPECT_GE(difference.psnr, 45) << name;
     EXPECT_EQ(difference.nonFinite, 0) << name;
-    // Allowed differences at 256 samples: the noise of the ray tracer's own points, and an offset of the plan's mean
-    // lens point of up to 0.006.
+    // The bounds allow for two differences at 256 samples: the noise of the ray tracer's own points, and an offset of
+    // the plan's mean lens point of up to 0.006.
     const BlockDifference blocks = blockDifference(reference, image);
-    EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of 8 bits
+    EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of an 8-bit step
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;
     expectNoStructure(name, *baked, image, settings);
 }

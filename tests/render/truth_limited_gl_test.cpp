@@ -1,5 +1,5 @@
-// The limited foreground against an independent ray tracer that puts a separate lens at the depth α in front of each
-// pixel (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
+// Tests of the limited foreground against an independent ray tracer that puts a separate lens at the depth α in front
+// of each pixel (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,10 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double limit = 5;  // px
+constexpr double limit = 5;  // foreground limit, px
 
-// A small school whose nearest fish, without the limit, would be blurred far beyond it.
+// Returns a small school of fish. Without the limit, its nearest fish would be blurred by more than three times
+// `limit`.
 std::unique_ptr<TruthScene> nearSchool() {
     FishSchoolOptions school;
     school.fishCount = 8;

@@ -1,4 +1,4 @@
-// Objects posed on the GPU against the ray tracer, which uses poses of the CPU, at the same lens points.
+// Tests of objects posed on the GPU against the ray tracer, which uses poses of the CPU, at the same lens points.
 
 #include <gtest/gtest.h>
 

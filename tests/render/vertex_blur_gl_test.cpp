@@ -1,4 +1,4 @@
-// Blur from vertex attributes against closed forms: a small square spreads as the disk of its blur.
+// Tests of blur from vertex attributes against closed forms: a small square spreads as the disk of its blur.
 
 #include <cmath>
 
@@ -35,8 +35,8 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
-// Post-process methods draw sharp edges without a vertex blur. With one, edges are as wide as under the same blur of
-// the lens.
+// Post-process methods draw sharp edges without a vertex blur. With a vertex blur, edges are as wide as under the same
+// blur of the lens.
 TEST_F(VertexBlurs, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens,max-coc=unlimited", "layered"}) {
         const auto ofLens = blurredSquare(5, {1, 0, 0});

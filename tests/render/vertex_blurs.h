@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces with blur from vertex attributes, and the closed form of a small square's image.
+// Fixture for surfaces with blur from vertex attributes, with the closed form of a small square's image.
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
     static void TearDownTestSuite() { context_.reset(); }
 
-    static constexpr double blurredSide = 4;  // px, side of the blurred square
-    static constexpr double focus = 2;        // m
+    static constexpr double blurredSide = 4;  // side of the blurred square, px
+    static constexpr double focus = 2;        // focus distance, m
     static constexpr int blurSamples = 256;
 
-    // A white square in the middle of a black image. All its vertices have the blur `blur`.
+    // Returns a white square in the middle of a black image. All its vertices have the blur `blur`.
     static std::unique_ptr<SmallWorld> blurredSquare(double depth, const VertexBlur& blur) {
         auto small = std::make_unique<SmallWorld>();
         small->view = bokehView(120, 90);
@@ -49,19 +49,20 @@ protected:
         return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     }
 
-    // px per millimetre on the sensor
+    // Returns the number of pixels per millimetre of the sensor.
     static double perMillimetre(const SmallWorld& small) {
         return small.view.width / small.view.lens.horizontalAperture;
     }
 
-    // Variance in px² of a disk whose mean squared diameter is `squared`, with the square and the pixel.
+    // Returns the variance in px² of a blurred square and its pixel; `squared` is the mean squared diameter of the
+    // blur's disk.
     static double varianceOf(double squared) { return squared / 16 + blurredSide * blurredSide / 12 + 1.0 / 12; }
 
-    // Variance of the sharp square, whose edges lie between pixels.
+    // Variance in px² of the sharp square, whose edges lie between pixels.
     static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
-    // Expects energy, centre and variance for methods that rasterize points or lines. Post-process methods blur with
-    // other kernels.
+    // Expects the energy, centre and variance of the blurred square, for methods that rasterize points or lines.
+    // Post-process methods blur with other kernels.
     static void expectVariance(const SmallWorld& small, double expected, const char* method, double relative = 0.02) {
         const Moments moments = momentsOf(renderedBlur(small, method));
         EXPECT_NEAR(moments.energy, blurredSide * blurredSide, 0.02 * blurredSide * blurredSide) << method;
@@ -70,7 +71,8 @@ protected:
         EXPECT_NEAR(moments.variance.y, expected, relative * expected) << method;
     }
 
-    // A slanted floor whose blur grows from one end to the other: two divided triangles look like many small ones.
+    // Returns a slanted floor of `cells` × `cells` squares. Its vertices have the blur blur(t), where t grows from 0 at
+    // the near end to 1 at the far end.
     static std::unique_ptr<SmallWorld> slantedFloor(int cells, const std::function<VertexBlur(double)>& blur) {
         auto small = std::make_unique<SmallWorld>();
         small->view = bokehView(120, 90);

@@ -1,5 +1,5 @@
 #pragma once
-// Images with and without the culling of clusters.
+// Fixture for images with and without culling of clusters.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ protected:
         return renderer->image();
     }
 
-    // Returns the plan with all of its triangles drawn.
+    // Returns the plan without culling, so that all of its triangles are drawn.
     static FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
         plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
         for (ObjectPlan& object : plan.objects) {
@@ -75,7 +75,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Scanned and modelled surfaces with needles, folds and holes.
+// Fixture for models of scanned and modelled surfaces with needles, folds and holes.
 class VisibilityOf : public Visibility, public testing::WithParamInterface<const char*> {};
 
 }  // namespace defocus::engine

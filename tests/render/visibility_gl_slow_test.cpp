@@ -1,4 +1,4 @@
-// Culling of clusters does not change a bit of the images of large models.
+// Tests that culling of clusters does not change a bit of the images of large models.
 
 #include "render/visibility.h"
 

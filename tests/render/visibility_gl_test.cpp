@@ -1,4 +1,4 @@
-// Culling of clusters does not change a bit of the image.
+// Tests that culling of clusters does not change a bit of the image.
 
 #include "models.h"
 #include "render/visibility.h"
@@ -32,7 +32,7 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// If C is curved, or differs between vertices, corners are tested (visibility.h).
+// If C is curved or differs between vertices, clusters are culled by their corners (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;
@@ -60,7 +60,7 @@ TEST_F(Visibility, blendedSurfaces) {
     EXPECT_GT(expectSameImage(*small, LodMode::off), 0.2);
 }
 
-// Double-sided surfaces show their backs, so nothing is culled.
+// Double-sided surfaces show their back faces, so nothing is culled.
 TEST_F(Visibility, doubleSidedSurfacesLeaveNothingOut) {
     const auto small = fiveSpheres();
     small->scene.materials[0].alphaMode = AlphaMode::blend;

@@ -1,4 +1,4 @@
-// Cases of the stability benchmark whose ground truth is the ray tracer, in builds with Embree.
+// Tests of the stability benchmark's cases whose ground truth is the ray tracer, in builds with Embree.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Checks every case of the stability benchmark against its limit.
+// Tests that every case of the stability benchmark stays within its limit.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ TEST(LensHonesty, theAccumulationFollowsTheLens) {
     EXPECT_GT(count, 10);
 }
 
-// Combines each method with each of its settings, and adds the settings that a setting requires.
+// Every method that honestyMethods() lists can be created: each method with each of its settings, plus the settings
+// that these require.
 TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     const auto context = createHeadlessContext();
     World world;
@@ -53,8 +54,8 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     }
 }
 
-// Segments may exceed the driver's shared memory, as with llvmpipe. The benchmark reports this and continues with the
-// other methods.
+// The segments of a method may exceed the driver's shared memory, as on llvmpipe. The benchmark reports such a method
+// and continues with the next one.
 TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
     const auto context = createHeadlessContext();
     std::vector<HonestyRow> rows;

@@ -1,4 +1,4 @@
-// bench convergence on a small world: what it measures, checks, skips and resumes.
+// Tests of bench convergence on a small world: what it measures, checks, skips and resumes.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-// A renderer that claims capabilities it lacks.
+// A renderer that returns an image of one colour and claims to have drawn any number of samples.
 class Pretender final : public Renderer {
 public:
     explicit Pretender(float colour, std::uint32_t claimed, int width = 64) : image_(width, 48, 4), claimed_(claimed) {
@@ -44,7 +44,7 @@ private:
 
 class Convergence : public testing::Test {
 protected:
-    // Renders the reference once, since that takes longer than most of the images compared with it.
+    // Renders the reference once for all tests, since rendering it takes longer than most of the compared images.
     static void SetUpTestSuite() {
         context_ = createHeadlessContext();
         const std::unique_ptr<SmallWorld> small = smallSpheres();
@@ -120,8 +120,8 @@ TEST_F(Convergence, moreLensSamplesComeCloser) {
     EXPECT_EQ(runs[1].triangles, 4 * runs[0].triangles);
 }
 
-// RMSE is a distance: |d(levels, full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) + d(full,
-// reference).
+// RMSE obeys the triangle inequality: |d(levels, full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) +
+// d(full, reference).
 TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     options_.sampleCounts = {16};
     options_.thresholdFactors = {4, 0};
@@ -137,7 +137,7 @@ TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     EXPECT_LT(runs[1].triangles, runs[0].triangles);
     EXPECT_EQ(runs[1].pyramidMilliseconds, 12);
 
-    // Zero thresholds give full detail, pixel for pixel.
+    // Thresholds of zero give an image equal to full detail in every pixel.
     ASSERT_TRUE(runs[2].bias);
     EXPECT_EQ(runs[2].bias->mse, 0);
     EXPECT_EQ(runs[2].imageHash, runs[0].imageHash);
@@ -156,7 +156,7 @@ TEST_F(Convergence, runsTakeTurnsAndGiveTheSameImage) {
     EXPECT_EQ(runs[1].error.mse, runs[3].error.mse);
     ASSERT_TRUE(runs[3].bias);
     EXPECT_EQ(runs[1].bias->mse, runs[3].bias->mse);
-    EXPECT_EQ(images_, 2);  // images of the first frames only
+    EXPECT_EQ(images_, 2);  // one image per setting, from its first run
 }
 
 TEST_F(Convergence, takesUpWhatIsThere) {
@@ -246,7 +246,8 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     EXPECT_EQ(namesLeftOut(), "unshaded ");
 }
 
-// Spheres move by 0.2 m while the shutter is open.
+// A method's image changes with spheres that move by 0.2 m during the exposure if and only if the method claims to draw
+// motion.
 TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

@@ -1,4 +1,4 @@
-// The reference image: the mean that it stores, the accuracy of its error estimate, and its reuse.
+// Tests of the reference image: the mean that it stores, the accuracy of its error estimate, and its reuse.
 
 #include <gtest/gtest.h>
 
@@ -56,15 +56,15 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
         ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));
 }
 
-// Half the difference between the two halves estimates the error if the halves err independently. They are not quite
-// independent: each fills the gaps of the other, so that the mean is better than estimated.
+// The reference estimates its own error as half the difference between its two halves, which is right for independent
+// errors. The halves fill each other's gaps, so the true error may be smaller.
 TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const ReferenceImage coarse = reference(16);
     const ReferenceImage fine = reference(512);
     const double error = compareImages(fine.image, coarse.image).rmse;
     EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
     EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
-    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // better than the error of random samples
+    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // random samples would gain only √32
     EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
 }
 

@@ -1,5 +1,5 @@
-// Rows, Pareto fronts, error floors, the journal, the cases and the crops of bench convergence: all parts without a
-// GPU.
+// Tests of the parts of bench convergence that need no GPU: rows, Pareto fronts, error floors, journal, cases and
+// crops.
 
 #include "eval/convergence/convergence.h"
 
@@ -24,6 +24,8 @@ namespace {
 
 // ---- Pareto front ---------------------------------------------------------------------------------------------------
 
+// The Pareto front of these trials is a, b, d and e.
+//
 // error
 //  4 | a
 //  3 |   b   c
@@ -52,7 +54,7 @@ ConvergenceRow rowOf(const std::string& method, const std::string& setting, doub
     return row;
 }
 
-// Errors that are powers of the time, so that the inverse is known between the measured times.
+// The time to reach an error is exact, also between measured times, if the error is a power of the time.
 TEST(EqualError, isExactForPowersOfTheTime) {
     std::vector<ConvergenceRow> rows;
     for (const double ms : {3.0, 48.0, 768.0}) {
@@ -129,7 +131,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 10, 0.5), runOf("a", "x", 16, 0, 20, 0.25),
                                         runOf("b", "x", 8, 0, 15, 0.2), runOf("b", "x", 16, 0, 1, 0.001)};
     runs[3].fault = "NaN or infinite pixels";
-    runs[1].error.flip = 0.01;  // FLIP may rank images differently
+    runs[1].error.flip = 0.01;  // FLIP may rank images differently from the MSE
     const std::vector<ConvergenceRow> rows = convergenceRows(runs);
     EXPECT_TRUE(rows[0].front);
     EXPECT_FALSE(rows[1].front);  // b with 8 samples is faster and more accurate
@@ -140,7 +142,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_NE(convergenceLine(rows[3]).find("NaN or infinite"), std::string::npos);
 }
 
-// The reference itself may be off by RMSE 0.1 and FLIP 0.02.
+// Rows mark errors below the reference's own error, here an RMSE of 0.1 and a FLIP of 0.02.
 TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     std::vector<ConvergenceRun> runs;
     for (const auto& [mse, flip] : {std::pair{0.02, 0.03}, {0.009, 0.03}, {0.02, 0.01}, {0.009, 0.01}}) {
@@ -163,8 +165,8 @@ TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     }
 }
 
-// Two alternating seeds: the error is the mean over the seeds, and each seed counts once. Only runs with the same seed
-// must give the same image.
+// With two alternating seeds, a row's error is the mean over the seeds, and each seed counts once. Only runs with the
+// same seed must give the same image.
 TEST(ConvergenceRows, errorsAreMeansOverSeeds) {
     const std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 1, 0.25), runOf("a", "x", 8, 1, 1, 0.75),
                                               runOf("a", "x", 8, 2, 1, 0.25)};
@@ -291,7 +293,8 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "accumulation lod=off 16", "accumulation lod=nearest metric=error thresholds=0.5 16",
                                   "rays standard 16", "embree standard 16"}));
 
-    // Full detail and the ray tracer are always included. Without a list, every method of the table is included.
+    // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
+    // method.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};
@@ -303,7 +306,8 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     EXPECT_EQ(names.size(), methods().size());
 }
 
-// A method with standard settings has a row for each form; a method with its own settings has a single row.
+// A method with standard settings has a row for each of its forms: published, best and standard. A method with custom
+// settings has a single row.
 TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",
                     .description = "",

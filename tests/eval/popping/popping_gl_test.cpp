@@ -38,7 +38,7 @@ protected:
 };
 std::unique_ptr<GlContext> Popping::context_;
 
-// With pyramids of one level every mode draws full detail, so the modes do not differ.
+// With pyramids of one level, every mode draws full detail, so the modes do not differ.
 TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
     for (Pyramid& pyramid : small_->world.pyramids) pyramid = fullDetail(small_->scene.meshes[0]);
     options_.movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
@@ -72,8 +72,9 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// A full level's pop is the sum of N steps. By the triangle inequality, the mean step is at least 1/N of the pop. Steps
-// of different samples add up at most like random ones: 1/√N.
+// One sample's change of level is a small part of the pop when all N samples change. By the triangle inequality, the
+// mean step is at least 1/N of the pop. Steps add up at most like random ones, so the mean step is at most about 1/√N
+// of the pop.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -32,8 +32,8 @@ TEST(PoppingPaths, aWholeFocusPullGoesEvenlyInDioptresFromNearToFar) {
         EXPECT_NEAR(1 / frames[i].view.lens.focusDistance - 1 / frames[i - 1].view.lens.focusDistance, step, 1e-12);
         EXPECT_EQ(frames[i].view.worldFromCamera, small->view.worldFromCamera);
     }
-    EXPECT_NEAR(frames.front().view.lens.focusDistance, 1.2 - 0.15, 0.01);  // the nearest sphere's near side
-    EXPECT_NEAR(frames.back().view.lens.focusDistance, 9 + 1, 0.05);        // the farthest one's far side
+    EXPECT_NEAR(frames.front().view.lens.focusDistance, 1.2 - 0.15, 0.01);  // near side of the nearest sphere
+    EXPECT_NEAR(frames.back().view.lens.focusDistance, 9 + 1, 0.05);        // far side of the farthest sphere
 }
 
 TEST(PoppingPaths, aDollyKeepsTheFocusOnItsPlane) {
@@ -52,7 +52,7 @@ TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
     for (const auto& [view, pose] : frames) {
         const glm::dvec3 eye = view.worldFromCamera[3];
         EXPECT_NEAR(glm::length(eye - centre), glm::length(centre), 1e-9);
-        // The centre of the scene stays at the same place in the picture.
+        // The centre of the scene keeps its position in the image.
         const glm::dvec4 seen = glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1);
         EXPECT_NEAR(glm::length(glm::dvec3(seen) - centre), 0, 1e-9);
     }
@@ -61,7 +61,7 @@ TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
                 1e-9);
 }
 
-// A clip of 2 s in which the first sphere climbs at 1 m/s.
+// A clip plays once while the camera stands still. In this clip of 2 s, the first sphere climbs at 1 m/s.
 TEST(PoppingPaths, aClipPlaysOnceBeforeACameraThatStandsStill) {
     const auto small = spheres();
     Node climber;
@@ -92,7 +92,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
     EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "the camera sees no object";
 }
 
-// The busiest stretch has the max number of changes of the nearest level among all stretches of its length.
+// The busiest stretch has the max number of level changes in mode `nearest` among all stretches of its length.
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
     const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
@@ -122,9 +122,11 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     EXPECT_THROW(busiestStretch(frames, small->world, settings, 41), Error);
 }
 
-// ---- the objects' pixels --------------------------------------------------------------------------------------------
+// ---- pixels of the objects
+// -------------------------------------------------------------------------------------------
 
-// An object's pixel with a blur of 6 px marks the disk of radius 3 px around it. The background marks nothing.
+// A pixel of an object with a blur of 6 px marks the pixels within 3 px as pixels of objects. The background marks
+// none.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);
@@ -144,7 +146,8 @@ TEST(PoppingPixels, growByHalfTheBlur) {
 
 // ---- summaries ------------------------------------------------------------------------------------------------------
 
-// 101 changes with steps of 0 … 100 (nearest) and half of that (fractional): the 99th percentile is the second largest.
+// Returns 101 changes with steps of 0 … 100 in mode `nearest` and half of that in mode `fractional`. The 99th
+// percentile is the second largest step.
 std::vector<PoppingFrame> ramp() {
     std::vector<PoppingFrame> frames;
     for (int i = 0; i <= 100; ++i)

@@ -1,4 +1,4 @@
-// Compares the errors that pyramids predict for their levels with those of rendered images.
+// Tests that the errors that pyramids predict for their levels agree with those of rendered images.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// A plaster ball with bumps and stripes: a pyramid's model covers all of its appearance.
+// Returns the rows of a plaster ball with bumps and stripes, whose appearance the pyramid's model covers completely.
 std::vector<PredictionRow> rowsOfABall() {
     Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)
@@ -42,13 +42,13 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
         if (!row.used) continue;
         ++used;
         EXPECT_LE(row.rendered, 2 * row.predicted) << predictionLine(row);
-        // Full detail is excluded: predictions assume edges, and samples on smooth parts err less.
+        // Full detail is excluded: predictions assume edges, while samples on smooth parts err less.
         if (row.level > 0) {
             EXPECT_LE(row.predicted, 2 * row.rendered) << predictionLine(row);
         }
     }
     EXPECT_GE(used, 3) << "too few rows were compared";
-    // The share of misplaced light increases from level to level.
+    // The predicted error increases from level to level.
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].level > 1) {
             EXPECT_GT(rows[i].predicted, rows[i - 1].predicted);

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// The smallest scenes: one fish, in up to 10,000 instances.
+// Each point of an axis is measured in both modes. The smallest scenes show one fish in up to 10,000 instances.
 TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options;
@@ -38,7 +38,7 @@ TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
 }
 
-// Small versions of the two large scenes.
+// Small versions of the two large scenes have the requested meshes and triangle counts.
 TEST(LargeScenes, areMeasuredAsTheyAre) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const LargeSceneRow instances = measureLargeScene({"instances", 30, 300, true}, {});

@@ -28,7 +28,7 @@ TEST(ScalingFit, ofAPowerIsItsExponent) {
     }
 }
 
-// For 1, 10, 100 and 1000 the upper half begins at √1000.
+// The exponent is fitted to the upper half of the values on a logarithmic scale: for 1 to 1000, from √1000 on.
 TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     const std::optional<PowerLaw> law = fittedPowerLaw(Points{{1000, 50}, {1, 900}, {100, 5}, {10, 900}});
     ASSERT_TRUE(law);
@@ -36,8 +36,8 @@ TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     EXPECT_NEAR(law->exponent, 1, 1e-12);
 }
 
-// Three points at ln x = 0, 1, 2 with ln y = 0, 3, 0: the fit is the horizontal line at 1, with residuals of 1, 2 and
-// 1.
+// The residual is the RMS residual of the fit. For ln y = 0, 3, 0 at ln x = 0, 1, 2, the fit is the horizontal line at
+// 1, with residuals of −1, 2 and −1.
 TEST(ScalingFit, leavesTheResidualOfLeastSquares) {
     const double e = std::exp(1);
     const std::optional<PowerLaw> law =
@@ -55,7 +55,8 @@ TEST(ScalingFit, needsTwoDifferentPlaces) {
     EXPECT_FALSE(fittedPowerLaw(Points{{1, 1}, {100, 2}})) << "only one point in the upper half";
 }
 
-// ---- what bounds a frame --------------------------------------------------------------------------------------------
+// ---- bottlenecks of a frame
+// ------------------------------------------------------------------------------------------
 
 ScalingRow rowOf(double value, double frame, double layers, double vertices) {
     ScalingRow row;
@@ -74,7 +75,7 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "overlapping parts leave no time for fill";
 }
 
-// The unexplained time differs from run to run: 5, 7 and 6 ms.
+// The spread of `fill`, the unexplained time, is that of its runs: 5, 7 and 6 ms.
 TEST(ScalingParts, spreadAsTheirRunsDo) {
     ScalingRow row;
     setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
@@ -92,7 +93,7 @@ TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
               (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
 
-    // Layers take about 30 ms and fill 40 ms: first separated in all runs, then overlapping.
+    // Fill takes about 40 ms and layers 30 ms. At first, fill is larger in all runs; then the runs overlap.
     ScalingRow row;
     setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
     EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});
@@ -181,7 +182,8 @@ TEST(ScalingWorlds, aSchoolHasAboutTheTrianglesAskedFor) {
     }
 }
 
-// Every instance lies completely within the view and fills its cell; the layers lie between 2 and 6 m.
+// Grids of any number of instances fill the same view. Every instance lies completely within the view and fills its
+// cell; the layers lie between 2 and 6 m.
 TEST(ScalingWorlds, aGridFillsTheSameView) {
     for (const int instances : {1, 8, 100, 1000}) {
         const ScalingWorld grid = gridOf(instances, 300, {});

@@ -25,7 +25,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     std::vector<SpeedupRow> rows;
     measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
 
-    ASSERT_EQ(rows.size(), 9u);  // 3 settings, 3 modes
+    ASSERT_EQ(rows.size(), 9u);  // 3 settings × 3 modes
     const std::uint32_t samples[3] = {4, 9, 5};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SpeedupRow& row = rows[i];
@@ -42,7 +42,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_EQ(row.runs, 2);
         EXPECT_GT(row.setupMilliseconds, 0);
         EXPECT_EQ(row.pyramidMilliseconds, row.mode == LodMode::off ? 0 : 12);
-        // The reference has the row's lens, and eight times the max number of measured samples.
+        // The reference uses the row's lens and eight times the max sample count of the row's sweep.
         ASSERT_TRUE(row.fromReference);
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
@@ -59,7 +59,8 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     const double ofOneSample = static_cast<double>(rows[0].triangles) / 4;
     EXPECT_NEAR(static_cast<double>(rows[3].triangles) / 9, ofOneSample, 0.01 * ofOneSample);
 
-    // A different lens would cause a larger error than too few samples do.
+    // Errors are smaller than half the difference between the two lenses' images, so each row is compared with its own
+    // lens.
     View wide = small->view;
     View narrow = small->view;
     narrow.lens.fStop *= 8;
@@ -97,7 +98,8 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     });
 }
 
-// Each threshold alone draws at least as many triangles as both together, and exactly as many as its own plan.
+// With the threshold of size or of blur alone, a frame draws at least as many triangles as with both thresholds, and
+// exactly as many as a plan with that threshold alone.
 TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -138,7 +140,8 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// Each form is compared with full detail at the same samples; the two forms use different sample sequences.
+// Each form is compared with full detail at the same samples. The forms `published` and standard use different sample
+// sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -168,7 +171,7 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
-    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // it is a field of the CSV file
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field
     EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole image has no blur that could hide levels
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);

@@ -1,4 +1,4 @@
-// A level's error under blur, against values derived from a known change of the level.
+// Tests of a level's error under blur against values derived from a known change of the level.
 
 #include "lod/pyramid/blurred_error.h"
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// Level 0 is a coloured ball of radius 1; level 1 is a copy modified by `change`.
+// Returns a pyramid whose level 0 is a coloured ball of radius 1. Level 1 is a copy of level 0 modified by `change`.
 Pyramid withLevel(const std::function<glm::vec4(const glm::vec3&)>& colour,
                   const std::function<void(PyramidLevel&)>& change, std::size_t helpers = 0) {
     Mesh mesh = sphere(96, 48);
@@ -39,8 +39,8 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// A level 1 + ε times as bright errs by ε times its patches' mean. Samples err by the deviations from that mean. The
-// squares of both add up to the light's mean square.
+// A level 1 + ε times as bright errs by ε times the mean of each patch, and lens samples err by the deviations from
+// that mean. The squares of both add up to the light's mean square.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -52,7 +52,7 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // The ball covers at most 38 % of a patch as wide as the diagonal of its box, 2√3.
+    // The ball covers at most 38 % of a patch as wide as the diagonal of the ball's bounding box, 2√3.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 
@@ -63,8 +63,8 @@ TEST(BlurredError, halfTheErrorIsHalfTheTable) {
         EXPECT_NEAR(squaredError(full, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
 }
 
-// A lost pattern of half-waves 0.1 wide vanishes under patches five times as wide. A lost shift of the colour remains
-// under all patches.
+// A blur hides a lost pattern but not a lost shift of the colour: half-waves 0.1 wide vanish under patches five times
+// as wide, while the shift remains under all patches.
 TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     const auto wave = [](const glm::vec3& p) { return 0.2f * std::sin(31.4f * p.x) * std::sin(31.4f * p.z); };
     const auto grey = [](const glm::vec3&) { return glm::vec4(0.5f, 0.5f, 0.5f, 1); };
@@ -82,7 +82,7 @@ TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     EXPECT_GT(left(shift, 0.5), 0.75);
 }
 
-// A ball smaller by ε lacks a rim of area 2πε, and the mean squared error is in proportion to that area.
+// Shrinking the ball by ε loses a rim of area 2πε, and the mean squared error is proportional to that area.
 TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     const auto white = [](const glm::vec3&) { return glm::vec4(1); };
     const auto shrunk = [&](float factor) {
@@ -94,7 +94,7 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The rim's light is between 0.2 and 1, in units of a mean between 0.2 and 1.
+    // The rim's light and the mean light each lie between 0.2 and 1.
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -111,7 +111,7 @@ TEST(BlurredError, normalsCountByTheLight) {
     EXPECT_NEAR(squaredError(turned(0.1f), 1, 0) / squaredError(turned(0.05f), 1, 0), 4, 0.4);
 }
 
-// Under patches far larger than the mesh, the mesh is a spot: its error falls as the inverse width of the blur.
+// Under patches far larger than the mesh, the error falls as the inverse width of the blur, as for a single spot.
 TEST(BlurredError, fallsAsASpotBeyondTheMesh) {
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
     EXPECT_NEAR(squaredError(pyramid, 1, 100) / squaredError(pyramid, 1, 1000), 100, 1e-6);
@@ -136,8 +136,8 @@ TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
     EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 100, 0.5), 0);
 }
 
-// λ is the level whose error equals its limit times the contrast, each interpolated linearly between levels. λ ends at
-// 0 and at the coarsest level.
+// At λ, the level's error equals its limit times the contrast; the errors are interpolated linearly between levels. λ
+// is clamped to the range from 0 to the coarsest level.
 TEST(BlurredError, theLevelMeetsItsLimit) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
     ASSERT_GT(pyramid.levels.size(), 4u);
@@ -170,7 +170,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     EXPECT_EQ(levelOfBlurredError(pyramid, sides, 100, 0), 0);
 }
 
-// A level's error limit is in inverse proportion to its edge length, up to a fraction of the samples' error.
+// A level's error limit is inversely proportional to its edge length, up to a fraction of the lens samples' error.
 TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     for (const std::uint32_t samples : {16u, 64u, 1024u}) {
         const double light = defaultThresholds(LodMetric::measured, samples).light;
@@ -179,8 +179,8 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     }
 }
 
-// Errors grow by a tenth per level, so λ moves by at most 11 levels per unit of the target's logarithm. A patch wider
-// by a thousandth changes E² and V² by at most 4 and 2 thousandths.
+// λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at most 11 levels per unit of the
+// target's logarithm. A patch wider by a thousandth changes E² and V² by at most 4 and 2 thousandths.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));

@@ -1,4 +1,4 @@
-// Loading from the cache equals building, bit for bit, even after damage to a file.
+// Tests that a pyramid loaded from the cache equals a built one bit for bit, even after damage to a file.
 
 #include "lod/pyramid/cache.h"
 
@@ -63,8 +63,8 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
     }
 }
 
-// A torus with every vertex stream, two primitives, a morph target, and colours that differ between vertices at one
-// position.
+// Returns a torus with every vertex stream, two primitives, a morph target, and colours that differ between vertices at
+// the same position.
 Mesh decoratedTorus(std::uint32_t columns = 24, std::uint32_t rows = 16) {
     Mesh mesh = torus(columns, rows);
     MorphTarget target;
@@ -102,14 +102,14 @@ struct Encoded {
     Bytes bytes = encodePyramid(pyramid, mesh, key);
 };
 
-// Writes the checksum that belongs to the file's bytes.
+// Writes the checksum that matches the file's bytes.
 void seal(Bytes& bytes) {
     const std::size_t checked = offsetof(PyramidFileHeader, checksum) + sizeof(std::uint64_t);
     const std::uint64_t checksum = hashBytes(std::span(bytes).subspan(checked));
     std::memcpy(bytes.data() + offsetof(PyramidFileHeader, checksum), &checksum, sizeof checksum);
 }
 
-// Returns the first byte of each section by the format's definition, and the file's end.
+// Returns the first byte of each section as the file format defines it, and the end of the file.
 std::vector<std::size_t> sectionBorders(const Encoded& file) {
     const Pyramid& pyramid = file.pyramid;
     std::vector<std::size_t> borders = {0};
@@ -133,7 +133,7 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     return borders;
 }
 
-// Expects a pyramid that is safe to draw: all indices lie inside its own arrays and the mesh's.
+// Expects the pyramid to be safe to draw: all indices lie inside the pyramid's own arrays and the mesh's.
 void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     ASSERT_FALSE(pyramid.levels.empty());
     ASSERT_EQ(pyramid.source.size(), pyramid.vertices.count());
@@ -210,7 +210,7 @@ TEST(PyramidKey, everyInputCounts) {
         [](Mesh& m) { std::swap(m.vertices.uv0, m.vertices.uv1); },
         [](Mesh& m) { std::swap(m.primitives[0].indices, m.primitives[1].indices); },
         [](Mesh& m) { m.primitives.push_back({}); },
-        [](Mesh& m) {  // moves a triangle to the other primitive
+        [](Mesh& m) {  // moves a triangle to the second primitive
             auto& from = m.primitives[0].indices;
             auto& to = m.primitives[1].indices;
             to.insert(to.begin(), from.end() - 3, from.end());
@@ -244,7 +244,7 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     EXPECT_FALSE(decodedWith({file.key.mesh + 1, {}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.minTriangles = 65}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.maxLevels = 23}}));
-    // A hash collision: the same key for another mesh.
+    // A hash collision: another mesh has the same key.
     EXPECT_FALSE(decodePyramid(file.bytes, torus(24, 16), file.key));
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
 }
@@ -299,7 +299,7 @@ TEST(PyramidFile, aShorterOrLongerFileIsAMiss) {
     EXPECT_FALSE(file.decode(longer));
 }
 
-// Decodes the file with a wrong value and a matching checksum, as a faulty writer would leave it.
+// Decodes the file with a wrong value at `offset` and a matching checksum, as a faulty writer would leave it.
 template <typename T>
 std::optional<Pyramid> decodeWith(const Encoded& file, std::size_t offset, T value) {
     Bytes bytes = file.bytes;
@@ -346,7 +346,7 @@ TEST(PyramidFile, wrongCountsUnderARightChecksumAreMisses) {
             }
 }
 
-// All ranges fit, but a triangle would be drawn with the other primitive's material.
+// All ranges fit, but a triangle would be drawn with the material of the wrong primitive.
 TEST(PyramidFile, aTriangleThatChangedPrimitivesIsAMiss) {
     const Encoded file(decoratedTorus());
     const std::size_t ranges = sectionBorders(file)[2];
@@ -413,7 +413,7 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
         ++sound;
         expectSound(*decoded, file.mesh);
     }
-    EXPECT_GT(sound, 100u);  // most words are coordinates, and any coordinate is valid
+    EXPECT_GT(sound, 100u);  // most words are coordinates, which may have any value
 }
 
 // ---- folder ------------------------------------------------------------------------------------
@@ -443,7 +443,7 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
     expectBuilt(first, meshes);
     EXPECT_EQ(first.loaded, 0u);
     EXPECT_EQ(first.failure, "");
-    EXPECT_EQ(fileCount(folder), 3u);  // no file for the empty mesh and the one of 8 triangles
+    EXPECT_EQ(fileCount(folder), 3u);  // no file for the empty mesh and for the mesh of 8 triangles
 
     std::uint64_t left = 1;
     const CachedPyramids second = cachedPyramids(
@@ -468,7 +468,7 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     }
 }
 
-// A file is tied to its LevelVertices option, even under the other option's name.
+// A file belongs to one LevelVertices option and is rejected under the other option, even if renamed.
 TEST(PyramidCache, aFileIsOfItsOwnVertices) {
     const Mesh mesh = sphere(24, 16);
     const PyramidOptions surviving{.vertices = LevelVertices::surviving};
@@ -514,7 +514,7 @@ TEST(PyramidCache, aFolderThatCannotBeMadeIsOneFailureAndNoFault) {
     EXPECT_EQ(cached.failure.find('\n'), std::string::npos);
 }
 
-// Simulates a full disk: writes beyond a limit fail.
+// A full disk leaves no incomplete file in the cache. It is simulated by a limit on the file size.
 TEST(PyramidCache, aFullDiskLeavesNoFile) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(48, 32)};
@@ -531,7 +531,7 @@ TEST(PyramidCache, aFullDiskLeavesNoFile) {
     EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
-// Processes that fill, read and damage one folder at the same time all get the pyramids that they would build.
+// Processes that fill, read and damage the same folder at the same time all get the pyramids that they would build.
 TEST(PyramidCache, processesMayShareAFolder) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(24, 16), torus(16, 12)};
@@ -550,7 +550,7 @@ TEST(PyramidCache, processesMayShareAFolder) {
                 const auto loaded = loadPyramid(meshes[i], scratch.path());
                 good = !loaded || sameBits(loaded->indices, built[i].indices);
                 storePyramid(built[i], meshes[i], scratch.path());
-                // From here on, the file is complete at any time.
+                // From now on, the file is complete at all times.
                 good = good && loadPyramid(meshes[i], scratch.path()).has_value();
             }
         ::_exit(good ? 0 : 1);
@@ -573,8 +573,8 @@ TEST(PyramidCache, listsAndClearsItsOwnFilesOnly) {
     const Bytes bytes = readFile(own);
     const std::string stem = own.stem().string();
 
-    // A left-over of a killed process belongs to the cache. A file with another name, or with other bytes under such a
-    // name, does not.
+    // A temporary file that a killed process left behind belongs to the cache. Files with foreign names or foreign
+    // content do not.
     writeFile(scratch / ("." + stem + ".123-0.pyramid"), bytes);
     std::vector<std::string> foreign = {"notes.txt", "0123456789abcdef.pyramid", ".0123456789abcdef.1-0.pyramid"};
     for (const std::string& name : foreign) writeFile(scratch / name, std::string_view("somebody's"));
@@ -627,7 +627,8 @@ private:
     std::optional<std::string> home_ = valueOf("HOME");
 };
 
-// XDG Base Directory Specification: an empty variable counts as unset, and relative paths are ignored.
+// The default folder follows the XDG Base Directory Specification: an empty variable counts as unset, and relative
+// paths are ignored.
 TEST_F(CacheEnvironment, tellsTheDefaultFolder) {
     set("/caches", "/home/me");
     EXPECT_EQ(defaultCacheFolder(), "/caches/defocus");

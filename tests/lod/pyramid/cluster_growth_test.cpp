@@ -24,7 +24,8 @@ GrownClusters grow(const Soup& soup) {
     return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, max);
 }
 
-// A sheet of n × n unit squares with its rows in the plane z = 0. The half beyond n/2 is folded up by 90°.
+// Returns a sheet of n × n unit squares. The half with x ≤ n/2 lies in the plane z = 0, and the rest is folded up by
+// 90°.
 Soup foldedSheet(std::uint32_t n) {
     Soup sheet;
     for (std::uint32_t y = 0; y <= n; ++y)
@@ -41,7 +42,7 @@ Soup foldedSheet(std::uint32_t n) {
     return sheet;
 }
 
-// Expects every triangle in one cluster, and no cluster above the size limit.
+// Expects each triangle to lie in exactly one cluster, and no cluster to exceed the size limit.
 void expectPartition(const Soup& soup, const GrownClusters& grown) {
     std::vector<TriangleNumber> sorted = grown.triangles;
     std::sort(sorted.begin(), sorted.end());
@@ -65,7 +66,8 @@ std::vector<glm::vec3> clusterPoints(const Soup& soup, const GrownClusters& grow
     return points;
 }
 
-// More triangles than the search examines per vertex. Without that bound the test would take minutes.
+// 300,000 triangles around one vertex are clustered in reasonable time, since the search examines a bounded number of
+// triangles per vertex. Without that bound, the test would take minutes.
 TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
     Soup fan;
     Soup point;
@@ -86,7 +88,8 @@ TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
 }
 
 TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
-    // Edges of any number of faces, coincident corners, a vertex of very many triangles, and NaN and huge coordinates.
+    // The soup has edges of any number of faces, coincident corners, a vertex of very many triangles, and NaN and huge
+    // coordinates.
     std::mt19937 random(1);
     Soup soup;
     for (int v = 0; v < 300; ++v) soup.positions.emplace_back(random() % 100, random() % 100, random() % 100);
@@ -106,7 +109,7 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
     const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
-    // 32 unit squares fill a disk of radius 3.2.
+    // 32 unit squares, or 64 triangles, fill a disk of radius 3.2.
     const double fewest = static_cast<double>(grown.triangles.size()) / max;
     EXPECT_LT(static_cast<double>(grown.sizes.size()), 1.1 * fewest);
     std::size_t begin = 0;

@@ -1,4 +1,4 @@
-// Levels and level 0 of the project's own models are alike under a wide blur.
+// Tests that levels of the project's own models look like level 0 under a wide blur.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The effect of materials on the pictures that measure a level's error.
+// Tests of how materials affect the pictures from which a level's error is measured.
 
 #include "lod/pyramid/finish.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int texelsAcross = 64;
 
-// Black and white columns, eight texels wide, in the lower half; white in the upper half.
+// Returns a texture with black and white columns, eight texels wide, in the lower half. The upper half is white.
 TextureImage stripedTexture() {
     TextureImage image{texelsAcross, texelsAcross, {}};
     for (int y = 0; y < texelsAcross; ++y)
@@ -28,7 +28,7 @@ TextureImage stripedTexture() {
     return image;
 }
 
-// A ball with texture coordinates by its angles, and a material with a striped texture.
+// Returns a ball whose material has the striped texture, mapped by the azimuth.
 Scene texturedBall() {
     Scene scene;
     Mesh mesh = sphere(96, 48);
@@ -44,7 +44,7 @@ Scene texturedBall() {
     return scene;
 }
 
-// Returns a pyramid of two levels. Level 1 is level 0 modified by `change`.
+// Returns a pyramid of two levels. Level 1 is a copy of level 0 modified by `change`.
 Pyramid withFinish(const Mesh& mesh, const Finish& finish, const std::function<void(PyramidLevel&)>& change) {
     Pyramid pyramid = fullDetail(mesh);
     for (glm::vec3& normal : pyramid.levels[0].normals) normal = glm::normalize(normal);
@@ -95,7 +95,7 @@ TEST(Finish, wrapsMirrorAndClamp) {
     EXPECT_EQ(at(0.25f, 7), 1);
 }
 
-// A level with stripes moved by half a period shows the opposite colours, until a blur hides both.
+// A level whose stripes are shifted by half a period shows the opposite colours, until a blur hides both.
 TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     const Scene scene = texturedBall();
     const Finish finish = Finishes(scene).of(0);
@@ -120,7 +120,7 @@ TEST(Finish, whatIsUnlitHasNoNormals) {
     EXPECT_GT(error({}), 1e-4);
 }
 
-// On smoother metals, highlights move more with the normals.
+// The smoother a metal is, the more a small error of the normals moves its highlights.
 TEST(Finish, smoothMetalsShowFineNormals) {
     const Mesh mesh = sphere(96, 48);
     double last = 0;
@@ -134,7 +134,7 @@ TEST(Finish, smoothMetalsShowFineNormals) {
     }
 }
 
-// Radiance above white is clamped: a glow of a hundred times the mean looks the same when doubled.
+// Radiance above white is clamped: a glow of a hundred times the mean light looks the same at twice the radiance.
 TEST(Finish, lightBeyondWhiteIsWhite) {
     Mesh mesh = sphere(96, 48);
     for (const glm::vec3& p : mesh.vertices.positions)
@@ -181,7 +181,7 @@ TEST(Finish, theHashFollowsAllThatIsSeen) {
     }
 }
 
-// A pyramid measured with other materials is not taken from the cache.
+// The cache does not return a pyramid that was measured with other materials.
 TEST(Finish, isPartOfThePyramidsKey) {
     const Scene scene = texturedBall();
     const Finishes finishes(scene);

@@ -1,4 +1,4 @@
-// The length of a coarse level's normals equals their mean cosine to the normals that they replace.
+// Tests that the length of a coarse level's normals equals their mean cosine to the fine normals that they replace.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Means over every fifth vertex of a ball: the cosine of its normal to the level's normal, and the length of the
-// level's normal where the radial ray through the vertex meets the level.
+// Means over every fifth vertex of a ball. `cosine` is between the vertex normal and the level's normal, and `length`
+// is the length of the level's normal, both where the radial ray through the vertex meets the level.
 struct Agreement {
     double cosine = 0;
     double length = 0;
@@ -47,8 +47,7 @@ Agreement agreementOf(const Mesh& ball, const Pyramid& pyramid, std::size_t numb
     return {sum.cosine / count, sum.length / count};
 }
 
-// A level's interpolated normals hardly differ from a smooth ball's, even on large triangles, so the level stays a
-// mirror.
+// Levels of a smooth ball keep normals of length 1, even on large triangles, so that a mirror stays a mirror.
 TEST(LevelNormals, ofASmoothBallStayWhole) {
     Mesh ball = sphere(96, 48);
     for (std::size_t v = 0; v < ball.vertices.count(); ++v)
@@ -61,7 +60,7 @@ TEST(LevelNormals, ofASmoothBallStayWhole) {
     }
 }
 
-// The ball has bumps that coarse levels cannot represent.
+// Levels that lose the bumps of a ball have shorter normals, whose length equals the mean cosine to the ball's normals.
 TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
     const Mesh ball = sphere(96, 48, 0.04);
     const Pyramid pyramid = buildPyramid(ball);

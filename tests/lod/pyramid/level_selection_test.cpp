@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// A pyramid with edges 1, √2, 2, 2√2, 4 and errors 0, 0.01, 0.02, 0.04, 0.08.
+// Returns a pyramid with edges 1, √2, 2, 2√2, 4 and errors 0, 0.01, 0.02, 0.04, 0.08.
 Pyramid uniformPyramid() {
     Pyramid pyramid;
     for (int l = 0; l < 5; ++l) {
@@ -26,7 +26,7 @@ Pyramid uniformPyramid() {
 
 TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     const Pyramid pyramid = uniformPyramid();
-    const double pixelsPerUnit = 3;  // an edge of 1 covers d = 3 px
+    const double pixelsPerUnit = 3;  // an edge of length 1 projects to d = 3 px
     for (double coc = 0.5; coc < 40; coc *= 1.1) {
         const double target = std::max(0.7 * coc, 1.5);
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
@@ -34,7 +34,8 @@ TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     }
 }
 
-// The metric `halving` ignores the stored sizes of coarser levels and takes each for half of the previous level.
+// The metric `halving` ignores the stored edges of coarser levels and assumes that each level halves the triangles of
+// the previous one.
 TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     Pyramid pyramid = uniformPyramid();
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) pyramid.levels[l].meanEdge *= 5;
@@ -43,7 +44,7 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
         EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::halving, {0.7, 1.5}), expected, 1e-12);
     }
-    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // a mesh the size of a point
+    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // the mesh projects to a point
     EXPECT_EQ(levelOfDetail(pyramid, {3, 1}, LodMetric::halving, {0, 0}), 0);
     EXPECT_EQ(levelOfDetail(pyramid, {-1, 1}, LodMetric::halving, {0.7, 1.5}), 0);
     EXPECT_EQ(levelOfDetail({}, {3, 1}, LodMetric::halving, {0.7, 1.5}), 0);
@@ -51,7 +52,8 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
-// λ is the level whose stored edges have grown by the threshold times the score, c/d.
+// With the metric `score`, λ is the level whose stored edges are the threshold times the score c/d as long as level
+// 0's.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -82,15 +84,15 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // Plateaus at their min allowed growth.
+    // Two intervals have the min allowed growth.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
 }
 
-// Between two levels, λ's slope is 1/ln(e[l+1]/e[l]) over the logarithm of the target for edges, and 1/(e[l+1] − e[l])
-// over the target for errors. A step in blur, threshold or distance changes the same quotient, target over projected
-// size, so λ changes by the integral of that slope.
+// λ has the slope 1/ln(e[l+1]/e[l]) over the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target
+// for errors, between levels l and l + 1. Blur, threshold and distance all change the same quotient, target over
+// projected size, so a step in any of them changes λ by the integral of that slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -100,7 +102,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
         };
         const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
-        // Returns the integral of the slope between two targets in the object's units.
+        // Returns the integral of the slope between two targets, in object units.
         const auto growth = [&](double from, double to) {
             double sum = 0;
             for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
@@ -176,7 +178,7 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// Coarse samples and the share of the boundary sample add up to f·N for every λ.
+// Coarse samples and the boundary sample's share add up to f·N, the fractional part of λ times N, for every λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -1,4 +1,4 @@
-// Real models with all kinds of surfaces: each must become a pyramid.
+// Tests that real models with all kinds of surfaces become valid pyramids.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ bool isModel(const fs::path& path) {
     return path.extension() == ".glb" || path.extension() == ".gltf";
 }
 
-// Returns each model once, even if both folders contain it.
+// Returns the path of each public model once, even if both folders contain the model.
 std::vector<fs::path> publicModels() {
     std::vector<fs::path> models;
     for (const fs::path& folder : {keptModelsDirectory(), modelsDirectory()}) {
@@ -45,7 +45,7 @@ struct BuiltModel {
     std::vector<Pyramid> pyramids;  // one per mesh
 };
 
-// Returns a model with its pyramids. A process builds each model only once for all tests.
+// Returns a model with its pyramids, which are built once per process.
 const BuiltModel& built(const fs::path& path) {
     static std::map<fs::path, BuiltModel> known;
     const auto found = known.find(path);
@@ -71,7 +71,7 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// Stored errors are at least 0.9 of the result of a far denser measurement, and rarely far above it.
+// Stored errors are at least 0.9 of the result of a far denser measurement, and the median ratio is below 1.3.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();
@@ -130,7 +130,8 @@ TEST(RealModels, ClosedMeshesStayClosed) {
     EXPECT_GT(closed, 0u);
 }
 
-// The cap has four fifths of the area, but the straps with their many handles have the most triangles.
+// The leather cap keeps its shape as long as its straps have more triangles. The cap has four fifths of the area, but
+// the straps, with their many handles, have the most triangles.
 TEST(RealModels, LeatherCapOutlastsItsStraps) {
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet.gltf");
     const auto& [meshes, pyramids] = built(path);
@@ -141,7 +142,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // The outline shrinks by no more than the stored error allows at each end.
+    // The outline shrinks at each end by no more than the stored error.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

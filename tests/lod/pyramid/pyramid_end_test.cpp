@@ -1,4 +1,4 @@
-// The end of a pyramid and its reason.
+// Tests of where a pyramid ends, and of the reason that it states.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,8 @@ TEST(PyramidEnd, ALevelThatSavesLessThanAQuarterIsNotMade) {
     EXPECT_EQ(pyramid.end, PyramidEnd::smallSaving);
 }
 
-// The slab is the widest part and cannot be simplified further; the ball has most of the area.
+// Neither the widest nor the largest part of a mesh is removed. The slab is the widest part and cannot be simplified
+// further; the ball has most of the area.
 TEST(PyramidEnd, NeitherTheWidestNorTheLargestPartGoes) {
     Mesh mesh;
     addPart(mesh, sphere(96, 48), 1, {});

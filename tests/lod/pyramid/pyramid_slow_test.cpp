@@ -1,4 +1,4 @@
-// Levels of thin sheets of many resolutions.
+// Tests of levels of thin sheets of many resolutions.
 
 #include <gtest/gtest.h>
 

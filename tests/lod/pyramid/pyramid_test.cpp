@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// Adds every attribute, so that a level's vertices must match the mesh's in all of them.
+// Adds every attribute to the mesh, so that a test can compare all attributes of a level's vertices with the mesh's.
 Mesh decorated(Mesh mesh) {
     const std::size_t count = mesh.vertices.count();
     for (std::size_t v = 0; v < count; ++v) {
@@ -42,7 +42,7 @@ TEST(Pyramid, SingleTriangleStaysAlone) {
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
     ASSERT_EQ(pyramid.levels.size(), 1u);
-    EXPECT_DOUBLE_EQ(pyramid.levels[0].meanEdge, 4);  // (3 + 4 + 5) / 3
+    EXPECT_DOUBLE_EQ(pyramid.levels[0].meanEdge, 4);  // the mean of 3, 4 and 5
     EXPECT_EQ(pyramid.bounds.maximum, glm::dvec3(3, 4, 0));
 }
 
@@ -60,7 +60,7 @@ TEST(Pyramid, HalvesAClosedSphereWithASeamDownToItsFloorAndKeepsItClosed) {
     EXPECT_EQ(pyramid.repairedFaces, 0u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
         EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l))) << "level " << l;
-    // Triangle counts: 3968, 1984, 992, 496, 248, 124, 64.
+    // The levels have 3968, 1984, 992, 496, 248, 124 and 64 triangles.
     ASSERT_EQ(pyramid.levels.size(), 7u);
     EXPECT_EQ(pyramid.levels[3].triangleCount, 496u);
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
@@ -73,7 +73,7 @@ TEST(Pyramid, KeepsATorusWithTwoSeamsClosed) {
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
         EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
-        // V − E + F = 0 for every torus.
+        // A torus has V − E + F = 0, so it has half as many vertices as faces.
         std::map<PositionKey, int> positions;
         for (const std::uint32_t v : indices) ++positions[keyOf(pyramid.vertices.positions[v])];
         EXPECT_EQ(positions.size(), indices.size() / 6) << "level " << l;
@@ -90,8 +90,8 @@ double volume(const std::vector<glm::vec3>& positions, const std::vector<std::ui
     return sum;
 }
 
-// A polyhedron with vertices on a sphere lies inside the sphere. A fitted one loses at most a third of the volume that
-// the inscribed one loses.
+// A polyhedron with vertices on a sphere lies inside the sphere. A level with fitted vertices loses at most a third of
+// the volume that the inscribed polyhedron loses.
 TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48));
     const double full = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
@@ -103,7 +103,7 @@ TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
     }
 }
 
-// The rim has almost no area, but forms the entire outline.
+// The rim of a thin sheet survives in all levels: it has almost no area, but forms the entire outline.
 TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
     const Pyramid pyramid = buildPyramid(thinSheet(64));
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
@@ -137,7 +137,7 @@ TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     appendAgain(mesh.vertices.positions);
     appendAgain(mesh.vertices.normals);
     appendAgain(mesh.vertices.uv0);
-    // other texture coordinates keep the copies from being joined
+    // Different texture coordinates prevent the simplifier from joining the copies.
     for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;
     mesh.primitives = {{0, {}}, {1, {}}};
     for (std::size_t i = 0; i < full.primitives[0].indices.size(); i += 3) {
@@ -177,15 +177,15 @@ TEST(Pyramid, FlatSquareIsTiledAtEveryLevel) {
 }
 
 TEST(Pyramid, FlatSquareGetsEvenTriangles) {
-    // Edges of right-angled triangles, n in a square, have a mean length of about √(2/n)·1.14. Slivers would have far
-    // longer edges.
+    // If n right-angled triangles fill a unit square, their edges have a mean length of about 1.14·√(2/n). Slivers
+    // would have far longer edges.
     const Pyramid pyramid = buildPyramid(flatGrid(64));
     for (const PyramidLevel& level : pyramid.levels)
         EXPECT_LT(level.meanEdge, 2.2 * std::sqrt(2.0 / level.triangleCount)) << level.triangleCount;
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A fitted face cuts the unit sphere. Its corners lie | |p| − 1 | outside, its middle lies inside.
+    // A fitted face cuts the unit sphere: a corner p lies | |p| − 1 | outside, and the face's middle lies inside.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;
@@ -260,14 +260,14 @@ TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
     const Mesh mesh = singlePrimitive(vertices, indices);
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
-    // Only complete triangles can be removed, and half of the 100 would be below the floor of 64.
+    // Only complete triangles can be removed, and half of the 100 would be below the min count of 64.
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
 }
 
 TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
-    // A sphere with a fin on one of its edges, a repeated face, a face without area, a reversed copy of everything (a
-    // two-faced sheet), and a NaN corner.
+    // A sphere with a fin on an edge, a repeated face, a degenerate face, a reversed copy of every face (a two-sided
+    // sheet), and a NaN corner.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     const std::vector<std::uint32_t> clean = indices;
@@ -299,7 +299,7 @@ TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
 }
 
 TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
-    // Every third triangle has the opposite winding. At every level, triangles still meet edge to edge.
+    // Every third triangle is wound the other way. At every level, triangles still meet edge to edge.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     for (std::size_t i = 0; i < indices.size(); i += 9) std::swap(indices[i], indices[i + 1]);
@@ -333,7 +333,7 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)});
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    // The last mesh is also built alone, with several threads for its levels.
+    // The mesh is also built alone, the second time with several threads for its levels.
     many.push_back(std::move(buildPyramids({mesh}).front()));
     many.push_back(buildPyramid(mesh, {}, 3));
     for (const std::size_t i : {1u, 3u, 5u, 6u}) {
@@ -385,7 +385,8 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
 }
 
-// The mesh stays the same with many copies, and with so few that it is simplified without joining them.
+// Levels are the same for a mesh with duplicate vertices, whether these are many or so few that the simplifier does not
+// join them.
 TEST(Pyramid, CopiesOfVerticesChangeNothing) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid without = buildPyramid(mesh);
@@ -415,7 +416,7 @@ TEST(Pyramid, VerticesThatDifferOnlyInAMorphTargetStayApart) {
     mesh.vertices.uv0.clear();
     mesh.vertices.positions.push_back(mesh.vertices.positions[0]);
     mesh.vertices.normals.push_back(mesh.vertices.normals[0]);
-    mesh.primitives[0].indices[0] = 4;  // corner of the first triangle at vertex 0
+    mesh.primitives[0].indices[0] = 4;  // the first corner at vertex 0 moves to a duplicate, vertex 4
     mesh.morphTargets.push_back({std::vector<glm::vec3>(5, {0, 0, 0}), {}, {}});
     EXPECT_EQ(buildPyramid(mesh).vertices.count(), 4u);
     mesh.morphTargets[0].positions[4] = {0, 0, 1};
@@ -430,7 +431,7 @@ TEST(FullDetail, HasEveryTriangleAndNoFurtherLevel) {
     EXPECT_EQ(pyramid.levels[0].triangleCount, mesh.triangleCount());
 }
 
-// A progress bar must not stand still for long within one mesh.
+// Progress within one mesh is reported in more than 20 steps, so that a progress bar does not appear stuck.
 TEST(PyramidProgress, movesInSmallStepsWithinOneMesh) {
     const std::vector<Mesh> meshes = {sphere(160, 120), sphere(8, 6)};
     std::vector<double> shares = {0};

@@ -40,8 +40,8 @@ TEST(SurfaceDistance, ParallelSquaresAreTheirOffsetApartEverywhere) {
 }
 
 TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
-    // [0, 1]² lies inside [0, 2] × [0, 1], so the distance is 0 in one direction. In the other it is uniform in [0, 1]
-    // on the half of the area beyond x = 1: its mean is 1/4 and its 99th percentile 0.98.
+    // [0, 1]² lies inside [0, 2] × [0, 1], so the forward distance is 0. The backward distance is uniform in [0, 1] on
+    // the half of the area beyond x = 1: its mean is 1/4 and its 99th percentile 0.98.
     Mesh wide = flatGrid(9);
     for (glm::vec3& p : wide.vertices.positions) p.x *= 2;
     const SurfaceDistance d = surfaceDistance(surfaceOf(flatGrid(12)), surfaceOf(wide), 4096);
@@ -55,8 +55,9 @@ TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
 }
 
 TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
-    // A side of an n-gon in the unit circle is cos(π/n) from the centre. At s along the side, the circle is 1 −
-    // √(cos²(π/n) + s²) away. The max is the sagitta 1 − cos(π/n), and the mean two thirds of it (to second order).
+    // A side of an n-gon in the unit circle lies cos(π/n) from the centre. At s from the side's middle, the circle is 1
+    // − √(cos²(π/n) + s²) away. The max distance is the sagitta 1 − cos(π/n), and the mean is two thirds of the
+    // sagitta, to second order.
     const auto cylinder = [](std::uint32_t columns) {
         return surfaceOf(parametricSurface(columns, 4, [=](std::uint32_t i, std::uint32_t j) {
             return glm::dvec3(std::cos(turn(i, columns)), std::sin(turn(i, columns)), 0.25 * j);
@@ -68,14 +69,14 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // For 99 of 100 points, the distance is at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
+        // 99 of 100 points have a distance of at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
 
 TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
-    // A face whose plane is h from the centre is at most 1 − h from the sphere, if its circumcentre lies inside the
-    // face.
+    // A face whose plane is h from the centre is at most 1 − h from the unit sphere, if the circumcentre lies inside
+    // the face.
     const Mesh coarse = sphere(16, 8);
     const auto& p = coarse.vertices.positions;
     const auto& indices = coarse.primitives[0].indices;
@@ -96,7 +97,7 @@ TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
 TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
     const Surface bumpy = surfaceOf(sphere(48, 24, 0.1));
     expectAll(surfaceDistance(bumpy, bumpy, 5000).both, 0, 1e-9);
-    Mesh cube;  // without shared vertices, 2 triangles per side
+    Mesh cube;  // 2 triangles per side, no shared vertices
     cube.primitives.resize(1);
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {0.0f, 1.0f})
@@ -117,22 +118,22 @@ TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
 }
 
 TEST(SurfaceDistance, ShiftedTriangle) {
-    // A shift by 2 along the normal, and a shift by (−1, 0) in the plane. After the latter, points right of x = 0 stay
-    // inside.
+    // The first triangle is shifted by 2 along its normal, the second by (−1, 0) in its plane. After the second shift,
+    // points right of x = 0 stay inside.
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);
-    // Forward, the distance is −x on the strip x < 0. The mean is ∫₀¹ t·(3 + t) dt over the area of 8.
+    // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt over the area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
-    // Backward, the corner (4, 0) is at distance 1 from the corner (3, 0), which is nearer than the line x + y = 3
+    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The line x + y = 3 is nearer only
     // beyond its end.
     EXPECT_LE(d.backward.maximum, 1);
     EXPECT_NEAR(d.backward.maximum, 1, 0.06);
 }
 
 TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
-    // The search tree agrees with a linear search through all triangles for points near, far and inside.
+    // The search tree agrees with a linear search through all triangles for points near, far and inside the surface.
     const Mesh mesh = torus(24, 12);
     const Surface surface = surfaceOf(mesh);
     for (int i = 0; i < 200; ++i) {
@@ -145,7 +146,8 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
                                          mesh.vertices.positions[indices[t + 2]]),
                                 p));
         ASSERT_DOUBLE_EQ(distanceTo(surface, p), min) << i;
-        // A torus is |(√(x² + y²) − 1, z)| − 0.4 away. Its faces lie inside it by at most both sagittas.
+        // The distance to a torus is | |(√(x² + y²) − 1, z)| − 0.4 |. The mesh's faces lie inside the torus by at most
+        // the sum of both sagittas.
         const double exact = std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - 0.4);
         ASSERT_NEAR(min, exact,
                     1.4 * (1 - std::cos(std::numbers::pi / 24)) + 0.4 * (1 - std::cos(std::numbers::pi / 12)))

@@ -1,4 +1,4 @@
-// Levels as in Jeong, Kim and Lee 2011: surviving vertices with their own attribute values.
+// Tests of levels as in Jeong, Kim and Lee 2011, whose vertices survive with their own attribute values.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// Gives each vertex a different colour and a second set of texture coordinates.
+// Gives each vertex its own colour and a second set of texture coordinates.
 Mesh coloured(Mesh mesh) {
     const auto count = static_cast<float>(mesh.vertices.count());
     for (std::size_t v = 0; v < mesh.vertices.count(); ++v) {
@@ -20,7 +20,7 @@ Mesh coloured(Mesh mesh) {
     return mesh;
 }
 
-// Number of vertices in coarser levels that keep the mesh's own value, for each attribute, and their total.
+// Number of vertices of the coarser levels that have the mesh's own value, per attribute, and number of all vertices.
 struct OwnValues {
     std::size_t positions = 0, normals = 0, colors = 0, uv0 = 0, uv1 = 0;
     std::size_t all = 0;
@@ -58,7 +58,7 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// The test above distinguishes surviving vertices from fitted ones.
+// Levels with fitted vertices keep fewer than half of the mesh's own values, so the test above distinguishes the two.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));
     const OwnValues own = ownValues(mesh, buildPyramid(mesh));
@@ -67,7 +67,7 @@ TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     EXPECT_LT(own.colors, own.all / 2);
 }
 
-// Collapses keep the same vertices, whether the values are fitted or not.
+// Collapses keep the same vertices in both kinds of levels, with fitted and with surviving values.
 TEST(SurvivingVertices, areThoseThatFittedLevelsHave) {
     const Mesh mesh = coloured(torus(64, 40));
     const Pyramid published = buildPyramid(mesh, asPublished);
@@ -94,7 +94,8 @@ std::size_t placesOf(const Pyramid& pyramid, const PyramidLevel& level) {
     return places.size();
 }
 
-// Tested on closed and open surfaces, with and without seams.
+// `quarters` makes three levels, of all, three quarters and half of the positions, on closed and open surfaces, with
+// and without seams.
 TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     for (const Mesh& mesh : {coloured(sphere(64, 32, 0.1)), coloured(torus(64, 40)), coloured(flatGrid(48))}) {
         const Pyramid pyramid = buildPyramid(mesh, {.vertices = LevelVertices::quarters});
@@ -109,7 +110,8 @@ TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     }
 }
 
-// A collapse inside a surface removes two triangles, at a border one.
+// Each level has half the triangles of the previous one, to within 1.5: a collapse inside a surface removes two
+// triangles.
 TEST(SurvivingVertices, makeLevelsOfHalfTheTriangles) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48), asPublished);
     ASSERT_GT(pyramid.levels.size(), 5u);

@@ -1,4 +1,4 @@
-// The texture of a level stays where level 0 has it, to within the blur at which the level is drawn.
+// Tests that a level's texture stays where level 0 shows it, to within the blur at which the level is drawn.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ Finish showingCoordinates() {
     return finish;
 }
 
-// Returns object units per unit of texture coordinates, averaged over level 0's area.
+// Returns the object units per unit of texture coordinates, averaged over the area of level 0.
 double unitsPerCoordinate(const Pyramid& pyramid) {
     const PyramidLevel& level = pyramid.levels.front();
     double surface = 0;
@@ -51,12 +51,12 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 
 struct Shift {
     double mean = 0;       // object units
-    double elsewhere = 0;  // share of cells that show another chart, or another part of the surface
+    double elsewhere = 0;  // share of cells whose distance belongs to another chart or another part of the surface
 };
 
-// Returns the distance of a level's texture from level 0's, over all that both show in the views of the blurred errors.
-// A triangle shifts texture by at most its longest edge. Larger distances belong to another part of the surface, for
-// example beside a thinned strap.
+// Returns the distance between a level's texture and level 0's, where both are visible in the views of the blurred
+// errors. A triangle shifts the texture by at most its longest edge. Larger distances come from another part of the
+// surface, for example beside a strap that became thinner.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -84,9 +84,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the smallest patch, in object units, of a blur for which at least half of `samples` samples draw the level;
-// nullopt if the pyramid's table has none. A patch is at least a pixel. With more pixels per patch, edges are longer on
-// screen and the level finer.
+// Returns the smallest patch, in object units, whose blur draws the level in at least half of `samples` samples, or
+// nullopt if no patch of the pyramid's table does. A patch covers at least a pixel; at more pixels per patch, edges are
+// longer on screen and the chosen level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
@@ -114,7 +114,8 @@ TEST(TextureShift, isMeasured) {
 
 class TextureShiftOf : public testing::TestWithParam<const char*> {};
 
-// A blur over a patch shows the mip level whose texels are as large as the patch.
+// A level's texture is shifted by less than a patch, which is one texel of the mip level that a blur over the patch
+// shows.
 TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
     DEFOCUS_MODEL_OR_SKIP(path, GetParam());
     const Scene scene = loadGltf(path);

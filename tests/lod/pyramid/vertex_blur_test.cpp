@@ -1,4 +1,4 @@
-// Levels carry the blur of vertices.
+// Tests that levels carry the blur of vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int cells = 48;
 
-// Blur in mm: sharp along an oblique line, blurred on both sides of the line.
+// Returns the blur in mm at a position: 0 on an oblique line, growing with the distance on both sides of the line.
 float blurAt(const glm::vec3& p) {
     return 4 * std::abs(p.x - 0.3f * p.y);
 }
@@ -35,7 +35,8 @@ Mesh plane(bool blurred) {
     return mesh;
 }
 
-// Returns the mean difference, over the level's area and in mm, between the blur inside its triangles and the plane's.
+// Returns the mean difference in mm, over the level's area, between the blur interpolated inside its triangles and
+// blurAt().
 double meanDeviation(const Pyramid& pyramid, std::size_t level) {
     double sum = 0;
     double area = 0;

@@ -1,4 +1,4 @@
-// Simplification of a ball beside small parts with many handles.
+// Tests the simplification of a ball beside small parts with many handles.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
     return mesh;
 }
 
-// The slabs' handles need many triangles, which must not be taken from the ball.
+// Small slabs with many handles need many triangles, but the ball keeps its shape as long as another part has more
+// triangles.
 TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
     struct Scene {
         std::uint32_t count, holes;

@@ -1,4 +1,4 @@
-// Meshes of many separate parts: simplification after each part has reached its min size.
+// Tests of meshes of many separate parts, whose simplification continues after each part has reached its min size.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using SizeOf = std::function<float(std::uint32_t)>;
 
-// Returns tetrahedra with edges of √2 · size.
+// Returns scattered tetrahedra. Tetrahedron i has edges of √2 · sizeOf(i).
 Mesh tetrahedra(std::uint32_t count, const SizeOf& sizeOf) {
     Vertices vertices;
     std::vector<std::uint32_t> indices;
@@ -31,7 +31,7 @@ Mesh tetrahedra(std::uint32_t count, const SizeOf& sizeOf) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Returns squares that face +z.
+// Returns scattered squares with sides of `size` that face +z.
 Mesh leaves(std::uint32_t count, float size) {
     Vertices vertices;
     std::vector<std::uint32_t> indices;
@@ -44,7 +44,7 @@ Mesh leaves(std::uint32_t count, float size) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Returns the parts, of `cornersEach` vertices each, that a level contains.
+// Returns the parts that a level contains; each part of the mesh has `cornersEach` vertices.
 std::set<std::uint32_t> partsOf(const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     std::set<std::uint32_t> parts;
     for (const std::uint32_t v : levelIndices(pyramid, level)) parts.insert(pyramid.source[v] / cornersEach);
@@ -90,7 +90,7 @@ TEST(Components, StoredErrorBoundsTheDistanceAndTheSizeOfWhatIsGone) {
 }
 
 TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
-    // There are nine sizes, each 1.3 times the previous one, in mixed order. Part 777 is the largest.
+    // The parts have nine sizes in mixed order, each 1.3 times the previous one. Part 777 is the largest.
     const auto sizeOf = [](std::uint32_t i) {
         return i == 777 ? 0.05f : 0.002f * std::pow(1.3f, static_cast<float>(i * 7 % 9));
     };
@@ -111,7 +111,8 @@ TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
     }
 }
 
-// Half the leaves alone would cover half the area. The remaining leaves grow until they touch others.
+// Levels keep the total area: the leaves that remain grow until they touch each other. Without growth, half the leaves
+// would cover half the area.
 TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
     const Mesh mesh = leaves(4000, 0.002f);
     const Pyramid pyramid = buildPyramid(mesh);
@@ -123,7 +124,7 @@ TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
 }
 
 TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
-    // Each quarter of the square keeps its share of equal parts.
+    // Each quarter of the unit square keeps a quarter of the parts, which are of equal size.
     const Mesh mesh = tetrahedra(2048, [](std::uint32_t) { return 0.004f; });
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
@@ -133,7 +134,7 @@ TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
             const glm::vec3 place = scatteredPlace(i);
             counts[(place.x < 0.5f ? 0u : 1u) + (place.y < 0.5f ? 0u : 2u)] += 1;
         }
-        // Four standard deviations of a fair draw.
+        // The tolerance is four standard deviations of a fair random selection.
         const auto n = static_cast<double>(parts.size());
         for (const double count : counts) EXPECT_NEAR(count, n / 4, 4 * std::sqrt(n * 3 / 16)) << "level " << l;
     }
@@ -149,7 +150,7 @@ TEST(Components, ASingleOneIsNeverRemoved) {
     }
 }
 
-// Collapses thin out a large part as far as possible before any small part is removed.
+// Collapses simplify a large part as far as possible before any small part is removed.
 TEST(Components, CollapsesComeFirst) {
     Mesh mesh = tetrahedra(40, [](std::uint32_t) { return 0.01f; });
     const Mesh ball = sphere(64, 32);

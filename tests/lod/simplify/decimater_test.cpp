@@ -1,4 +1,5 @@
-// The collapse modules implement OpenMesh's interface: its own decimater runs with them, and their guarantees hold.
+// Tests that the collapse modules implement OpenMesh's interface: OpenMesh's decimater runs with them, and their
+// guarantees hold.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ struct Decimated {
     }
 };
 
-// Expects every corner's wedge to have the position of the corner's vertex.
+// Expects the wedge of each corner to have the position of the corner's vertex.
 void expectWedgesInPlace(const DrawnSurface& surface, const SurfaceMesh& mesh) {
     forEachFace(mesh, [&](FaceHandle face) {
         for (const HalfedgeHandle corner : cornersOf(mesh, face))
@@ -58,7 +59,7 @@ TEST(Decimater, bringsASphereDownWithOurModules) {
     EXPECT_GE(livingFaces(mesh), 298u);
     expectWedgesInPlace(surface, mesh);
 
-    // The surface is still closed, each edge has one face on either side, and faces look outwards.
+    // The surface is still closed: each edge has one face on either side, and faces look outwards.
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
     forEachFace(mesh, [&](FaceHandle face) {
@@ -102,7 +103,7 @@ TEST(Decimater, collapsesTheCheapestFirst) {
     expectWedgesInPlace(surface, mesh);
 }
 
-// Each collapse at the hub of a fan would visit all of its spokes.
+// A fan of thousands of spokes is not simplified, since each collapse at its hub would visit all spokes.
 TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     const auto fan = [](std::uint32_t spokes) {
         Vertices vertices;
@@ -119,7 +120,8 @@ TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     EXPECT_GT(buildPyramid(fan(800)).levels.size(), 1u);
 }
 
-// A square of one material inside another: no wedge may take the other material, so the border stays.
+// The border between two materials stays, since no wedge may take a vertex of another material. Here, a square of one
+// material lies inside another.
 TEST(Decimater, leavesMaterialBordersToTheModules) {
     const Mesh grid = flatGrid(8);
     std::vector<std::vector<std::uint32_t>> primitives(2);

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 using Face = std::array<int, 3>;
 
-// A mesh with a Simplifier. Cannot be moved.
+// A mesh with its Simplifier; cannot be moved.
 struct DrawnSurface {
     Vertices vertices;
     TriangleSet<MeshVertexNumber> triangles;
@@ -36,8 +36,8 @@ struct DrawnSurface {
     [[nodiscard]] SurfaceMesh& mesh() { return *simplifier.mesh; }
     [[nodiscard]] CollapseModules& modules() { return *simplifier.modules; }
 
-    // The surface's vertex for a mesh vertex, and the half-edge between two mesh vertices. Valid until the next
-    // compact().
+    // Return the surface's vertex for a mesh vertex, and the half-edge between two mesh vertices. Both are valid until
+    // the next compact().
     [[nodiscard]] VertexHandle vertex(std::uint32_t v) const {
         return simplifier.current[simplifier.origin->firstVertex[{v}]];
     }
@@ -47,7 +47,8 @@ struct DrawnSurface {
     void collapse(std::uint32_t from, std::uint32_t to) { collapseEdge(simplifier, edge(from, to)); }
 };
 
-// Returns the living faces as mesh vertices, each starting with the smallest, sorted.
+// Returns the faces that are not deleted as sorted triples of mesh vertices. Each triple starts with its smallest
+// vertex.
 inline std::vector<Face> drawnFaces(const SurfaceMesh& mesh) {
     std::vector<Face> faces;
     forEachFace(mesh, [&](FaceHandle handle) {

@@ -22,8 +22,8 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
-// One triangle (vertices 0, 1, 2 of the level) that replaces these and all inner vertices, anchored at barycentric
-// coordinates.
+// A level of one triangle, the vertices 0, 1 and 2, that replaces these and all inner vertices. Each vertex is anchored
+// to the triangle at barycentric coordinates.
 struct OneTriangle {
     Vertices vertices;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -51,12 +51,12 @@ OneTriangle oneTriangle() {
     return result;
 }
 
-// Fits a level that consists of the triangle and of the further vertices in `indices`.
+// Fits a level that consists of the triangle and of the additional vertices in `indices`.
 defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
-    source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are not given, so all areas are equal
+    source.areas.assign(t.anchors.size(), 1);  // there are no triangles of level 0, so all areas are equal
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
     level.triangles = numberedTriangles<LevelVertexNumber>({indices});
@@ -72,7 +72,8 @@ TEST(LevelFit, flatTriangleStaysWhereItIs) {
         EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
 
-// All vertices but the corners lie 0.3 above the triangle. Least squares raises the triangle nearly as far.
+// A fitted triangle rises to the bulge that it replaces. All vertices but its corners lie 0.3 above it, and least
+// squares raise it almost as far.
 TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
@@ -107,8 +108,8 @@ TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     EXPECT_NEAR(fitted.colors[{0}].a, 1, 1e-5f);
 }
 
-// The surface is dark except at one corner. The best linear fit is below 0 at the other end, and clamping it would
-// brighten the triangle.
+// Fitted colours may be negative, so that a triangle keeps its mean colour. The surface is dark except at one corner.
+// The best linear fit is below 0 on the opposite side, and clamping the fit would brighten the triangle.
 TEST(LevelFit, coloursOvershootRatherThanBrighten) {
     OneTriangle t = oneTriangle();
     double mean = 0;
@@ -159,7 +160,7 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
     EXPECT_NEAR(fit.colors[{0}].r - fit.colors[{1}].r, 1, 1e-6) << "all are shifted alike";
 }
 
-// For u = x², v = y over a triangle, the linear fit keeps the texture in place on average.
+// A linear fit of u = x², v = y over a triangle keeps the texture in place on average.
 TEST(LevelFit, textureLiesWhereItDid) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -179,7 +180,8 @@ TEST(LevelFit, textureLiesWhereItDid) {
     EXPECT_LT(shift([&](std::uint32_t k) { return fitted.uv0[{k}]; }), 0.005);
 }
 
-// A second vertex at a corner has other texture coordinates.
+// Texture coordinates at a seam are not fitted. The seam is a second vertex at a corner with different texture
+// coordinates.
 TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -193,7 +195,7 @@ TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
 }
 
-// Vertices on another chart do not affect this chart's texture.
+// Vertices of another chart do not affect the fit of this chart's texture.
 TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);
@@ -202,7 +204,7 @@ TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_LT(glm::distance(fitted.uv0[{v}], t.vertices.uv0[v]), 1e-5f);
 }
 
-// One surviving vertex on a dark spot must not darken the entire triangle.
+// A surviving vertex on a dark spot does not darken the entire triangle.
 TEST(LevelFit, colourOfOneSpotIsOutvoted) {
     OneTriangle t = oneTriangle();
     for (auto& color : t.vertices.colors) color.r = 0.8f;
@@ -217,7 +219,7 @@ TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
     const defocus::engine::LevelFit fitted = fitOf(t);
     glm::vec3 mean(0);
     for (std::uint32_t v = 0; v < 3; ++v) mean += fitted.normals[{v}] / 3.0f;
-    EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of both slopes points up and has this length
+    EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean normal of both slopes points up and has this length
     EXPECT_NEAR(mean.x, 0, 0.1);
 }
 
@@ -237,7 +239,7 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// Two vertices have one position and one normal. The second is a twin, whose normal depends only on its own anchors.
+// A twin, a second level vertex with the same position and normal, gets a normal that depends only on its own anchors.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

@@ -13,7 +13,8 @@
 namespace defocus::engine {
 namespace {
 
-// A surface element facing the light reflects 1/2 on average, and half of the sphere faces away: a quarter.
+// A sphere reflects a quarter of its colour on average: elements that face the light reflect 1/2 on average, and half
+// of the sphere faces away.
 TEST(LightMeans, ofASphereAreAQuarterOfItsColour) {
     const Mesh mesh = sphere(96, 48);
     const std::vector<glm::vec4> grey(mesh.vertices.count(), {0.2f, 0.4f, 0.6f, 1});
@@ -29,7 +30,7 @@ TEST(LightMeans, ofASquareFollowTheCosine) {
     for (std::size_t l = 0; l < lightCount; ++l) EXPECT_NEAR(means[l], std::max(directions[l].z, 0.0), 1e-6);
 }
 
-// Under light from all sides, a surface element reflects a quarter of the light, independent of its spread of normals.
+// Averaged over all light directions, a surface element reflects a quarter of the light for any spread of its normals.
 TEST(MeanCosine, overAllLightsIsAQuarter) {
     constexpr int heights = 4000;
     for (const float agreement : {0.05f, 0.3f, 0.6f, 0.8f, 0.9f, 0.97f, 0.99f, 0.999f, 1.0f}) {
@@ -42,7 +43,7 @@ TEST(MeanCosine, overAllLightsIsAQuarter) {
     }
 }
 
-// The mean cosine agrees with an integral over von Mises-Fisher distributed normals, whose mean is known.
+// The mean cosine agrees with an integral over normals with a von Mises-Fisher distribution, whose mean is known.
 TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     constexpr int count = 400;
     for (const double narrowness : {4.0, 10.0, 40.0, 200.0}) {
@@ -64,7 +65,7 @@ TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     }
 }
 
-// A ball's normals that all lean to one side are fitted to the light of the radial normals.
+// A ball's normals that all lean to one side are fitted so that they reflect as much light as the radial normals.
 TEST(FitLight, findsTheNormalsOfTheLight) {
     const Mesh ball = sphere(24, 12);
     std::vector<glm::vec3> expected;
@@ -104,7 +105,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// Normals that already fit are not changed by a bit.
+// Normals that already fit are not changed, bit for bit.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());
@@ -115,7 +116,7 @@ TEST(FitLight, leavesWhatFits) {
     EXPECT_EQ(normals, grid.vertices.normals);
 }
 
-// A damaged file may contain any float, including NaN, as normal or colour.
+// Normals stay as they are if colours are NaN, infinite or huge, as in a damaged file.
 TEST(FitLight, leavesWhatHasNoNumbers) {
     const Mesh grid = flatGrid(2);
     std::vector<std::uint32_t> groups(grid.vertices.count());

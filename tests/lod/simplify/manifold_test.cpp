@@ -21,7 +21,7 @@ std::ptrdiff_t pairedHalfEdges(const Manifold& manifold) {
                          [](SurfaceCorner twin) { return twin.isValid(); });
 }
 
-// Expects twins to refer to each other and to join the same two vertices.
+// Expects twin half-edges to refer to each other and to join the same two vertices.
 void expectConsistent(const Manifold& manifold) {
     const auto end = [&](SurfaceCorner e) { return manifold.corners[{e.value % 3 == 2 ? e.value - 2 : e.value + 1}]; };
     for (const SurfaceCorner e : manifold.twins.numbers()) {
@@ -43,6 +43,8 @@ TEST(Manifold, TetrahedronIsClosed) {
     EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
+// The two triangles of a square share the diagonal.
+//
 // 3---2
 // | / |
 // 0---1
@@ -55,7 +57,8 @@ TEST(Manifold, SquareHasOneInnerEdge) {
 }
 
 TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
-    // A strip of three faces with the middle one reversed: 0 1 2, then 1 2 3 with the wrong winding, then 2 3 4.
+    // In a strip of three faces, the middle face is reversed: the corners are 0 1 2, then 1 2 3 with the wrong winding,
+    // then 2 3 4.
     const Points strip = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}};
     const Manifold manifold = manifoldOf(strip, {0, 2, 1, 1, 3, 2, 2, 4, 3});
     expectConsistent(manifold);
@@ -78,7 +81,7 @@ TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
 }
 
 TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
-    // A flat square 0 1 2 3 with the diagonal 0-2, and a fin 0 2 4 that stands on the diagonal.
+    // A flat square 0 1 2 3 has the diagonal 0–2, and a fin 0 2 4 stands on the diagonal.
     Points points = square;
     points.push_back({0.5, 0.5, 1});
     const Manifold manifold = manifoldOf(points, {0, 1, 2, 0, 2, 4, 0, 2, 3});
@@ -91,7 +94,8 @@ TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
 }
 
 TEST(Manifold, SheetWithTwoFacesClosesAroundItsOutline) {
-    // The square and its reverse: across the diagonal, fronts join fronts; at the four outer edges, fronts join backs.
+    // The square and its reverse form a sheet: fronts join fronts across the diagonal, and fronts join backs at the
+    // four outer edges.
     const Manifold manifold = manifoldOf(square, {0, 1, 2, 0, 2, 1, 0, 2, 3, 0, 3, 2});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 12);
@@ -115,8 +119,8 @@ TEST(Manifold, SameFaceInTwoPrimitivesStays) {
 }
 
 TEST(Manifold, MoebiusBandIsCutAtOneEdge) {
-    // Five triangles i, i+1, i+2 (mod 5): the edges i, i+1 have two faces each, the edges i, i+2 form its single
-    // border.
+    // Five triangles i, i+1, i+2 (mod 5) form a Möbius strip: the edges i, i+1 have two faces each, and the edges i,
+    // i+2 form the strip's single border.
     Points points;
     std::vector<std::uint32_t> corners;
     for (std::uint32_t i = 0; i < 5; ++i) {

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// index in directionsOfOutlines(): (−1, 0, 0) is 4, (0, −1, 0) is 10, (0, 0, −1) is 12
+// Index in directionsOfOutlines(): 4 is (−1, 0, 0), 10 is (0, −1, 0) and 12 is (0, 0, −1).
 constexpr std::size_t alongZ = 4;
 
 TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {
@@ -58,7 +58,8 @@ TEST(EdgeFill, coversWhatTheTrianglesOfItsEdgesDo) {
     EXPECT_EQ(fill.fill(byEdges), 0u) << "fill() must remove the edges";
 }
 
-// A coarse sphere with vertices on the fine one: every outline is too small before the fit.
+// A fit grows the outlines of a coarse sphere to the area of the fine sphere's. Before the fit, every outline is too
+// small, as all vertices lie on the fine sphere.
 TEST(FitOutlines, inscribedSphereGrowsToTheAreaOfTheFineOne) {
     const Mesh fine = sphere(128, 64);
     const Mesh coarse = sphere(12, 8);

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Expects each half-edge to agree with its opposite, its next and its face. Each vertex's half-edge leaves that vertex,
-// and is the boundary one if the vertex lies on a border.
+// Expects each half-edge to agree with its opposite, its next and its face. A vertex refers to a half-edge that leaves
+// the vertex, and to the boundary half-edge if the vertex lies on a border.
 void expectLinked(const SurfaceMesh& mesh) {
     for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) {
         const HalfedgeHandle h(i);
@@ -58,8 +58,8 @@ TEST(SurfaceMesh, facesWoundAgainstTheOthersRunWithThem) {
     EXPECT_EQ(drawnFaces(surface.mesh())[1], (Face{0, 4, 3}));
 }
 
-// Four points p stand around an axis a–b at 0°, 170°, 180° and 350°. Where the surface bends sharply, faces join
-// neighbouring points p. Where it is flat, they run from pole to pole, so two edges join a and b.
+// Two edges may join the same two vertices a and b. Four points p stand around the axis a–b at 0°, 170°, 180° and 350°.
+// Where the surface bends sharply, faces join neighbouring points p. Where it is flat, faces run from pole to pole.
 TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     Vertices vertices;
     vertices.positions = {{0, 0, 1}, {0, 0, -1}};
@@ -93,7 +93,7 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     }
     const SurfaceMesh& mesh = surface.mesh();
     std::vector<glm::vec3> positions;
-    std::vector<std::vector<MeshVertexNumber>> faces;  // sources of the corners, in order
+    std::vector<std::vector<MeshVertexNumber>> faces;  // source vertices of each face's corners
     const auto sourcesOf = [](const SurfaceMesh& of, FaceHandle face) {
         std::vector<MeshVertexNumber> sources;
         for (const HalfedgeHandle corner : cornersOf(of, face)) sources.push_back(of.wedges.source(of.wedge(corner)));

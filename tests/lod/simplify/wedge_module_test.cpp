@@ -8,11 +8,13 @@
 namespace defocus::engine {
 namespace {
 
-//  6---7---8
-//  | / | / |
-//  3---4---5   one chart
-//  | / | / |
-//  0---1---2
+// Returns a grid of 2 × 2 quads that form one chart.
+//
+// 6---7---8
+// | / | / |
+// 3---4---5
+// | / | / |
+// 0---1---2
 Vertices grid() {
     Vertices vertices;
     for (int v = 0; v < 9; ++v) {
@@ -22,8 +24,8 @@ Vertices grid() {
     return vertices;
 }
 
-// The same positions, but the right column of quads has separate vertices where the two columns meet. Their uv are
-// `jump` cells away.
+// The positions of grid(), but the right column of quads has its own vertices where both columns meet. Its uv are
+// shifted by `jump` cells.
 //
 //   6---7 11---8
 //   | / |  | / |
@@ -73,7 +75,7 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // In both cases, the corners on the left can only draw the surviving vertex.
+    // In both cases, the corners on the left can use only the surviving vertex.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));
@@ -89,8 +91,8 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
     EXPECT_EQ(wedges.collapse_priority(CollapseInfo(surface.mesh(), surface.edge(4, 1))), 0);
 }
 
-// A crease runs upwards from vertex 4, where the right column has other normals. Below it, vertex 1 has a single
-// normal. Its corners take the surviving vertex with the most similar normal.
+// At the lower end of a crease, corners take the surviving vertex with the most similar normal. The crease runs upwards
+// from vertex 4, where the right column has other normals; below it, vertex 1 has a single normal.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
         Vertices vertices = tornGrid(0);
@@ -106,8 +108,8 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// At one position, a quadric costs the faces' area times the squared attribute difference. Three faces meet at vertex
-// 5, and six more at vertex 4.
+// After a collapse, the survivor's wedge has the cost of the faces of both vertices: area times squared attribute
+// difference. Three faces meet at vertex 5, and six more at vertex 4.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;

@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-// Strongly blurred spheres in front of and behind the focus.
+// Returns strongly blurred spheres in front of and behind the focus.
 std::unique_ptr<SmallWorld> muchBlurred() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 0.1;
@@ -43,8 +43,9 @@ Moments momentsOf(const Points& points) {
     return moments;
 }
 
-// Blurred objects keep position and size for every sample count. The cells' centres have the mean of the lens, and the
-// covariances of the centres and of the blur add up to the lens's. A blur of σ = b·c px is one of 2b on the lens.
+// Lens cells preserve the position and size of blurred objects at every sample count. The cells' centres have the
+// lens's mean, and the covariances of the centres and of the blur add up to the lens's covariance. An image blur of σ =
+// b·c px corresponds to σ = 2b lens radii.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
@@ -80,8 +81,8 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     check("ring", 2e-3);
 }
 
-// Each centre is the mean of a 64th of the lens. The centres form a regular pattern with larger distances than the
-// sequence's points.
+// Centres of lens cells lie farther apart than the sequence's points. Each of the 64 centres is the mean of a 64th of
+// the lens.
 TEST(LensCells, middlesKeepApart) {
     const auto small = muchBlurred();
     const auto nearest = [](const auto& points, const auto& place) {
@@ -94,11 +95,11 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // 64 disks with the lens's area have a diameter of 1/4
+    EXPECT_GT(apart, 1.0 / 8);  // 64 equal disks with the lens's total area are 1/4 wide
 }
 
-// Returns the RMS difference, over positions of a straight edge, between the edge blurred by a disk and by `points` of
-// a Gaussian `sigma`. Lengths are in lens radii; the edge's normal has the direction `angle`.
+// Returns the RMS difference between two blurred straight edges, over positions of the edge: one blurred by a disk, the
+// other by Gaussians of `sigma` at `points`. Lengths are in lens radii; the edge's normal has the direction `angle`.
 double edgeError(const std::vector<glm::vec2>& points, double sigma, double angle) {
     double squares = 0;
     int places = 0;
@@ -114,8 +115,8 @@ double edgeError(const std::vector<glm::vec2>& points, double sigma, double angl
     return std::sqrt(squares / places);
 }
 
-// Edges in every direction are smooth, including vertical and horizontal ones, which rows and columns of points would
-// blur in steps.
+// Lens cells blur edges of every direction almost as a disk does. Rows and columns of points would blur vertical and
+// horizontal edges in steps.
 TEST(LensCells, edgesAreBlurredAsByADisk) {
     const auto small = muchBlurred();
     for (const std::uint32_t count : {16u, 24u, 32u, 64u, 128u}) {
@@ -137,8 +138,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
     }
 }
 
-// A part of a frame has the cells of all its samples. A block that is planned later has its own cells, with the blur of
-// all samples.
+// A part of a frame has the lens cells of all samples of the frame. A block that is planned separately has its own
+// cells, with the blur for all samples up to its end.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -155,7 +156,8 @@ TEST(LensCells, belongToWhatIsPlannedTogether) {
     EXPECT_NEAR(moments.covariance[0][0], 0.25 - 4 * block.blur * block.blur, 1e-4);
 }
 
-// Without gaps there is no blur, and cells do not move when the blur ends.
+// The blur of lens cells shrinks as samples are added and vanishes where samples leave no gaps. Cell centres do not
+// jump there.
 TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const auto small = muchBlurred();
     const LensCells few = lensCellsOf(*small, 16);
@@ -173,7 +175,7 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
 }
 
-// The rate falls from 1 to 1/16 without a step.
+// The resolution of a sample's image falls from 1 to 1/16 of full resolution without a jump as the blur grows.
 TEST(LensCells, pixelRateIsContinuous) {
     const auto small = muchBlurred();
     const LensCells cells = lensCellsOf(*small, 64);

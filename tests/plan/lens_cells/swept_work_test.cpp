@@ -1,4 +1,4 @@
-// Pixels covered by a triangle's bounds over the lens, against closed forms.
+// Tests of the number of pixels that a triangle's bounds cover over the lens, against closed forms.
 
 #include "plan/lens_cells/swept_work.h"
 
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// A square of 6 px in the middle of an image of 100 × 80 px, at a depth of 4 m.
+// Returns a square of 6 × 6 px in the middle of an image of 100 × 80 px, at a depth of 4 m.
 std::unique_ptr<SmallWorld> smallSquare(bool turned) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.meshes.push_back(quad(-1));
@@ -37,7 +37,7 @@ double sumOf(const Image& image) {
     return sum;
 }
 
-// Expects both triangles of the square to cover its bounds of `side` px.
+// Expects the bounds of each of the square's two triangles to cover `side` × `side` px.
 void expectSide(const SmallWorld& small, int side) {
     const Image image = sweptOf(small);
     EXPECT_EQ(sumOf(image), 2.0 * side * side);
@@ -51,7 +51,7 @@ TEST(SweptWork, coversTheSquareAndItsBlurOnAllSides) {
     small->view.lens.dofEnabled = false;
     expectSide(*small, 6);
     small->view.lens.dofEnabled = true;
-    // The blur reaches 4.1 px beyond each side, into a fifth pixel.
+    // The blur extends the square by 4.1 px on each side and so touches a fifth pixel: 6 + 2·5 = 16.
     small->view.lens.blurScale = 8.2 / (0.05 * (1.0 / 2 - 1.0 / 4) * 100 / 0.72);
     expectSide(*small, 16);
     small->view.lens.backgroundLimit = 2.2;

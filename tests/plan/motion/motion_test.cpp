@@ -1,4 +1,4 @@
-// Motion during the exposure: moments, bounds and requirements on a shutter.
+// Tests of motion during the exposure: moments, bounds and requirements on a shutter.
 
 #include "plan/motion/motion.h"
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// Moves the first sphere by `step` between moments.
+// Moves the first sphere by `step` from each of `moments` moments to the next.
 void moveFirst(SmallWorld& small, std::size_t moments, const glm::dvec3& step) {
     small.world.shutter.poses.assign(moments, small.world.pose);
     for (std::size_t i = 0; i < moments; ++i) {
@@ -81,7 +81,7 @@ TEST(Motion, samplesFindTheirMoments) {
 
 TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     const auto small = fiveSpheres();
-    // The object moves from far left of the frame to far right. Neither end is visible, but the path is.
+    // The object crosses the frame from far left to far right. It is outside the frame at both ends of the exposure.
     for (Object& object : small->world.pose.objects) object.worldFromObject[3] += glm::dvec4(0, 0, -40, 0);
     Object& crossing = small->world.pose.objects[0];
     crossing.worldFromObject = glm::translate(glm::dmat4(1), glm::dvec3(30, 0, -3));
@@ -93,12 +93,12 @@ TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     ASSERT_NE(found, plan.objects.end());
     EXPECT_NEAR(found->nearestDepth, 2, 0.05);
     EXPECT_NEAR(found->farthestDepth, 9, 0.05);
-    EXPECT_EQ(found->coc.smallest, 0);  // it crosses the focus at 3 m
+    EXPECT_EQ(found->coc.smallest, 0);  // the object crosses the focus plane at 3 m
     small->world.shutter = {};
     EXPECT_TRUE(leftOut(planFrame(small->world, small->view, settingsFor(8)), "object Object 0"));
 }
 
-// All is in focus, but motion needs all samples.
+// Without defocus, motion still needs all samples.
 TEST(Motion, samplesRemainForMotionWithoutALens) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

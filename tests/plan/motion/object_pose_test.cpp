@@ -1,4 +1,4 @@
-// Bounds of posed objects contain every vertex of every level at many times.
+// Tests that bounds of posed objects contain every vertex of every level at many times.
 
 #include "plan/motion/object_pose.h"
 
@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the distance of a point outside a box along the worst axis; 0 inside.
+// Returns how far a point lies outside a box along the worst axis, or 0 inside.
 double outside(const Bounds& box, const glm::dvec3& point) {
     const glm::dvec3 below = box.minimum - point;
     const glm::dvec3 above = point - box.maximum;
@@ -50,7 +50,7 @@ TEST_P(ObjectPoseOf, boundsHoldAllVerticesAtManyTimes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, ObjectPoseOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Weights may be negative and above one.
+// Bounds hold for morph weights below 0 and above 1.
 TEST(ObjectPose, boundsHoldForAnyMorphWeights) {
     SmallWorld small;
     small.scene.meshes.push_back(bumpySphere(24, 18, -1));
@@ -69,7 +69,7 @@ TEST(ObjectPose, boundsHoldForAnyMorphWeights) {
         }
 }
 
-// Vertices without weights, and joints that the skin lacks, follow the first joint.
+// Bounds hold for vertices without weights, and for vertices whose joints the skin lacks. Both follow the first joint.
 TEST(ObjectPose, boundsHoldForOddWeights) {
     SmallWorld small;
     small.scene.meshes.push_back(bumpySphere(24, 18, -1));

@@ -1,5 +1,5 @@
-// Bounds of the determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012, Appendix A), against sampled
-// values.
+// Tests of bounds of a triangle's determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012, Appendix A),
+// against sampled values.
 
 #include "plan/visible/lens_facing.h"
 
@@ -35,14 +35,15 @@ LensTriangle anyTriangle(TriangleSource& random) {
     return triangle;
 }
 
-// Returns the determinant of the sheared triangle by its definition.
+// Returns the determinant of the triangle after the shear of lens point (u, v).
 double sheared(const LensTriangle& triangle, double u, double v) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = triangle.places[i] + triangle.coc[i] * glm::dvec3(u, aspect * v, 0);
     return glm::dot(q[0], glm::cross(q[1], q[2]));
 }
 
-// Returns the max over many points of the rim. The determinant is linear over the lens, so its max lies on the rim.
+// Returns the determinant's max over the lens, by sampling. The max lies on the rim because the determinant is linear
+// over the lens.
 double sampledLargest(const LensTriangle& triangle, double radius) {
     double largest = sheared(triangle, 0, 0);
     constexpr int points = 720;
@@ -53,7 +54,7 @@ double sampledLargest(const LensTriangle& triangle, double radius) {
     return largest;
 }
 
-// Returns the determinant's variation over the lens, the unit for the bounds' errors.
+// Returns the determinant's max change from the lens centre to the rim, the unit of the bounds' errors.
 double spreadOf(const LensTriangle& triangle) {
     return sampledLargest(triangle, 1) - sheared(triangle, 0, 0);
 }
@@ -71,7 +72,7 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// Eq. 6: for a thin lens, the eye moves over a disk of radius |a|.
+// For a thin lens, the bound is that of an eye that moves over a disk of radius |a| (Eq. 6 of the paper).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;
@@ -92,7 +93,7 @@ double sampledLargest(const LensTriangle& from, const LensTriangle& to) {
     return largest;
 }
 
-// Eq. 7 and 8.
+// The bound over lens and time (Eq. 7 and 8 of the paper) holds for moving triangles.
 TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     TriangleSource random(3);
     double loosest = 0;
@@ -100,13 +101,14 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     for (int trial = 0; trial < 400; ++trial) {
         const LensTriangle from = anyTriangle(random);
         LensTriangle to = anyTriangle(random);
-        // From hardly any motion to unrelated triangles.
+        // The motion ranges from nearly none to two unrelated triangles.
         const double share = std::pow(10.0, random(-3, 0));
         to = between(from, to, share);
         const double sampled = sampledLargest(from, to);
         const double bound = largestDeterminant(from, to, aspect);
         ASSERT_GE(bound, sampled - 1e-9);
-        // With the exposure in eight parts, the bound's error shrinks with the square of their length.
+        // Dividing the exposure into eight parts tightens the bound, whose error shrinks with the square of a part's
+        // length.
         double divided = -1e300;
         for (int part = 0; part < 8; ++part)
             divided = std::max(divided, largestDeterminant(between(from, to, part / 8.0),

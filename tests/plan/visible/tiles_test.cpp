@@ -1,4 +1,5 @@
-// Parts of an image: cells and rows cover it once, and a tile's plan keeps all objects that may be visible in the tile.
+// Tests of parts of an image: cells and rows cover the image once, and a tile's plan keeps all objects that may be
+// visible in the tile.
 
 #include "plan/visible/tiles.h"
 
@@ -54,14 +55,14 @@ std::vector<int> objectsOf(const FramePlan& plan) {
     return objects;
 }
 
-// A plan of a tile keeps the objects that any sample may show there, and drops the others.
+// A tile's plan keeps every object that may appear in the tile in any sample, and drops the others.
 TEST(TilePlan, holdsTheObjectsThatASampleMayShowThere) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small);
     const PixelRectangle full{0, 0, plan.view.width, plan.view.height};
     EXPECT_EQ(objectsOf(tileOf(plan, {full, full})), objectsOf(plan));
 
-    // Object 1 lies in focus at (0.3, 0.2, −3) with a radius of 0.53. Through the pinhole it covers these columns.
+    // Object 1 lies in focus at (0.3, 0.2, −3) with a radius of 0.53. It covers the columns from `left` to `right`.
     const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
     const int left = static_cast<int>(plan.view.width / 2 + focal * (0.3 - 0.53) / 3);
     const int right = static_cast<int>(plan.view.width / 2 + focal * (0.3 + 0.53) / 3) + 1;

@@ -1,5 +1,5 @@
-// Culled clusters against brute force over lens points and times, for the thin lens (Eq. 6) and for any C (Eq. 5) of
-// Munkberg, Toth and Akenine-Möller 2012, Appendix A. Signs are inverted (see plan/visibility.h).
+// Tests of culled clusters against brute force over lens points and times. Munkberg, Toth and Akenine-Möller 2012,
+// Appendix A, treat the thin lens in Eq. 6 and any C in Eq. 5. Signs are inverted (see plan/visible/visibility.h).
 
 #include "plan/visible/visibility.h"
 
@@ -41,8 +41,8 @@ RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-// Objects of one triangle of up to `size` m at random positions in front of the camera, a few beside and behind it.
-// Every third transform mirrors, every fourth stretches.
+// Returns objects of one triangle each, of up to `size` m, at random positions in front of the camera and a few beside
+// and behind it. Every third transform mirrors, every fourth stretches.
 std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double size) {
     auto small = std::make_unique<SmallWorld>();
     small->view.width = 400;
@@ -66,8 +66,7 @@ std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double siz
     return small;
 }
 
-// Clip positions (x, y, w) of the object's triangle that starts at index `first`, at a time of the exposure, and their
-// C.
+// A triangle at a time of the exposure: clip positions (x, y, w) and C of its corners.
 struct ClipTriangle {
     glm::dvec3 p[3];
     double c[3] = {};
@@ -101,21 +100,22 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Eq. 5: the determinant's max over the lens.
+// Returns the determinant's max over the lens (Eq. 5).
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
     return sign * determinant(t.p[0], t.p[1], t.p[2]) + std::hypot(n.x, aspect * n.y);
 }
 
-// Returns the shear's determinant for one lens point by its definition.
+// Returns the determinant of the triangle after the shear of lens point (u, v).
 double shearedDeterminant(const ClipTriangle& t, double aspect, double u, double v, double sign) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = t.p[i] + t.c[i] * glm::dvec3(u, aspect * v, 0);
     return sign * determinant(q[0], q[1], q[2]);
 }
 
-// Returns whether all three corners lie beyond one plane of the frustum by at least half a pixel.
+// Returns whether all three corners, seen from lens point (u, v), lie beyond the same frustum plane by at least half a
+// pixel.
 bool outside(const ClipTriangle& t, const View& view, double aspect, double u, double v) {
     bool beyond[5] = {true, true, true, true, true};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -132,12 +132,12 @@ bool outside(const ClipTriangle& t, const View& view, double aspect, double u, d
 }
 
 struct Counts {
-    int away = 0;         // culled as facing away
-    int outside = 0;      // culled as outside
-    int couldBeAway = 0;  // inside the image and facing away over the entire lens and exposure
+    int away = 0;         // triangles culled as facing away
+    int outside = 0;      // triangles culled as outside the frustum
+    int couldBeAway = 0;  // triangles inside the image that face away over the entire lens and exposure
 };
 
-constexpr int lensPoints = 16;  // on the rim, plus the centre
+constexpr int lensPoints = 16;  // on the rim; the centre is one more
 
 // Fails if a culled triangle shows its front inside the image at some lens point and time.
 Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
@@ -179,8 +179,8 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
 
 TEST(Visibility, randomTrianglesThroughAThinLens) {
     Random random(1);
-    // The larger a triangle is relative to its distance, the more often it is clipped or its box reaches the near
-    // plane.
+    // Triangles that are large relative to their distance are more often clipped, or their box reaches the near plane.
+    // Fewer of the triangles that face away are then culled.
     const std::pair<double, double> sizesAndShares[] = {{0.02, 0.9}, {0.1, 0.7}, {0.4, 0.5}};
     for (const auto& [size, share] : sizesAndShares) {
         const auto small = looseTriangles(random, 3000, size);
@@ -190,7 +190,8 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// Eq. 6 depends only on the lens's radius in metres: the thin lens's C gives the same determinant as a moved eye.
+// The max determinant of a thin lens equals that of an eye that moves over a disk of the lens's radius in metres (Eq.
+// 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -204,7 +205,7 @@ TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     }
 }
 
-// Lens controls that make C differ from a + b·w, alone and together.
+// No visible triangle is culled under lens controls that make C differ from a + b·w, alone and together.
 TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
     Random random(3);
     int away = 0;
@@ -254,7 +255,7 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
     }
 }
 
-// Eq. 5 for any C: each corner has its own blur, which may change during the exposure.
+// No visible triangle is culled where each corner has its own blur, which may change during the exposure (Eq. 5).
 TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
     Random random(5);
     for (const bool changes : {false, true})
@@ -273,14 +274,14 @@ TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
             finish(*small);
             if (changes) small->world.shutter.poses.assign(2, small->world.pose);
             RenderSettings settings = settingsFor(64);
-            settings.cocTolerance = 1e6;  // draws triangles undivided
+            settings.cocTolerance = 1e6;  // large enough that no triangle is divided
             const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
             EXPECT_GT(counts.couldBeAway, 100);
             EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
         }
 }
 
-// The object's own blur widens the frustum, not the lens's.
+// The blur that widens the frustum for culling is the object's own blur, not the lens's.
 TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -289,7 +290,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     small->view.height = 300;
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 2;
-    // 10 px beside the image and 0.4 px wide, with a lens blur of 7 px.
+    // A square 10 px beside the image and 0.4 px wide, which the lens blurs by 7 px.
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 4 / 400;
     place(*small, 0,
           glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(210 * pixel, 0, -4)), glm::dvec3(0.2 * pixel)));
@@ -332,7 +333,8 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     for (const double mirror : {1.0, -1.0}) {
         const auto small = oneSphere(glm::scale(at(0, -4), glm::dvec3(mirror, 1, 1)));
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-        // From 4 m, a sphere of radius 1 shows (1 − 1/4)/2 of its surface; ripples widen the cones.
+        // From 4 m, (1 − 1/4)/2 = 37.5 % of a unit sphere's surface faces the eye. Ripples widen the clusters' normal
+        // cones.
         EXPECT_GT(share(plan.trianglesFacingAway, plan), 0.35);
         EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.625);
         EXPECT_EQ(plan.trianglesDrawn + plan.trianglesFacingAway + plan.trianglesOutside, plan.trianglesAtFullDetail);
@@ -342,7 +344,7 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     }
 }
 
-// Skinned clusters are tested by their corners. A skin of one static joint culls about as much as the rigid mesh.
+// Skinned clusters are culled by their corners. A skin of one static joint culls about as much as the rigid mesh.
 TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const auto rigid = oneSphere(at(0, -4));
     const auto skinned = oneSphere(at(0, -4));
@@ -369,7 +371,7 @@ TEST(Visibility, doubleSidedSurfacesNeverFaceAway) {
 }
 
 TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
-    const auto small = oneSphere(at(1.5, -4));  // the image's edge lies at 1.44
+    const auto small = oneSphere(at(1.5, -4));  // the image's edge lies at x = 1.44 m
     small->view.lens.fStop = 16;
     const FramePlan sharp = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(sharp.trianglesOutside, sharp), 0.3);
@@ -377,7 +379,7 @@ TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
     small->view.lens.focusDistance = 0.5;
     const FramePlan blurred = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(blurred.trianglesOutside, blurred), 0.5 * share(sharp.trianglesOutside, sharp));
-    // A bounded blur culls them again.
+    // A limit on the blur lets the clusters be culled again.
     small->view.lens.backgroundLimit = 2;
     const FramePlan bounded = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(bounded.trianglesOutside, bounded), 0.9 * share(sharp.trianglesOutside, sharp));
@@ -398,7 +400,7 @@ TEST(Visibility, trianglesTooSmallForThePixelGridAreKept) {
 }
 
 TEST(Visibility, aBoxAroundTheCameraIsNotTakenToFaceAway) {
-    const auto small = oneSphere(at(0, -0.5));  // the camera is inside and sees only backs
+    const auto small = oneSphere(at(0, -0.5));  // the camera is inside the sphere and sees only back faces
     small->view.nearPlane = 0.01;
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.6);

@@ -1,5 +1,5 @@
 #pragma once
-// Images by method "accumulation".
+// Helpers that render images with method "accumulation".
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Images whose samples are split over pixels (LodMode::continuous).
+// Fixture for images in which a sample may be split over pixels between two levels (LodMode::continuous).
 class ScreenDoor : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }

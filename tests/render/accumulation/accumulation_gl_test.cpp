@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// A green quad that fills the frame at `depth`, in front of a uniform red background.
+// Returns a green square of half width `halfSize` (m) at `depth` (m), in front of a uniform red background.
 std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -35,7 +35,7 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              1e-3);  // another vertex program: rounding may differ, coverage may not
+              1e-3);  // another vertex shader may round differently but must cover the same pixels
 }
 
 TEST_F(Accumulation, keepingEverythingGivesTheSameImage) {
@@ -71,9 +71,9 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 }
 
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
-    const auto small = wall(2, 0.4);  // in focus: its edges must not move
+    const auto small = wall(2, 0.4);  // in focus, so the lens must not move its edges
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // nothing is blurred, so the plan would drop the lens
+    settings.keepAll = true;  // otherwise the plan drops the lens, as nothing is blurred
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -81,14 +81,14 @@ TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
 
 TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
     const auto small = wall(1, 0.2);
-    const double c = 0.05 * 0.5 * 96 / 0.72;  // px
+    const double c = 0.05 * 0.5 * 96 / 0.72;  // diameter of the blur, px
     const Image image = rendered(*small, settingsFor(512));
-    // In the middle row, the left edge of the quad lies at 48 − 0.2/0.36·48 px and is blurred over ± c/2.
+    // In the middle row, the left edge of the square lies at x = 48 − 0.2/0.36·48 px and is blurred over ± c/2.
     const double edge = 48 - 0.2 / 0.36 * 48;
     for (int x = 0; x < 48; ++x) {
         const double green = image.at(x, 32)[1];
-        // A half-plane's profile under a uniform disk of radius r at distance d: 1/2 + (asin(d/r) + d/r·√(1 −
-        // (d/r)²))/π
+        // Profile of a half-plane under a uniform disk of radius r, at the distance d from the edge: 1/2 + (asin(d/r) +
+        // d/r·√(1 − (d/r)²))/π.
         const double d = std::clamp((x + 0.5 - edge) / (c / 2), -1.0, 1.0);
         const double covered = 0.5 + (std::asin(d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
         EXPECT_NEAR(green, 0.1 + 0.6 * covered, 0.04) << x;
@@ -168,7 +168,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     const auto at = [](double z) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
     };
-    place(*small, 0, at(2));  // the red quad lies in front of the green one, which lies in front of the blue one
+    place(*small, 0, at(2));  // depths: red 2 m, green 3 m, blue 4 m
     place(*small, 2, at(4));
     place(*small, 1, at(3));
     small->world.environment.type = EnvironmentType::uniform;
@@ -181,8 +181,8 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// A pinhole shows the radiance L(d) of each pixel's direction. A lens sees an environment at infinity unblurred only if
-// it is focused at infinity.
+// A gradient sky has the radiance L(d) of its formula in each pixel's direction d through a pinhole. A lens shows an
+// environment at infinity unblurred only if it is focused at infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
     small.world.environment = {
@@ -215,7 +215,7 @@ TEST_F(Accumulation, environmentMapOfOneColourIsTheUniformEnvironment) {
     EXPECT_LT(largestDifference(mapped, rendered(*small, settingsFor(8))), 5e-3);
 }
 
-// Adds a lamp and a spotlight to the sun.
+// Adds a lamp and a spotlight to the world's lights.
 void addLocalLights(SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;
@@ -231,8 +231,8 @@ void addLocalLights(SmallWorld& small) {
     small.world.lights.insert(small.world.lights.end(), {lamp, spot});
 }
 
-// Few lights are compiled into the shaders as constants, many are uniforms. Additional dark lights switch from
-// constants to uniforms.
+// Lights give the same image as constants and as uniforms of the shaders. Few lights are compiled into the shaders as
+// constants, and additional dark lights turn all of them into uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -247,7 +247,7 @@ TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     EXPECT_LT(largestDifference(constant, rendered(*small, settingsFor(4), options)), 1e-4);
 }
 
-// Infinity cannot be a constant of a shader: an infinite light is drawn with the image's largest finite values.
+// A light of infinite intensity gives finite pixels, although infinity cannot be a constant of a shader.
 TEST_F(Accumulation, infiniteLightIsDrawn) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};
@@ -258,7 +258,7 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// The image stays the same when camera, objects and lights turn about the vertical and move together, although shading
+// The image stays the same when camera, objects and lights move together and turn about the vertical, although shading
 // uses the world's axes.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();
@@ -275,7 +275,8 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
 
-// Interpolated normals can face away from the eye. The half vector's cosine must stay in [0, 1], or such pixels glare.
+// Interpolated normals that face away from the eye do not glare: shading clamps the cosine of the half vector to [0,
+// 1].
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};
@@ -284,7 +285,7 @@ TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     PlacedLight lamp;
     lamp.light.intensity = 1;
-    lamp.direction = {0, 0, 1};  // from behind the wall
+    lamp.direction = {0, 0, 1};  // shines from behind the wall
     small->world.lights = {lamp};
     for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
         for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)

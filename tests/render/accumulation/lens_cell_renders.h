@@ -1,5 +1,5 @@
 #pragma once
-// Renders of the tests of method "multirate".
+// Helpers that render images for the tests of method "multirate".
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// Returns a renderer of `method`, given as on the command line, such as "line:segments=4".
+// Returns a renderer of `method`, written as on the command line, such as "line:segments=4".
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
@@ -36,7 +36,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Returns a reference image whose samples come from another sequence than those of the tested images.
+// Returns a reference image of 4096 samples from a different sequence than those of the tested images.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -44,19 +44,19 @@ inline Image convergedImage(const SmallWorld& small) {
     return drawnBy("accumulation", small, settings);
 }
 
-// Returns the largest relative difference between a pixel and a colour.
+// Returns the largest relative difference between a pixel of the image and `color`.
 inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color) {
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
         for (glm::length_t c = 0; c < 3; ++c) {
             const double off =
                 std::abs(double{image.pixels[i * 4 + static_cast<std::size_t>(c)]} / double{color[c]} - 1);
-            if (!(off <= largest)) largest = off;  // NaN counts as a difference
+            if (!(off <= largest)) largest = off;  // also true for NaN
         }
     return largest;
 }
 
-// Images blurred as lens cells.
+// Fixture for images whose samples are blurred as lens cells.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
@@ -66,7 +66,8 @@ protected:
         return lensCells(planFrame(small.world, small.view, settings));
     }
 
-    // Spheres in front of and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
+    // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes of σ = 1 and 2
+    // px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
         auto small = fiveSpheres();
         small->view.lens.fStop = 0.25;

@@ -1,4 +1,4 @@
-// Images blurred as lens cells (plan/lens_cells.h).
+// Tests of images whose samples are blurred as lens cells (plan/lens_cells/lens_cells.h).
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace defocus::engine {
 namespace {
 
-// Reading an image within a block does not change the accumulated sum.
+// A frame that is drawn in blocks of samples equals a frame drawn at once, even if images are read within a block.
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
@@ -47,7 +47,7 @@ TEST_F(LensCellImages, keepAllGivesTheBitsOfAccumulation) {
     }
 }
 
-// Some GPUs cannot select a layer in the vertex shader.
+// The image stays the same if a geometry shader selects the layers, as some GPUs cannot do so in the vertex shader.
 TEST_F(LensCellImages, geometryShaderLayersGiveTheSameImage) {
     const auto small = blurredSpheres();
     RendererOptions options;
@@ -69,8 +69,8 @@ TEST_F(LensCellImages, apertureZeroIsThePinhole) {
     EXPECT_TRUE(sameBits(pinhole, drawnBy("multirate", *small, settings)));
 }
 
-// Two panels of one colour touch along an edge. One of them is much more blurred. The red wall behind them does not
-// show through the common edge.
+// Two panels of one colour touch along an edge, and one of them is much more blurred. No line of the red wall behind
+// the panels shows through the common edge.
 TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
     for (const double across : {0.0, 0.0031}) {
         SmallWorld small;
@@ -95,7 +95,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
         RendererOptions exact;
         exact.layerFormat = LayerFormat::rgba32f;
         ASSERT_GT(lensCellsOf(small, ratedSettings(64)).classes(), 0);
-        // Measures pixels near the common edge, away from the outer edges.
+        // Returns the largest error of pixels near the common edge and away from the outer edges.
         const auto worst = [&](const char* method) {
             const Image image = drawnBy(method, small, ratedSettings(64), exact);
             double largest = 0;
@@ -109,11 +109,11 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
     }
 }
 
-// A light of 4 px far behind the focus, on black.
+// A light of 4 × 4 px far behind the focus, in front of black.
 struct FarLight {
     View view;
     World world;
-    double blur = 0;  // px
+    double blur = 0;  // diameter of the light's blur, px
 };
 
 FarLight farLight(double fStop) {
@@ -132,7 +132,7 @@ Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samp
     return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
 }
 
-// Returns the standard deviation over the mean, well inside the disk.
+// Returns the standard deviation over the mean of the pixels well inside the blurred light's disk.
 double ripple(const Image& image, const FarLight& light) {
     double sum = 0;
     double squares = 0;
@@ -147,7 +147,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Few samples leave separate copies of a light. Lens cells fill the disk between the copies.
+// Lens cells fill the gaps between the separate copies of a light that few samples leave.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -159,8 +159,8 @@ TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
 
 struct LightDisk {
     double energy = 0;
-    double offMiddle = 0;  // px from the image's centre
-    double radius = 0;     // root mean square radius in px
+    double offMiddle = 0;  // distance of the light's centre from the image's centre, px
+    double radius = 0;     // RMS radius of the light, px
 };
 
 LightDisk diskOf(const Image& image) {
@@ -182,13 +182,13 @@ LightDisk diskOf(const Image& image) {
 
 constexpr double farLightEnergy = 64 * 16;
 
-// Root mean square radius of the blurred light. Along an axis, a disk has the variance c²/16, the square 4²/12, and a
-// pixel 1/12 for its sample positions and 1/12 for its area.
+// Returns the RMS radius of the blurred light in px. Along an axis, a disk of diameter c has the variance c²/16, the
+// square 4²/12, and a pixel 1/12 for its sample positions and 1/12 for its area.
 double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
-// Blurs of σ = 0.4 to 6 px keep the energy of the disk, its position and its size.
+// Lens cells with blurs of σ = 0.4 to 6 px preserve the energy, position and size of a light's disk.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
@@ -199,8 +199,8 @@ TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     }
 }
 
-// Few samples keep the disk as well as their positions allow: each is rounded to a pixel and errs by 1/√12 px along an
-// axis.
+// With few samples, a light's disk is as accurate as the samples' positions allow: each position is rounded to a pixel
+// and errs by 1/√12 px along an axis.
 TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
     for (const std::uint32_t n : {4u, 5u, 7u})
         for (const double fStop : {0.4, 0.25, 0.1846}) {
@@ -212,7 +212,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// A scene of one colour in front of and behind the focus keeps that colour.
+// A scene of a single colour, in front of and behind the focus, keeps that colour.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -245,7 +245,7 @@ struct FenceColors {
     glm::vec3 background;
 };
 
-// Pickets at 2 m, and behind them a wall of pickets that ends within the frame.
+// Returns pickets at 2 m, and behind them a wall of pickets that ends within the frame.
 std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& colors) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(colors.fence));
@@ -267,7 +267,8 @@ std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& col
     return small;
 }
 
-// Returns the largest difference of display values where `covered` is 0 or 1. Pixels on outlines in focus are excluded.
+// Returns the largest difference of display values at pixels where `covered` is 0 or 1, which excludes outlines in
+// focus.
 double largestBesideOutlines(const Image& reference, const Image& image, const Image& covered) {
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -281,8 +282,9 @@ double largestBesideOutlines(const Image& reference, const Image& image, const I
     return largest;
 }
 
-// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a half transparent sharp fence. Away
-// from sharp outlines, multirate exceeds the accumulation's error by no more than 2/255 in any pixel.
+// Nothing shines through outlines: away from outlines in focus, multirate exceeds the accumulation's error by no more
+// than 2/255 in any pixel. The scenes are a sharp fence before a blurred wall, a sharp wall behind a blurred fence, and
+// a half transparent sharp fence.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     SKIP_ON_SECOND_DRIVER();
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
@@ -310,8 +312,8 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// The lens opens in small steps, from a blur below every class to a blur of three classes. No step changes the image by
-// more than twice its neighbouring steps.
+// Nothing pops where blur classes begin: as the lens opens in small steps, from a blur below every class to three
+// classes, no step changes the image by more than twice its neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();
@@ -333,8 +335,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The blur of the cells vanishes with the sample count. The error is never above the accumulation's, far below it with
-// few samples, and shrinks with many.
+// The image converges, as the blur of lens cells vanishes with the sample count. Its error is never above the
+// accumulation's, far below it with few samples, and shrinks with many samples.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

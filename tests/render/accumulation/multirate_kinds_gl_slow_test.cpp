@@ -1,4 +1,4 @@
-// The tests render a few dozen images of 256 samples.
+// Slow tests of method "multirate", which render a few dozen images of 256 samples.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Surfaces that are not opaque, and views through a limited lens, look right beside shared objects.
+// With multirate, blended surfaces, environment maps and lenses whose blur is limited look as with the accumulation.
 TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
     SKIP_ON_SECOND_DRIVER();
     const std::unique_ptr<GlContext> context = createHeadlessContext();

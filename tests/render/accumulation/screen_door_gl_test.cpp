@@ -1,4 +1,5 @@
-// Samples split over an image's pixels (LodMode::continuous): the choice of pixels, their number, and the error.
+// Tests of samples that are split over an image's pixels (LodMode::continuous): the choice of pixels, their number, and
+// the error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Gives the only object `coarseCount` samples at level `level` + 1, the others at `level`, and splits the boundary
-// sample.
+// Draws the only object at level `level` + 1 in `coarseCount` samples and at `level` in all others. `share` is the
+// boundary sample's share of pixels at level `level` + 1.
 void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
     ObjectPlan& object = plan.objects.at(0);
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
@@ -22,7 +23,7 @@ void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uin
     plan.levelsUsed[0].assign(plan.levelsUsed[0].size(), true);
 }
 
-// The nearest of the five spheres alone, enlarged.
+// Returns the nearest of the five spheres alone, enlarged.
 std::unique_ptr<SmallWorld> oneSphere() {
     auto small = fiveSpheres();
     small->world.pose.objects.resize(1);
@@ -31,7 +32,7 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// With one split boundary sample, each pixel equals that of the split with n coarse samples or that with n + 1.
+// If the boundary sample is split, each pixel equals that of the image with n coarse samples or that with n + 1.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -65,8 +66,8 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     }
 }
 
-// For an object of one colour on a background of another, no pixel differs from the split with n coarse samples by more
-// than 1/N of the difference between the two colours.
+// Splitting the boundary sample costs at most one sample of coverage. For an object of one colour on a background of
+// another, no pixel changes by more than 1/N of the difference between the two colours.
 TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     const auto small = oneSphere();
     small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
@@ -75,7 +76,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // coarse outlines differ most
+        // Coarse levels have the most different outlines.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
@@ -86,8 +87,8 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change of λ changes few pixels, each by one sample: their share of the image is the change of the sample's
-// share.
+// A small change of λ changes few pixels, each by one sample: the fraction of changed pixels equals the change in the
+// number of coarse samples.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
@@ -98,14 +99,14 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
         return renderedPlan(*small, plan);
     };
     const double pixels = 160.0 * 120;
-    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // includes integer sample counts
+    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // at some of these, no sample is split
         const Image below = at(lambda - 1e-4);
         const Image above = at(lambda + 1e-4);
         int changed = 0;
         for (std::size_t i = 0; i < below.pixels.size() / 4; ++i)
             changed += std::memcmp(below.pixels.data() + 4 * i, above.pixels.data() + 4 * i, 4 * sizeof(float)) != 0;
         EXPECT_LE(changed, 2 * 2e-4 * samples * pixels + 8) << lambda;
-        EXPECT_LE(largestDifference(below, above), 2.0 / samples);  // the scene's radiance is at most 2
+        EXPECT_LE(largestDifference(below, above), 2.0 / samples);  // a sample's radiance is at most 2
     }
 }
 

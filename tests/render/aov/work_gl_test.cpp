@@ -31,7 +31,8 @@ RenderSettings manySamples() {
     return settings;
 }
 
-// Quads that face a 50 mm lens at f/1.4, focused at 2 m, in 96 × 72 px. The image plane at depth z is 0.72 z wide.
+// Returns quads that face a 50 mm lens at f/1.4, focused at 2 m, in an image of 96 × 72 px. At depth z, the image is
+// 0.72·z wide.
 std::unique_ptr<SmallWorld> facingQuads(const std::vector<glm::dmat4>& quads, const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -58,7 +59,7 @@ void expectEverywhere(const Image& work, float expected) {
     for (const float value : work.pixels) ASSERT_EQ(value, expected);
 }
 
-// Two triangles fill the image out of focus. In each lens sample, each pixel belongs to exactly one of them.
+// Two triangles that fill the image out of focus touch each pixel exactly once in each lens sample.
 TEST_F(Work, fullScreenPairTouchesEachPixelOnceASample) {
     const auto small = facingQuads({quadAt(1, {0, 0}, {2, 2})}, unlitMaterial(glm::vec4(1)));
     expectEverywhere(workOf(*small), samples);
@@ -78,13 +79,13 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     const glm::dmat4 back = glm::rotate(quadAt(1, {0, 0}, {2, 2}), std::numbers::pi, glm::dvec3(0, 1, 0));
     Material material = unlitMaterial(glm::vec4(1));
     expectEverywhere(workOf(*facingQuads({back}, material)), 0);
-    // A mirror transform flips which side is the front.
+    // Mirroring turns the quad's back into its front.
     expectEverywhere(workOf(*facingQuads({glm::scale(back, glm::dvec3(1, 1, -1))}, material)), samples);
     material.doubleSided = true;
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// Lens point and jitter shift a rectangle at depth z. In each sample, it touches the pixels whose centres lie inside.
+// In each sample, a rectangle touches the pixels whose centres it contains after the shift by lens point and jitter.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);
@@ -104,13 +105,14 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     }
     const Image work = renderWork(small->world, plan);
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    // A pixel centre within 1/256 px of an edge may fall on either side of it. The tolerance is two rows in one of the
+    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows in one of the
     // 48 samples.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// A window draws a few samples per frame. For each view in turn, they add up to the sum of one complete pass.
+// The work that a window gathers over several frames, a few samples in each, adds up to the sum of one complete pass.
+// This holds for one view after another.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

@@ -1,5 +1,5 @@
 #pragma once
-// Small images and their blur by a sum of complex Gaussians.
+// Small test images and their blur by a sum of complex Gaussians.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ protected:
         return {.width = width, .height = height, .components = components, .storage = storage, .shaderFolder = {}};
     }
 
-    // Blocks of colour between 0 and 1, weight 1: edges in every direction.
+    // Returns blocks of colours between 0 and 1 with weight 1, which have edges in every direction.
     static Image blocks() {
         Image image(width, height, 4);
         for (int y = 0; y < height; ++y)
@@ -62,7 +62,7 @@ protected:
         return image;
     }
 
-    // Top left quarter of an image: keeps the test of every pixel under wide kernels fast.
+    // Returns the top left quarter of an image, so that tests of every pixel under wide kernels stay fast.
     static Image partOf(const Image& image) {
         Image part(width / 2, height / 2, image.channels);
         const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels);

@@ -21,7 +21,7 @@ Kernel copyOf(int components) {
     return {kernel.begin(), kernel.end()};
 }
 
-// Returns ∫ e^(−decay·r²) over the square.
+// Returns ∫ e^(−decay·r²) over the square [−extent, extent]².
 double gaussianOverSquare(double decay, double extent) {
     const double line = std::sqrt(pi / decay) * std::erf(extent * std::sqrt(decay));
     return line * line;
@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // F(1) = e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the factor F(1) is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
@@ -62,14 +62,14 @@ TEST(CircularKernel, onlyTheNumbersOfComponentsThereAre) {
 
 TEST(CircularKernel, nodesIntegrateOverTheSquare) {
     for (const double extent : {1.0, 1.3}) {
-        // disks inside the square, touching it, cutting its corners, around it
+        // The disk lies inside the square, touches it, cuts its corners or contains it.
         for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double) { return 1; }), 4 * extent * extent, 1e-12);
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double u) { return u; }), 8.0 / 3 * std::pow(extent, 4),
                         1e-12);
         }
     }
-    // The disk without its four segments outside the square.
+    // Area of the disk without its four segments outside the square.
     const double edge = 1.2;
     const double angle = std::acos(1 / edge);
     const double segment = edge * edge * angle - edge * std::sin(angle);
@@ -77,8 +77,8 @@ TEST(CircularKernel, nodesIntegrateOverTheSquare) {
                 pi * edge * edge - 4 * segment, 1e-12);
 }
 
-// For one Gaussian of any weight, ∫K² and ∫K over the square are error functions, and ∫K·D over a disk inside is
-// e^(−a·ρ²).
+// The error of a single Gaussian K of any weight agrees with closed forms. ∫K² and ∫K over the square are error
+// functions, and ∫K over a disk of radius ρ inside the square is π·(1 − e^(−a·ρ²))/a.
 TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     for (const double decay : {0.7, 2.0}) {
         for (const double extent : {1.0, 1.25}) {
@@ -103,7 +103,7 @@ TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     }
 }
 
-// A Gaussian of positive weight passes rounding on unamplified. Components that partly cancel amplify it by the sum of
+// roundingAmplification() is 1 for a Gaussian of positive weight. For components that partly cancel, it is the sum of
 // their magnitudes over their sum.
 TEST(CircularKernel, roundingIsAmplifiedWhereComponentsCancel) {
     const Kernel one = {{1.5, 0, 4, 0}};
@@ -123,7 +123,7 @@ TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
-    for (int n = 1; n <= 3; ++n)  // published kernels of more components use 32-bit floats
+    for (int n = 1; n <= 3; ++n)  // published kernels of 4 and more components use 32-bit floats
         EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
@@ -136,7 +136,8 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// Niemitalo's kernels, each at the extent and the disk radius (in its own units) that suit it best.
+// The fitted kernels are no farther from a disk than Niemitalo's, each of which is compared at its best extent and disk
+// radius.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
@@ -154,8 +155,8 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     }
 }
 
-// In units of the disk's radius, the published kernels have the constants printed on the slides. The radius is the one
-// where they come closest to a disk: at the same extent, any other radius fits worse.
+// Published kernels have the constants printed on Garcia's slides, in units of the disk's radius. At the same extent,
+// any other radius would fit a disk worse.
 TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(publishedCircularKernel(publishedKernelLimit + 1), Error);
@@ -179,8 +180,8 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
     }
 }
 
-// The negative lobes of the published kernels, which darken the surroundings of a highlight, are shallower than those
-// of the fitted kernels.
+// The published kernels have shallower negative lobes, which darken the surroundings of a highlight, than the fitted
+// kernels.
 TEST(CircularKernel, publishedKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;
@@ -191,7 +192,7 @@ TEST(CircularKernel, publishedKernelsDipLess) {
         EXPECT_GT(lowest(publishedCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
 }
 
-// Returns the objective that the kernels minimize (see the header).
+// Returns the objective that the fitted kernels minimize (see circular_kernel.h).
 double guardedSquares(const Kernel& kernel) {
     const double error = diskProfileError(kernel, circularKernelExtent, 1);
     const double gain = energyGain(kernel, circularKernelExtent, 1);
@@ -221,10 +222,10 @@ TEST(CircularKernel, noSmallChangeComesCloser) {
     }
 }
 
-// ---- the passes, tap by tap ------------------------------------------------------------------------------------
+// ---- separable passes, tap by tap -------------------------------------------------------------------------------
 
-constexpr int blurRadius = 40;  // px
-constexpr int side = 100;       // px
+constexpr int blurRadius = 40;  // radius of the disk, px
+constexpr int side = 100;       // side of the image, px
 using Field = std::vector<std::complex<double>>;
 
 std::size_t at(int x, int y) {
@@ -279,7 +280,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
     }
 }
 
-// The root mean square radius of a blurred point equals that of a disk, radius/√2, as for a lens's bokeh.
+// The RMS radius of a blurred point equals that of a disk, radius/√2, as for a lens's bokeh.
 TEST(CircularKernel, blurIsAsWideAsTheDisk) {
     Field in(side * side);
     in[at(side / 2, side / 2)] = 1;

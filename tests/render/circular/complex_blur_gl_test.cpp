@@ -9,7 +9,8 @@
 namespace defocus::engine {
 namespace {
 
-// Along an axis, the variance of a uniform ellipse is a quarter of its squared half-axis.
+// A point becomes an oval whose variance along each axis is a quarter of the squared half-axis, as for a uniform
+// ellipse.
 TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
     Image point = filled(4, 0);
     point.at(48, 40)[0] = 1000;
@@ -33,7 +34,7 @@ TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     Image varying(width, height, 1);
-    for (int y = 0; y < height; ++y)  // a slope with a step at its end
+    for (int y = 0; y < height; ++y)  // radii: a slope with a step at its end
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
@@ -80,7 +81,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // pre-exposed, so that nothing clips
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // scaled to the max before storage, so nothing clips
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
@@ -97,7 +98,8 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// Weights are divided by their max, as radiance is, so that small weights keep their relative precision.
+// 10-bit storage divides weights by their max, as it does radiance, so that small weights keep their relative
+// precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;
@@ -106,7 +108,8 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// The published scale of eight taps is their sum: a white field is stored as 1, a black one as 0, any other in between.
+// The published bracket of a kernel with a radius of eight taps scales values by the sum of the taps: a white field is
+// stored as 1, a black field as 0 and every other field in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {
@@ -123,8 +126,8 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
         }
 }
 
-// Brackets that Garcia's filter generator prints for two components and a radius of eight taps. The generator scales
-// the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754.
+// Brackets for eight taps equal those that Garcia's filter generator prints for two components and a radius of eight
+// taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;
@@ -157,7 +160,7 @@ TEST(Brackets, boundTheTapsOfEveryRadius) {
         }
 }
 
-// At ten bits, scaling by the sum of the taps loses less than scaling by their range over all radii.
+// At ten bits, scaling by the sum of the taps loses less precision than scaling by the taps' range over all radii.
 TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
     const auto lost = [&](ComplexTaps taps) {
         ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);

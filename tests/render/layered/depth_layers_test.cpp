@@ -1,4 +1,4 @@
-// In the widened view, a pixel shows the same point with the same blur.
+// Tests that a pixel of the widened view shows the same point with the same blur as in the original view.
 
 #include "render/layered/depth_layers.h"
 
@@ -37,7 +37,7 @@ TEST(Widened, keepsThePlacesAndTheBlursOfPixels) {
         const double z = 0.3 + 8 * unit(random) * unit(random);
         const glm::dvec2 ndc = 2.0 * pixel / size - 1.0;
         const glm::dvec2 wideNdc = 2.0 * (pixel + double(border)) / wideSize - 1.0;
-        // Metres off the axis at a depth of 1 m; the horizontal field of view scales both axes.
+        // Lateral offset of the point per unit of depth; the horizontal field of view scales both axes.
         const double tangent = ndc.y * plan.tanHalfHorizontal * size.y / size.x;
         EXPECT_NEAR(wideNdc.x * wide.tanHalfHorizontal, ndc.x * plan.tanHalfHorizontal, 1e-12);
         EXPECT_NEAR(wideNdc.y * wide.tanHalfHorizontal * wideSize.y / wideSize.x, tangent, 1e-12);

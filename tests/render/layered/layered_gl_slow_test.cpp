@@ -1,4 +1,5 @@
-// Lens rays through depth layers against the accumulation, for round surfaces and every shape and control of the lens.
+// Tests of method "layered", which traces lens rays through depth layers, against the accumulation: round surfaces, and
+// every shape and control of the lens.
 
 #include <functional>
 #include <utility>

@@ -1,4 +1,5 @@
-// Lens rays through depth layers against formulas and against the accumulation.
+// Tests of method "layered", which traces lens rays through depth layers, against formulas and against the
+// accumulation.
 
 #include <cmath>
 #include <numbers>
@@ -17,13 +18,13 @@ double maxBetween(const Image& a, const Image& b) {
     return largest;
 }
 
-// An unlit pane that faces the camera. The area is in px from the image's top left corner.
+// An unlit pane that faces the camera and covers `area`, in px from the image's top left corner.
 struct Pane {
     Rectangle area;
     glm::vec4 color{1};
 };
 
-// Panes seen through bokehView's wide lens, focused at 2 m.
+// Returns panes seen through the wide lens of bokehView(), focused at 2 m.
 std::unique_ptr<SmallWorld> panes(const std::vector<Pane>& list, int width = 96, int height = 64) {
     auto small = std::make_unique<SmallWorld>();
     small->view = bokehView(width, height);
@@ -44,7 +45,7 @@ void blurBy(SmallWorld& small, double pixels, double depth) {
     small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
 }
 
-constexpr double everywhere = 1000;  // px
+constexpr double everywhere = 1000;  // far beyond the frame, px
 
 Pane wallAt(double depth, const glm::vec4& color) {
     return {{-everywhere, -everywhere, everywhere, everywhere, depth}, color};
@@ -72,7 +73,7 @@ TEST_F(Layered, aConstantSceneStaysConstant) {
 }
 
 TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
-    constexpr double square = 3;  // px
+    constexpr double square = 3;  // side of the bright square, px
     for (const double depth : {1.2, 6.0}) {
         const auto small = panes({{{46.5, 30.5, 49.5, 33.5, depth}, glm::vec4(8, 8, 8, 1)}, wallAt(20, {0, 0, 0, 1})});
         blurBy(*small, 24, depth);
@@ -83,11 +84,11 @@ TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     }
 }
 
-// A bar hides a red stripe of the wall from the middle of the lens. The bar covers a strip of the lens disk; the rest
-// of the lens sees the middle of the stripe.
+// A blurred bar shows the red stripe that it hides from a pinhole. The bar covers a strip of the lens disk, and the
+// rest of the lens sees the middle of the stripe.
 TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
-    constexpr double bar = 8;    // px
-    constexpr double blur = 24;  // px
+    constexpr double bar = 8;    // width of the bar, px
+    constexpr double blur = 24;  // diameter of the bar's blur, px
     const auto small = panes({{{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 1.2}, {0, 0, 1, 1}},
                               {{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 2}, {1, 0, 0, 1}},
                               wallAt(2.0001, {0, 1, 0, 1})});
@@ -111,7 +112,8 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
 }
 
-// Boards at many depths. Each board is hidden by nearer ones, except where the lens sees around them.
+// More layers come closer to the accumulation. Boards at many depths hide each other, except where the lens sees around
+// them.
 TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     std::vector<Pane> list;
     for (int i = 0; i < 14; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Images by lens rays through depth layers, and their error.
+// Helpers that render images with method "layered", and their error.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Tens of thousands of blurred triangles in one tile, and blurred motion, in lens space; the accumulation is the
-// reference.
+// Slow tests of both lens-space methods against the accumulation: tens of thousands of blurred triangles in one tile,
+// and motion blur.
 
 #include <string>
 
@@ -9,7 +9,8 @@
 namespace defocus::engine {
 namespace {
 
-// Blurred triangles, hundreds of them on each line, form the same white square as two large triangles.
+// Tens of thousands of blurred triangles, hundreds of them on each line, form the same white square as two large
+// triangles.
 TEST_P(LensSpace, seesTensOfThousandsOfBlurredTrianglesInATileAsTheirSquare) {
     SKIP_ON_SECOND_DRIVER();
     const auto blurred = [](std::uint32_t side) {

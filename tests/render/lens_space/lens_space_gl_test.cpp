@@ -1,4 +1,4 @@
-// Properties of both lens-space methods; the accumulation is the reference.
+// Tests of properties of both lens-space methods, with the accumulation as the reference.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a number of rays that suffices for the tests' error bounds. A line is worth several points.
+// Returns the number of rays that meets the tests' error bounds. A line is worth several points.
 std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
@@ -22,7 +22,7 @@ double figureOf(const RenderStats& stats, const std::string& name) {
     return std::nan("");
 }
 
-// A ground from behind the camera to far away, cut by the near plane.
+// Returns a ground that extends from behind the camera to far away, so that the near plane cuts it.
 std::unique_ptr<SmallWorld> groundUnderCamera() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -80,8 +80,8 @@ TEST_P(LensSpace, drawsWhatPassesTheCamera) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
-// Shading at vertices equals shading at surfaces where colours are linear over a triangle, and nearly equals it on
-// small lit triangles.
+// Shading at vertices equals shading at surface points where colours are linear over a triangle. On small lit
+// triangles, both are nearly equal.
 TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const std::string method = GetParam();
     const auto ground = groundUnderCamera();
@@ -96,7 +96,7 @@ TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const double fine = psnr(96);
     EXPECT_GE(fine, 40);
     EXPECT_GT(fine, coarse + 6);
-    EXPECT_LT(coarse, 60);  // the two shadings do differ
+    EXPECT_LT(coarse, 60);  // on large triangles, the two kinds of shading differ
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
@@ -112,8 +112,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 50);
 }
 
-// Expects every ray through the grid to meet a triangle, wherever that triangle lies in the tile's list. A lost
-// triangle leaves a hole.
+// Expects every ray through the grid to meet a triangle, independent of the triangle's position in the tile's list. A
+// lost triangle would leave a hole.
 void expectWholeGrid(const Image& image) {
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Textures, normal maps and skins look as in the accumulation.
+// Models with textures, normal maps and skins look as in the accumulation.
 TEST_P(Models, lookAsInTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
@@ -177,7 +177,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Two distant triangles that do not intersect fit into any buffer, so both kinds of lines give the same image.
+// Exact lines and line buffers give the same image if no segment is dropped. Two distant triangles that do not
+// intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -198,7 +199,7 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 
-// Segments that do not fit a buffer of two are counted, and more segments reduce the error.
+// Segments that do not fit a buffer of two segments are counted, and larger buffers reduce the error.
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
@@ -209,7 +210,8 @@ TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     EXPECT_GT(psnrAgainst(exact, many), psnrAgainst(exact, few));
 }
 
-// Returns the root mean square error of squares of `side` px. Averaging suppresses noise and keeps structure.
+// Returns the RMS error of the means over squares of `side` × `side` px. Averaging suppresses noise and keeps
+// structure.
 double errorOfSquares(const Image& reference, const Image& image, int side) {
     double sum = 0;
     int count = 0;
@@ -225,8 +227,8 @@ double errorOfSquares(const Image& reference, const Image& image, int side) {
     return std::sqrt(sum / count);
 }
 
-// A bright spot far out of focus: few lines at the same angles in every pixel show as spokes, and rotated lines turn
-// them into noise.
+// Lines that are rotated from pixel to pixel turn spokes into noise. The spokes appear in the bokeh of a bright spot if
+// few lines have the same angles in every pixel.
 TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({30, 30, 30, 1})};
@@ -240,12 +242,13 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // The noise is no larger than the structure it replaces. Less than half of it remains after averaging 8 x 8 px.
+    // The noise is no larger than the spokes that it replaces. Averaged over 8 × 8 px, less than half of the spokes'
+    // error remains.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Two quads intersect. The buffer shows a single quad between its ends, and exact lines show both.
+// Exact lines show both of two intersecting quads. A buffer shows a single quad between the ends of a segment.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes and images of both lens-space methods.
+// Scenes for tests of both lens-space methods, and their images.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ inline RenderSettings raySettings(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even where nothing is blurred
+    settings.keepAll = true;  // samples the lens even if nothing is blurred
     return settings;
 }
 
@@ -42,7 +42,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
     return compareImages(reference, image, CompareOptions{}).psnr;
 }
 
-// Two lit, rippled spheres, in front of and behind the focus, before a gradient sky.
+// Returns two lit, rippled spheres, one in front of the focus and one behind, before a gradient sky.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -84,7 +84,7 @@ protected:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// A grid of side² squares of two triangles each, over 6 x 6 px within one tile.
+// Returns a grid of side² squares of two triangles each that covers 6 × 6 px within one tile.
 inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
@@ -106,15 +106,15 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     small->view.width = small->view.height = 32;
     small->view.lens.dofEnabled = false;
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // m per pixel at a depth of 2 m
-    // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 and of 16 px that begin at
-    // 16.
+    // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 × 8 and of 16 × 16 px that
+    // begin at pixel 16.
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
     small->world.environment.type = EnvironmentType::none;  // alpha is coverage
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
     return small;
 }
 
-// A grid side with more triangles than Mesa's software driver allows rounds of a loop, 65,536.
+// Grid side with more triangles than the 65,536 iterations that Mesa's software driver allows in a loop.
 inline constexpr std::uint32_t longerThanLoops = 184;
 
 class LensSpaceAlone : public testing::Test {

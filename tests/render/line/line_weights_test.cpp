@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// Light between two points in the paper's units, p from −1/2 to 1/2.
+// Returns the light between two points of a line in the paper's units, p from −1/2 to 1/2.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
 }
@@ -33,12 +33,13 @@ TEST(LineWeights, addUp) {
     }
 }
 
-// The mean of κ over the chords that a region cuts from the spokes is the region's share of the disk.
+// Each spoke, a line through the lens centre, has a chord inside a region. The mean light κ on these chords is the
+// region's share of the disk.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
     const double h = 0.3;  // u > h is a segment of the circle
     double halfPlane = 0, offCentreDisk = 0;
-    const double distance = 0.45, radius = 0.35;  // of a disk that does not contain the centre
+    const double distance = 0.45, radius = 0.35;  // a disk beside the centre
     for (int i = 0; i < lines; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);
@@ -58,7 +59,8 @@ TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);  // half the ring's area, on one side
 }
 
-// Spokes share a polygon's area equally, so the light on them beyond a straight cut is the area beyond that cut.
+// The spokes of a polygonal aperture share its area equally, so the light on them beyond a straight cut is the area
+// beyond that cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;

@@ -15,7 +15,8 @@ struct PlaceInImage {
     double depth;      // along the view axis, m
 };
 
-// Geometric optics: the ray from the lens point through `inView` meets the focus plane where the sharp image shows it.
+// Returns the image position of the view-space point `inView` for a lens sample, by geometric optics. The ray from the
+// lens point through `inView` meets the focus plane at the point that the sharp image shows at this position.
 PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample, const FramePlan& plan) {
     const View& view = plan.view;
     const double radius = view.lens.dofEnabled ? 0.5e-3 * view.lens.focalLength / view.lens.fStop : 0;
@@ -27,7 +28,7 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-// Expects random points in boxes all over the objects to be seen within the boxes' bounds, for every sample.
+// Expects each sample to see random points of boxes within the boxes' bounds. The boxes lie all over the objects.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
@@ -65,14 +66,14 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
     expectBoxesHoldWhatIsSeen(*fiveSpheres());
 }
 
-// The plan of a pinhole image omits the lens.
+// The bounds of boxes also hold for a pinhole, whose plan omits the lens.
 TEST(LensSight, boxesHoldWhatAPinholeSees) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;
     expectBoxesHoldWhatIsSeen(*small);
 }
 
-// The bounds of a small box are a few pixels wide, with the box's own depth.
+// The bounds of a small box are at most 3 px wide and have the box's own depth.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -89,7 +90,7 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies inside the box
 }
 
-// Lens controls, motion and an object's own blur break the relation C = a + b·w, so boxes are not tested.
+// Boxes are not tested under lens controls, with motion or with an object's own blur, since C is then not a + b·w.
 TEST(LensSight, knowsWhereItDoesNotHold) {
     RenderSettings settings;
     settings.sampleCount = 8;

@@ -1,4 +1,4 @@
-// Occlusion culling on software rasterizers does not change a bit of the image.
+// Tests that occlusion culling on software rasterizers does not change a bit of the image.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ Image drawnWithAllHidden(const SmallWorld& small, RenderSettings settings) {
     return drawn.image;
 }
 
-// A wall with a gap, and spheres in front of and behind it, most of them hidden by the wall.
+// Returns a wall with a gap, and spheres in front of and behind the wall, most of which it hides.
 std::unique_ptr<SmallWorld> behindAWall() {
     auto small = fiveSpheres();
     small->scene.materials.push_back(unlitMaterial({0.3f, 0.5f, 0.2f, 1}));
@@ -96,7 +96,7 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
     }
 }
 
-// A plan with everything in focus omits the lens, and samples only smooth edges.
+// Culling is also exact if everything is in focus. The plan then omits the lens, and samples only smooth edges.
 TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     const auto small = behindAWall();
     small->view.lens.dofEnabled = false;
@@ -116,7 +116,7 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     EXPECT_TRUE(seen.pixels == imageOf(0).pixels);
 }
 
-// A surface with holes hides nothing behind its holes. A translucent surface hides nothing.
+// A masked surface hides nothing behind its holes, and a translucent surface hides nothing at all.
 TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
     const double behindWall = opaqueDrawn("accumulation", *behindAWall(), sharpLevels(24)).hidden;
     for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
@@ -124,7 +124,7 @@ TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
         Material& wall = small->scene.materials[1];
         wall.alphaMode = mode;
         wall.alphaCutoff = 0.5f;
-        wall.baseColorFactor.a = 0.4f;  // below the cutoff: all of the wall is a hole
+        wall.baseColorFactor.a = 0.4f;  // below the cutoff, so all of the wall is a hole
         const OpaqueDrawn drawn = opaqueDrawn("accumulation", *small, sharpLevels(24));
         EXPECT_LT(drawn.hidden, behindWall - 0.1);
         EXPECT_TRUE(drawn.image.pixels == drawnWithAllHidden(*small, sharpLevels(24)).pixels);
@@ -141,7 +141,7 @@ TEST_F(OccludedSurfaces, underLensesThatBendAndThingsThatMoveAllIsDrawn) {
     EXPECT_EQ(opaqueDrawn("accumulation", *small, sharpLevels(24)).hidden, 0);
 }
 
-// Layered leather, rubber and glass.
+// The helmet has layers of leather, rubber and glass that hide more than a fifth of its triangles.
 TEST_F(OccludedSurfaces, ofFlightHelmet) {
     const std::filesystem::path path = modelPath("FlightHelmet/FlightHelmet.gltf");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;

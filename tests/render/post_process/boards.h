@@ -16,7 +16,7 @@ namespace defocus::engine {
 inline RenderSettings settingsWithTheLens() {
     RenderSettings settings;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even where nothing is blurred
+    settings.keepAll = true;  // samples the lens even if nothing is blurred
     return settings;
 }
 

@@ -1,4 +1,4 @@
-// Properties of every post-process method under every setting.
+// Tests of properties that every post-process method has under every setting.
 
 #include <gtest/gtest.h>
 
@@ -36,12 +36,12 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image image = postProcessed(*small, GetParam());
-    // The reference is another method's pinhole image.
+    // The reference is the pinhole image of another method.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes.c_str())), 2e-3);
 
-    // With one pinhole, the image is the accumulation's single sample.
+    // With one pinhole, the image equals that of a single sample of the accumulation.
     RenderSettings one = settingsWithTheLens();
     one.sampleCount = 1;
     const auto accumulation = methodNamed("accumulation").make(small->world, {});
@@ -82,19 +82,20 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     }
     ASSERT_GT(sharpEnergy, 100);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
-    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the light is in fact blurred
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // shows that the light is blurred
 }
 
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Images of reduced size widen the disk: by their pixels of 4 px (variance 16/12) and their linear interpolation
-    // (16/6). A pre-blurred copy widens it by its Gaussian (8). A disk of radius R has a variance of R²/4.
+    // Images of reduced size widen the disk by their pixels of 4 px (variance 16/12) and their linear interpolation
+    // (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R has a variance of
+    // R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
     // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
     for (const double depth : {1.5, 6.0}) {
-        const double pixel = 0.72 * depth / 96;  // m
+        const double pixel = 0.72 * depth / 96;  // width of a pixel at this depth, m
         const auto small = boards(
             {{depth, {0, 0}, glm::dvec2(1.5 * pixel), {8, 8, 8, 1}}, {depth + 1e-4, {0, 0}, {9, 9}, {0, 0, 0, 1}}},
             glm::vec3(0));
@@ -112,17 +113,17 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     const Image image = postProcessed(*small, GetParam());
     small->view.lens.dofEnabled = false;
     const Image sharp = postProcessed(*small, GetParam());
-    const int edge = 48;  // the board ends in the middle
+    const int edge = 48;  // column where the board ends, the middle
     EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
-    // A pane in focus before a blurred, striped background: the stripes stay sharp through the pane, as Scheuermann's
-    // second pass writes the pane's depth.
+    // A pane in focus stands before a blurred, striped background. The stripes stay sharp through the pane, because
+    // Scheuermann's second pass writes the pane's depth.
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    small->view.lens.blurScale = 4;  // 10 px, which a blur field of a quarter of the size can hold
+    small->view.lens.blurScale = 4;  // blurs by 10 px, which a blur field of a quarter of the size can hold
     std::string method = GetParam();
     if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
     method += (method.find(':') == std::string::npos ? ":" : ",") + std::string("transparency-buckets=0");
@@ -146,8 +147,8 @@ TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {
     }
 }
 
-// The methods are linear in radiance: an image without background, composited over a sky, equals the image with that
-// sky.
+// Without a background, alpha is the coverage: the image composited over a sky equals the image with that sky, since
+// the methods are linear in radiance.
 TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
     const glm::vec3 sky(0.4f, 0.25f, 0.1f);
     const auto small = boards({{1, {-0.3, 0.1}, {0.1, 0.2}, {0.2f, 0.1f, 0.6f, 1}},
@@ -166,8 +167,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Exceptions are ten-bit storage, and negative lobes that are clamped at black without a sky but not with it. A
-    // bias by luminance is not linear.
+    // Linearity is limited by ten-bit storage and by negative lobes, which are clamped at black without a sky but not
+    // with a sky. A bias by luminance is not linear.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
@@ -178,8 +179,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 
 using CircularNearField = PostProcesses;
 
-// A light just in front of the focus, beside a strongly blurred board. Premultiplied by their blur, the light's pixels
-// keep their own narrow blur.
+// A light just in front of the focus keeps its narrow blur beside a strongly blurred board, because pixels are
+// premultiplied by their own blur.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));
@@ -203,8 +204,9 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// A bright, blurred board over black shows its coverage. A constant bias doubles the coverage, at edges too. A bias by
-// luminance increases it in proportion to the board's share of the disk.
+// A bias by luminance does not brighten edges as a constant bias does. A bright, blurred board over black shows its
+// coverage: a constant bias doubles the coverage, and a bias by luminance increases it in proportion to the board's
+// share of the disk.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

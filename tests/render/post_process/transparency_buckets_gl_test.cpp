@@ -1,4 +1,4 @@
-// Alpha-blended surfaces that post-process methods blur separately from the surfaces behind them.
+// Tests of alpha-blended surfaces that post-process methods blur separately from the surfaces behind them.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     static std::unique_ptr<GlContext> context_;
 
-    // Image by the method under test with at most `count` buckets.
+    // Returns the image by the method under test with at most `count` buckets.
     static Image inBuckets(const SmallWorld& small, int count) {
         const std::string method = GetParam();
         const char* separator = method.find(':') == std::string::npos ? ":" : ",";
@@ -32,12 +32,12 @@ std::unique_ptr<GlContext> BlendedSurfaces::context_;
 constexpr glm::vec3 sky(0.5f, 0.4f, 0.3f);
 constexpr glm::vec4 paneColor(0.2f, 0.6f, 0.3f, 0.5f);
 
-// Returns the position in m, at `depth`, of a column of the image of 96 px.
+// Returns the horizontal position in m, at `depth`, of a column of an image 96 px wide.
 double metresOf(double column, double depth) {
     return (column - 48) / 96 * 0.72 * depth;
 }
 
-// A board at `depth` that covers all rows of the columns from `left` to `right`.
+// Returns a board at `depth` that covers all rows of the columns from `left` to `right`.
 Board boardOver(double left, double right, double depth, const glm::vec4& color) {
     const double begin = metresOf(left, depth);
     const double end = metresOf(right, depth);
@@ -49,7 +49,7 @@ void blurAt(SmallWorld& small, double depth, double diameter) {
     small.view.lens.blurScale = diameter / (0.05 * std::abs(1.0 / 2 - 1 / depth) * 96 / 0.72);
 }
 
-// Composites the colour `b` over `a`, with an opacity for each column.
+// Returns the image `a` with the colour `b` composited over it, with an opacity for each column.
 Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(int)>& opacity) {
     Image result = a;
     for (int y = 0; y < a.height; ++y)
@@ -61,7 +61,7 @@ Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(in
     return result;
 }
 
-// Returns the share of a unit disk's area that lies beyond a straight edge at −t from its centre.
+// Returns the share of a unit disk that lies left of x = t.
 double shareOfDisk(double t) {
     t = std::clamp(t, -1.0, 1.0);
     return 0.5 + (std::asin(t) + t * std::sqrt(1 - t * t)) / std::numbers::pi;
@@ -78,7 +78,7 @@ TEST_P(BlendedSurfaces, aSharpPaneLeavesTheWallItsBlur) {
         laidOver(inBuckets(*without, 1), glm::vec3(paneColor), [](int x) { return x < 48 ? 0.5 : 0; });
     for (const int buckets : {1, 8})
         EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, buckets), expected), 2e-3) << buckets;
-    // without buckets the wall would stay sharp
+    // Without buckets, the wall would stay sharp behind the pane.
     EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 12, 36), 0.05);
 }
 
@@ -138,7 +138,8 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
-// Blur passes cover only the area that a bucket can reach. An invisible board extends that area to the entire image.
+// Blur passes that cover only the area that a bucket can reach give the same image as passes over the entire image. An
+// invisible board extends the area to the entire image.
 TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
     const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
     for (const double depth : {1.2, 2.0, 6.0}) {
@@ -164,7 +165,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, 1), expected), 2e-3);
 }
 
-// Root mean square difference without the border, since a pinhole image contains nothing beyond its border.
+// Returns the RMS difference without the border, since a pinhole image contains nothing beyond its border.
 double rootMeanSquareInside(const Image& a, const Image& b, int border) {
     double sum = 0;
     for (int y = border; y < a.height - border; ++y)

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Objects from front to back, each with a blur in px.
+// An object with its blur in px. Objects are listed from front to back.
 struct Flat {
     double blur = 0;
     bool blended = true;
@@ -69,8 +69,9 @@ TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
 }
 
-// An object beside the transmitting one, but behind a blended object that is not, stays out of the buckets. In a bucket
-// it would be drawn over the blended object.
+// Buckets keep the drawing order of the objects that they omit. An object beside the transmitting object stays out of
+// the buckets if it lies behind a blended object that is omitted. In a bucket, it would be drawn over that blended
+// object.
 TEST(TransparencyBuckets, keepTheOrderOfWhatTheyLeaveOut) {
     FramePlan plan = planOf({{0, false, true}, {3}, {6}});
     moveRight(plan.objects[2]);
@@ -102,16 +103,16 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
     EXPECT_EQ(reach.y, 0);
     EXPECT_EQ(reach.height, 500);
-    plan.objects[1].coc.nearest = -60;  // a wider blur of another object in front
+    plan.objects[1].coc.nearest = -60;  // another object, in front of the focus, has a wider blur
     EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);
     EXPECT_EQ(reachOf({0}, plan).width, 0);
-    plan.objects[0].nearestDepth = plan.view.nearPlane;  // may be seen anywhere in the image
+    plan.objects[0].nearestDepth = plan.view.nearPlane;  // the object may be seen anywhere in the image
     EXPECT_EQ(reachOf({0}, plan).width, 1000);
 }
 
-// An object that reaches the camera has an infinite blur in front, and gets its own bucket.
+// An object that reaches the camera has an infinite blur and gets its own bucket.
 TEST(TransparencyBuckets, partWhatReachesTheCamera) {
     FramePlan plan = planOf({{-9}, {9}});
     plan.objects[0].coc.nearest = -std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// A plan of one object with a blur of up to `blur` px.
+// Returns a plan of one object with a blur of up to `blur` px.
 FramePlan planOf(double blur) {
     FramePlan plan;
     plan.view.nearPlane = 0.1;

@@ -1,4 +1,4 @@
-// The end of a frame and the sample count that its blocks are planned for, tested by images with a known error.
+// Tests of when a frame ends and of the sample count that its blocks are planned for, with images of a known error.
 
 #include "render/sampling/block_schedule.h"
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Synthetic means of 64 · n samples. Their error is `first` · n^(−0.6), and the steps towards the limit are
+// A synthetic frame: means of 64 · n samples whose error is `first` · n^(−0.6). The steps towards the limit are
 // independent.
 class MadeFrame {
 public:
@@ -28,7 +28,7 @@ public:
         }
     }
 
-    // Linear value that encodes to the stored value.
+    // Returns the image after `samples` samples. The linear values encode to the stored values.
     [[nodiscard]] Image mean(std::uint32_t samples) const {
         const std::vector<double>& values = means_[samples / 64 - 1];
         Image image(size / 3, 1, 3);

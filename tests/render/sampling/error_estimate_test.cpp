@@ -1,5 +1,5 @@
-// The error estimate against known errors: closed forms, and half planes seen through a lens. A half plane's share of
-// the lens is the area of a segment of the disk.
+// Tests of the error estimate against known errors: closed forms, and half planes seen through a lens. A half plane's
+// share of the lens is the area of a segment of the disk.
 
 #include "render/sampling/error_estimate.h"
 
@@ -19,10 +19,10 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// Pixel (x, y) sees an edge: white on one side of a line across the lens, with its own angle and distance.
+// The edge that a pixel sees: a straight line across the lens, with white on one side.
 struct LensEdge {
     double angle;
-    double offset;  // −1 … 1
+    double offset;  // signed distance from the lens centre in lens radii, −1 … 1
 };
 
 LensEdge lensEdgeAt(int x, int y) {
@@ -40,7 +40,7 @@ Image trueLensEdges() {
     return image;
 }
 
-// Adds the samples [first, first + 64) to the sum.
+// Adds the samples [first, first + 64) of a sequence to the sum.
 void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint32_t seed) {
     for (const LensSample& sample : lensSamples(Lens{}, sequence, first, 64, seed))
         for (int y = 0; y < lensEdgesSize; ++y)
@@ -53,13 +53,13 @@ void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint3
 }
 
 TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
-    // Ratio of s(2m) to s(m) − s(2m).
+    // The expected value is s(2m)/√(s(m)² − s(2m)²), where s(n) is the error of n samples.
     EXPECT_NEAR(errorOverDifference(3, 6), 1 / std::sqrt(std::pow(2, 2 * lensSampleExponent) - 1), 1e-12);
     EXPECT_NEAR(errorOverDifference(64, 128), errorOverDifference(1, 2), 1e-12);
 }
 
 TEST(ErrorEstimate, independentSamplesGiveSigmaOverRootN) {
-    // Independent samples have |M(n) − M(m)|² = σ²(1/m − 1/n).
+    // For independent samples, the means M of m and n samples have |M(n) − M(m)|² = σ²(1/m − 1/n).
     for (const double m : {1.0, 2.0, 3.0, 4.5})
         EXPECT_NEAR(errorOverDifference(m, 5, 0.5), std::sqrt(m / (5 - m)), 1e-12) << m;
 }
@@ -84,8 +84,8 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
     EXPECT_THROW(estimate.add(Image(3, 4, 3), 128), Error);
 }
 
-// On edges alone, the sequences do better than in pictures, and two of them far better at some sample counts. The
-// estimate may then be too high, but never too low.
+// On edges, the estimate may be too high but is never too low, for every sequence. Edges alone converge faster than
+// pictures do, and with two of the sequences far faster at some sample counts.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
     const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
         }
 }
 
-// Only a part of a large image is read, and the same noise gives the same estimate.
+// The estimate reads only a part of a large image and is the same for the same noise.
 TEST(ErrorEstimate, aMillionPixelsStandForAll) {
     const auto noise = [](int width, int height, double share) {
         Image image(width, height, 3);

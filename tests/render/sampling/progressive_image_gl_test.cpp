@@ -1,4 +1,4 @@
-// An image that grows block by block equals one rendered at once, also in the window.
+// Tests that an image that grows block by block equals an image rendered at once, also in the window.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Scheuermann's gather: taps in the shape of the aperture, bytes as published, and planes set by hand.
+// Tests of Scheuermann's gather: taps in the shape of the aperture, bytes as published, and planes set by hand.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ protected:
 };
 std::unique_ptr<GlContext> ScheuermannImage::context_;
 
-constexpr double lightSide = 6;  // px
+constexpr double lightSide = 6;  // side of the bright square, px
 constexpr double lightEnergy = 360;
 
 Image rendered(const World& world, const View& view, const char* method) {
@@ -35,7 +35,7 @@ Image rendered(const World& world, const View& view, const char* method) {
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 
-// A square of light in a black wall, all at one depth, so that all pixels have the same blur.
+// Returns the bokeh of a bright square in a black wall. Both lie at one depth, so that all pixels have the same blur.
 Image bokehOf(const View& view, double depth) {
     const double left = (view.width - lightSide) / 2;
     const double top = (view.height - lightSide) / 2;
@@ -57,8 +57,9 @@ Image bokehOf(const View& view, double depth) {
     return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
 }
 
-// 64 taps are dots of a few pixels, so much light lies outside a smooth shape. Far less lies outside the right shape
-// than outside the same shape turned by 180°, which belongs to the other side of the focus.
+// Light has the shape of the aperture, upright behind the focus and turned by 180° in front of the focus. The 64 taps
+// are dots of a few pixels, so much light lies outside a smooth shape. Far less lies outside the right shape than
+// outside the turned one.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);
@@ -90,8 +91,8 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
     EXPECT_LT(middle(), 0.1 * ofADisk);
 }
 
-// 8-bit encoded colours: an object in focus is the pinhole image, clamped at white and rounded. No byte is exactly the
-// middle of the range, so some of the pre-blurred image shows through.
+// With 8-bit encoded colours, an object in focus is the pinhole image, clamped at white and rounded. No byte is exactly
+// the middle of the blur's range, so some of the pre-blurred image shows through.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;

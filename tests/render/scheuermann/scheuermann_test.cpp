@@ -37,7 +37,7 @@ TEST(BlurrinessPlanes, whereInfinityIsLessBlurredTheCutoffIsItsBlur) {
     ASSERT_LT(atInfinity, 10);
     const BlurrinessPlanes planes = blurrinessPlanes(coc, 4, 10, width);
     EXPECT_NEAR(planes.cutoff, atInfinity / 10, 1e-12);
-    // The linear blur equals the lens's blur at half the blur of infinity, which is at twice the focus distance.
+    // At 8 m, twice the focus distance, both the linear blur and the lens's blur are half the blur at infinity.
     EXPECT_NEAR((8 - planes.focus) / (planes.far - planes.focus), 0.5 * planes.cutoff, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 8, width), 0.5 * atInfinity, 1e-9);
 }
@@ -62,7 +62,7 @@ TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
     EXPECT_EQ(all.focus, 5);
     EXPECT_EQ(all.far, 6);
     EXPECT_EQ(all.cutoff, 0.5);
-    // The focus alone scales the other planes in proportion.
+    // Setting the focus alone scales the near and the far plane in proportion.
     const BlurrinessPlanes moved = withPlanesByHand(lens, {.focus = 6});
     EXPECT_DOUBLE_EQ(moved.near, 3);
     EXPECT_DOUBLE_EQ(moved.far, 12);
@@ -70,10 +70,10 @@ TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
     EXPECT_THROW(withPlanesByHand(lens, {.far = 1.5}), Error);
 }
 
-// Disks of half the min distance d around the n points lie in a disk of radius 1 + d/2. They fill at most the share of
-// a hexagonal packing, π/√12 (Groemer 1960). Every point of the unit disk lies within d of a sample, or a candidate
-// there would have won. Hence n·d² ≥ 1, and the disks fill more than a quarter. The number of candidates is finite, so
-// a tenth is tolerated.
+// Points of a Poisson disk keep a min distance d and leave no gap. Disks of radius d/2 around the n points lie in a
+// disk of radius 1 + d/2. They fill at most the share of a hexagonal packing, π/√12 (Groemer 1960). Every point of the
+// unit disk lies within d of a sample, or a candidate there would have won. Hence n·d² ≥ 1, and the disks fill more
+// than a quarter. The number of candidates is finite, so a tenth is tolerated.
 TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
     for (const std::uint32_t count : {8u, 12u, 24u, 64u}) {
         const std::vector<glm::vec2> points = poissonDisk(count);

@@ -1,5 +1,5 @@
 #pragma once
-// Images assembled from uneven tiles, compared with images drawn in one piece.
+// Fixture that assembles images from uneven tiles and compares them with undivided images.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ protected:
 
     static PixelRectangle wholeOf(const FramePlan& plan) { return {0, 0, plan.view.width, plan.view.height}; }
 
-    // Assembles the image from tiles, each with its own start; NaN where there is no tile.
+    // Returns the image assembled from tiles, each of which is rendered separately. Pixels without a tile are NaN.
     static Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
         Image image(plan.view.width, plan.view.height, 4);
         std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());
@@ -40,7 +40,7 @@ protected:
         return image;
     }
 
-    // Tiles of uneven sizes in one cell.
+    // Returns tiles of uneven sizes that cover the image, which is one cell.
     static std::vector<Tile> unevenTiles(const FramePlan& plan) {
         const int columns[] = {0, 37, 101, plan.view.width};
         const int rows[] = {0, 13, 64, plan.view.height};

@@ -1,4 +1,4 @@
-// Frames drawn tile by tile have the bits of a frame drawn in one piece, at each kind of level and behind glass.
+// Slow tests that frames drawn tile by tile equal undivided frames bit for bit, at each kind of level and behind glass.
 
 #include "render/tiles/tiled_image.h"
 
@@ -8,11 +8,11 @@ namespace {
 TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
-        // 70 samples: two blocks
+        // 70 samples make two blocks.
         expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
-// A transmitting object shows other pixels of the image, which may lie outside the tile.
+// Tiles stay exact if a transmitting object shows other pixels of the image, which may lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     Material glass;

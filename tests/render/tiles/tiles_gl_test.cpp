@@ -1,4 +1,4 @@
-// Frames drawn tile by tile have the bits of a frame drawn in one piece, for all tilings, motions and blur controls.
+// Tests that frames drawn tile by tile equal undivided frames bit for bit, for all tilings, motions and blur controls.
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
 }
 
-// Objects outside a tile, or outside the image, cast shadows into the tile.
+// Tiles stay exact if objects outside the tile, or outside the image, cast shadows into it.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -59,7 +59,8 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// In an image of several cells, the only difference is that each cell rounds window coordinates in its own way.
+// An image of several cells has no seams. It differs from an undivided image only because each cell rounds window
+// coordinates in its own way.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
     const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);
@@ -80,7 +81,7 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         largest = std::max(largest, std::abs(difference));
         squared += difference * difference;
     }
-    // In one of 70 samples, a silhouette's corner may round to another pixel.
+    // In one of 70 samples, a corner of the silhouette may round to another pixel.
     EXPECT_LT(largest, 2.0 / 70);
     EXPECT_LT(std::sqrt(squared / static_cast<double>(full.pixels.size())), 1e-4);
 }

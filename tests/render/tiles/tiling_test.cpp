@@ -1,4 +1,4 @@
-// Division of a frame: bands cover it once, and their memory fits the available memory.
+// Tests of the division of a frame: bands cover the frame once and fit the available memory.
 
 #include "render/tiles/tiling.h"
 
@@ -19,7 +19,7 @@ TilingNeeds needsOf(int width, int height, std::uint64_t memory) {
     return needs;
 }
 
-// Returns the bytes of the largest tile with its layers and its band.
+// Returns the bytes that the largest tile needs, including its layers and its band.
 std::uint64_t bytesOf(const TilingNeeds& needs, const Tiling& tiling) {
     std::uint64_t max = 0;
     for (const Band& band : tiling.bands)
@@ -76,7 +76,7 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
     EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
     EXPECT_FALSE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel - 1)));
-    // An image of several cells is never drawn in one piece, so that its bits do not depend on the memory.
+    // An image of several cells is always divided, so that its bits do not depend on the memory.
     EXPECT_FALSE(fitsInOnePiece(needsOf(16384, 16, 1ull << 50)));
     TilingNeeds oneCell = needsOf(16384, 16, 1ull << 50);
     oneCell.mayUseCells = false;
