@@ -4,7 +4,7 @@
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
-layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: one pixel with the field's max radiance and weight
+layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: the field's max radiance, max weight
 layout(location = 16) uniform vec4 brackets[components];   // offset, scale of the real part; then of the imaginary part
 layout(location = 15) uniform int firstComponent;
 
