@@ -21,7 +21,7 @@ layout(location = 2) uniform ivec2 firstPixel;
 layout(std140, binding = 4) uniform SampleBlock {
     // rgb: colour weights; w: change of b in C(w) by the wavelength.
     vec4 sampleBands[blockSamples];
-    // xy: lens points, relative to the lens radius.
+    // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];
 };
 vec4 bandOf(int layer) { return chromatic ? sampleBands[firstInBlock + layer] : vec4(1.0, 1.0, 1.0, 0.0); }
@@ -35,9 +35,9 @@ vec2 pixelOnImagePlane() {
     return (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 }
 
-// Returns the offset of the lens barrel's rim, a circle as large as the aperture, in lens radii (cat-eye vignetting).
-// The offset is proportional to the pixel's distance from the image's centre, with catEye radii at the corners. A lens
-// point l passes light if |l + offset| ≤ 1.
+// Returns the vector r (in lens radii) of the cat-eye vignetting of a pixel. The lens barrel's rim, a circle as large
+// as the aperture, passes light through lens point l if |l + r| ≤ 1. r is proportional to the pixel's distance from the
+// image's centre; |r| = catEye at the image's corners.
 vec2 barrelRim(vec2 imagePlane) {
     float aspect = frame.window.z / frame.window.w;
     return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));

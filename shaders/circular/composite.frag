@@ -37,7 +37,7 @@ float coverageOf(float weight, vec2 place) {
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
     // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.
-    // Otherwise the sharp image would show through there.
+    // Without the bias, the sharp image would show through there.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float near = dot(before, luminance);
     return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);

@@ -43,7 +43,7 @@ struct SurfacePoint {
 
 float lightShares[lightCount + 1];   // visible fraction of each light; only if shadowed
 
-// Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: see above.
+// Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
 struct LightSums {
     vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
     vec3 specular;        // Σ E·(n·l)·D·V
@@ -54,8 +54,8 @@ struct LightSums {
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
 // n·l, and `cosine` is the cosine between the shading normal and the light. With isotropic spread, the variance of n·l
-// is proportional to 1 − cosine². For a normal distribution (μ, σ²), the mean of the positive part is approximately (μ
-// + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for light perpendicular to the shading normal.
+// is proportional to 1 − cosine². For a normal distribution (μ, σ²), the mean of the positive part is approximately
+// (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for light perpendicular to the shading normal.
 float meanCosine(float mean, float cosine, float spread) {
     return 0.5 * (mean + sqrt(mean * mean + spread * max(1.0 - cosine * cosine, 0.0)));
 }
@@ -70,10 +70,10 @@ float normalSpread(float agreement) {
 }
 
 // Returns the mean of the represented normals weighted by their visible area, because normals that face the eye cover
-// more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, its length is |n| = `agreement`. In other views it is
-// tilted towards the eye by about 1 − |n| of the component of v perpendicular to the mean normal, divided by the mean
-// of n·v. At grazing angles few normals are visible, and a bound on the tilt keeps the length within what |n| allows.
-// The bound is fitted to the von Mises–Fisher distribution.
+// more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has the length |n| = `agreement`. In
+// other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the component of v perpendicular to the
+// mean normal. At grazing angles few normals are visible, and a bound on the tilt keeps the length within what |n|
+// allows. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);

@@ -13,7 +13,7 @@ layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
 layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
-layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };   // per vertex, or noTriangle
+layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };   // of each vertex; or noTriangle
 
 layout(location = 0) uniform uint vertexCount;
 layout(location = 1) uniform uint group;

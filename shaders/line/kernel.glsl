@@ -62,10 +62,10 @@ const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
 const uint jobGoesOn = 1u;      // continues with the triangles from the job's next entry on
-const uint jobHasSeen = 2u;     // like jobGoesOn, but these triangles are tested; only their segments remain to be added
+const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible ones are known and only remain to be added
 const uint jobIsDone = 3u;
 
-// Number of threads per vector. Drivers run a loop in all threads of a vector as often as in the slowest thread.
+// Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.
 const uint widestVector = 16u;
 uint commonRounds = 0u;         // iterations of loops that all threads run equally often
 uint ownRounds = 0u;            // iterations of this thread's other loops
