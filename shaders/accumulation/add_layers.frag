@@ -1,4 +1,5 @@
-// Composites each layer of the wave over the environment, and adds the layers in order to the block's compensated sum.
+// Composites the layers of a wave (one per lens sample) over the environment, and adds them in the order of the samples
+// to the block's compensated sum.
 #include "accumulation/layer_light.glsl"
 
 layout(binding = 2) uniform sampler2D compensationSoFar;
@@ -18,7 +19,7 @@ void main() {
         seen += 1.0;
         addLayer(sum, compensation, layerLight(ivec3(pixel + firstPixel, layer), imagePlane), layer);
     }
-    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers, hence exact
+    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers need no compensation
     sumOut = sum;
     compensationOut = compensation;
 }

@@ -1,24 +1,24 @@
-// Like add_layers.frag, and adds the layers to the sums of the lens cells.
+// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the class sums of the lens cells.
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Sums that the render target holds.
+// Class sums that are part of the render target.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums that do not fit into the render target.
+// Class sums that do not fit into the render target.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
-// Classes that each tile holds, as a bit mask.
+// Per tile, a bit mask of the classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
-// σ of the blur of a sample's image, as a fraction of |c|.
+// σ of the Gaussian that blurs a sample's image, as a fraction of the CoC diameter.
 layout(location = 3) uniform float cellBlur;
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 cellsOut[drawnClasses];
 
-// Threshold of stored alpha. Alpha-blended surfaces add their alpha to the 1 of opaque surfaces and sky.
+// Pixels with a larger alpha contain alpha-blended surfaces, whose alpha is added to the 1 of opaque surfaces and sky.
 const float blendedAlpha = 1.001;
 
-// Adds a layer's pixel to the classes of its blur.
+// Adds a layer's pixel to the sums of the classes, according to the pixel's blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < blendedAlpha ? max(0.0, cellBlur * cellBlur * c * c - minCellVariance) : 0.0;
@@ -29,8 +29,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
 }
 
-// Returns the classes that hold a share of any of `samples`, one bit each. Their sums differ from the next class's sum
-// in the number of samples.
+// Returns a bit mask of the classes that are not empty. The sum of such a class differs in its number of samples from
+// the sum of the next class. `samples`: number of all samples in the pixel.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;
@@ -41,7 +41,7 @@ uint heldBy(vec4 sums[cellClasses], float samples) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
-    vec4 compensation = vec4(0.0);   // discarded: blurred sums need only single precision
+    vec4 compensation = vec4(0.0);   // discarded, because blurred sums need only single precision
     vec2 imagePlane = pixelOnImagePlane();
     vec2 rim = barrelRim(imagePlane);
     vec2 ndc = imagePlane * frame.projection.xy;
@@ -57,7 +57,7 @@ void main() {
         addLayer(sum, compensation, value, layer);
         addToCells(cells, value, texel, ndc);
     }
-    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers, hence exact
+    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers need no compensation
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
     uint held = heldBy(cells, sum.a);

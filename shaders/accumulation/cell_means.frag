@@ -1,27 +1,28 @@
-// Computes tent-weighted means for one class of lens cells. Each mean is centred on a square of pixels and reaches the
-// neighbouring centres. For single pixels, the centres are pixel corners. One mean is of the class's own samples, the
-// other of the samples not hidden by nearer classes. Blurred surfaces therefore do not spread beneath their occluders,
-// and neither does the occluder's edge.
+// Computes tent-weighted means for one class of lens cells. Each mean is centred on a square of pixels, and its tent
+// extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. One output is
+// the mean of the class's own samples; the other is the mean number of samples not hidden by nearer classes. With both,
+// neither blurred surfaces nor the edges of their occluders spread beneath the occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// nearestClass: the last class in front of the focus, which nothing hides.
+// Number of the class. With nearestClass it is the most blurred class in front of the focus, which nothing hides.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.
 layout(location = 1) uniform int side;
-// Texel where the means of the class begin.
+// Lower left texel of the class in the target, from meansOrigin().
 layout(location = 4) uniform ivec2 origin;
 
 layout(location = 0) out vec4 meanOut;
 layout(location = 1) out float openOut;
 
-// Returns the samples that nearer classes don't hide, and those of them outside the class.
+// Returns the sum of the samples at `place` that nearer classes don't hide.
 vec4 openTo(vec2 place) {
     if (nearestClass) return textureLod(blockSum, place, 0.0);
     return textureLod(cellSums, vec3(place, float(classIndex < cellsInFront ? classIndex + 1 : classIndex)), 0.0);
 }
+// Returns the part of openTo() that doesn't belong to the class.
 vec4 beyond(vec2 place) {
     if (nearestClass) return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
     int layer = classIndex < cellsInFront ? classIndex : classIndex + 1;
@@ -37,7 +38,7 @@ void main() {
     if ((texelFetch(spreadClasses, tile, 0).r & 1u << classIndex) == 0u) return;
     vec4 mean = vec4(0.0);
     float open = 0.0;
-    // Bilinear fetches read two by two pixels at once.
+    // Each bilinear fetch reads a weighted mean of 2 × 2 pixels.
     vec2 perPixel = 1.0 / vec2(textureSize(blockSum, 0));
     for (int y = 0; y < 2 * side; y += 2) {
         for (int x = 0; x < 2 * side; x += 2) {

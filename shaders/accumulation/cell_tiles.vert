@@ -1,12 +1,12 @@
-// Draws points over the tiles where a class of cells has means, and over their neighbours. Other tiles are placed
-// outside the image.
+// Places point sprites over the tiles in which means of a class of lens cells must be written, including neighbours of
+// tiles with non-zero means. Points over other tiles are moved outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-// Side in px of the squares that have one mean each.
+// Side in px of the class's squares, each of which has one mean.
 layout(location = 1) uniform int side;
-// Tiles along the side of a point, so that even a point of large squares contains some tiles.
+// Number of tiles along the side of a point sprite; > 1 for classes with large squares.
 layout(location = 2) uniform int pointTiles;
 layout(location = 3) uniform ivec2 points;
 

@@ -1,4 +1,4 @@
-// The layers of a wave, composited over the environment.
+// The layers of a wave (one per lens sample), composited over the environment.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -8,19 +8,20 @@
 layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    // Shift of the sky on the image plane at distance 1. With cocControls: the shifts for C/w = 1 and for the jitter.
+    // xy: shift of the sky on the image plane at distance 1. With cocControls, xy is the shift for C/w = 1, and zw is
+    // the shift by the pixel jitter.
     vec4 sampleShifts[blockSamples];
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-// Pixel of the layers where the sums begin.
+// Pixel of the layers that belongs to pixel (0, 0) of the sums.
 layout(location = 2) uniform ivec2 firstPixel;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // Colour weights, and the wavelength's change of b in C(w).
+    // rgb: colour weights; w: change of b in C(w) by the wavelength.
     vec4 sampleBands[blockSamples];
-    // xy: lens points, relative to the lens radius.
+    // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];
 };
 vec4 bandOf(int layer) { return chromatic ? sampleBands[firstInBlock + layer] : vec4(1.0, 1.0, 1.0, 0.0); }
@@ -34,9 +35,9 @@ vec2 pixelOnImagePlane() {
     return (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 }
 
-// Returns the offset of the rim of the barrel, a circle as large as the aperture. The circle shifts across the aperture
-// with the pixel's distance from the centre, by catEye radii at the image's corners. For light from the right, the
-// circle shifts to the right.
+// Returns the vector r (in lens radii) of the cat-eye vignetting of a pixel. The lens barrel's rim, a circle as large
+// as the aperture, passes light through lens point l if |l + r| ≤ 1. r is proportional to the pixel's distance from the
+// image's centre; |r| = catEye at the image's corners.
 vec2 barrelRim(vec2 imagePlane) {
     float aspect = frame.window.z / frame.window.w;
     return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
@@ -48,7 +49,8 @@ bool isClipped(int layer, vec2 rim) {
     return dot(onLens, onLens) > 1.0;
 }
 
-// Returns the sky radiance that a sample sees through this pixel. A map is drawn into the layers instead.
+// Returns the sky radiance that a sample sees through this pixel, for uniform and gradient environments. Environment
+// maps are drawn into the layers instead.
 vec3 behind(vec2 imagePlane, int layer) {
     if (backgroundType == 1) return lighting.environment[0].rgb;
     vec4 shifts = sampleShifts[firstInBlock + layer];
@@ -67,7 +69,8 @@ vec3 behind(vec2 imagePlane, int layer) {
     return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
 }
 
-// Returns the pixel of a layer. Without a background, alpha is the coverage.
+// Returns a pixel of a layer, composited over a uniform or gradient background. Without a background, alpha is the
+// coverage.
 vec4 layerLight(ivec3 texel, vec2 imagePlane) {
     vec4 value = texelFetch(layers, texel, 0);
     if (backgroundType == 1 || backgroundType == 2) value.rgb += (1.0 - min(value.a, 1.0)) * behind(imagePlane, texel.z);

@@ -1,4 +1,5 @@
-// Selects the layer on drivers without ARB_shader_viewport_layer_array, where the vertex shader cannot set it.
+// Selects the layer of each triangle on drivers whose vertex shaders cannot write gl_Layer (no
+// ARB_shader_viewport_layer_array).
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;

@@ -1,9 +1,9 @@
-// Cuts a triangle at the near plane and along the kinks of C, then shears the pieces. Inside each piece C is linear
-// (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10). |C/w| in a piece never exceeds the values at its
-// vertices. The kinks separate the pieces from front to back:
+// Cuts a triangle at the near plane and along the kinks of C (abrupt changes of its slope), then shears the pieces.
+// Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| never exceeds its
+// values at the piece's vertices. From front to back, the pieces are separated by the kinks where
 //   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
-// Each cut position depends only on the two ends of its edge, and not on their order. Neighbouring triangles therefore
-// agree, and no gap opens.
+// Each cut position on a triangle's edge depends only on the edge's two ends, and not on their order. Neighbouring
+// triangles therefore cut their shared edge at the same position, and no gap opens.
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 30) out;   // 5 pieces with at most 6 vertices each
@@ -18,16 +18,16 @@ in Unsheared {
 #include "include/unsheared_varyings.glsl"
 } unsheared[];
 
-// A convex piece, given by the barycentric coordinates of its vertices.
+// A convex piece of a triangle, given by the barycentric coordinates of its vertices.
 struct Piece {
     int count;
     vec3 vertices[6];
 };
 
-// Returns the point between p and q where `values` (given at the triangle's corners) interpolate to 0.
+// Returns the point between p and q where the linear function with `values` at the triangle's corners is 0.
 vec3 cut(vec3 p, vec3 q, vec3 values) {
     for (int k = 0; k < 3; ++k) {
-        if (p[k] != 0.0 || q[k] != 0.0) continue;   // both lie on the edge opposite to corner k
+        if (p[k] != 0.0 || q[k] != 0.0) continue;   // p and q don't both lie on the edge opposite to corner k
         int i = (k + 1) % 3;
         int j = (k + 2) % 3;
         precise float atI = values[j] / (values[j] - values[i]);
@@ -42,7 +42,8 @@ vec3 cut(vec3 p, vec3 q, vec3 values) {
     return (atQ * p - atP * q) / (atQ - atP);
 }
 
-// Returns the part of the piece where `values` ≥ 0 (Sutherland and Hodgman 1974).
+// Returns the part of the piece where the linear function with `values` at the triangle's corners is ≥ 0 (Sutherland
+// and Hodgman 1974).
 Piece kept(Piece piece, vec3 values) {
     Piece result;
     result.count = 0;
@@ -66,7 +67,7 @@ void emit(vec3 weights) {
     EmitVertex();
 }
 
-// Emits the piece as a triangle strip, with its vertices alternating from both ends: 0, 1, n − 1, 2, …
+// Emits a piece of n vertices as a triangle strip in the order 0, 1, n − 1, 2, n − 2, …
 void emit(Piece piece) {
     if (piece.count < 3) return;
     emit(piece.vertices[0]);
@@ -79,7 +80,7 @@ void emit(Piece piece) {
 
 void main() {
     if (chromatic) bandShift = unsheared[0].bandShift;
-    // Kink functions at the corners, ordered from front to back. They are linear where the pieces of C are.
+    // Values at the corners of the functions whose zeros are the kinks of C (from front to back) and the near plane.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;
@@ -94,7 +95,7 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a focus range F = B, and there is one piece between the limits.
+    // Without a focus range, F = B, and C has one piece between its two limits.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

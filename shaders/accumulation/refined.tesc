@@ -1,6 +1,6 @@
-// Chooses tessellation levels that make C linear in each part, within the tolerance. Each level depends only on its
-// edge, so that neighbouring triangles agree. OpenGL divides an edge into at most 64 parts; triangles that need more
-// keep a visible error.
+// Chooses tessellation levels for which C is linear in each part of a triangle, within the tolerance cocLimits.w. The
+// level of an edge depends only on the edge, so neighbouring triangles agree. OpenGL divides an edge into at most 64
+// parts; triangles that need more keep an error above the tolerance.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -23,13 +23,13 @@ out Unsheared {
 #define SURFACE_OUT passedOn[gl_InvocationID]
 #include "include/surface_write.glsl"
 
-// Returns the two smooth pieces of C.
+// Returns the two smooth pieces of C, in front of and behind the focus.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
-// Returns the aberration offsets for two rays at the lens rim, in halves of the image's width.
+// Returns the image offsets by aberrations of two rays through the lens rim, times w, in halves of the image's width.
 vec4 aberrationPieces(vec3 pinhole) {
     float w = max(pinhole.z, frame.projection.z);
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
@@ -42,8 +42,8 @@ bool comesFirst(vec3 p, vec3 q) {
     return p.y != q.y ? p.y < q.y : p.z < q.z;
 }
 
-// Returns the number of parts that the edge needs. The deviation of a smooth function from its chord falls with the
-// square of that number.
+// Returns the number of parts into which an edge must be divided. The deviation of a smooth function from its linear
+// interpolation falls with the square of that number.
 float partsOf(int first, int second) {
     if (comesFirst(unsheared[second].pinhole, unsheared[first].pinhole)) {
         int swapped = first;
@@ -54,7 +54,7 @@ float partsOf(int first, int second) {
     vec3 q = unsheared[second].pinhole;
     vec2 ownP = unsheared[first].ownBlur;
     vec2 ownQ = unsheared[second].ownBlur;
-    // Only the part of the edge in front of the near plane counts.
+    // Only the part of the edge beyond the near plane is visible and counts.
     float near = frame.projection.z;
     if (p.z <= near && q.z <= near) return 1.0;
     float begin = p.z < near ? (near - p.z) / (q.z - p.z) : 0.0;

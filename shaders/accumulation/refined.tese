@@ -1,4 +1,4 @@
-// Evaluates a vertex of the tessellated triangle.
+// Interpolates a vertex of the tessellated triangle from the triangle's corners.
 
 layout(triangles, equal_spacing, ccw) in;
 

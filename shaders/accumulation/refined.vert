@@ -1,5 +1,5 @@
-// Draws one instance per lens sample. A later stage divides the triangles and applies the shear (refined.tesc,
-// refined.tese, refined.geom).
+// Draws one instance of an object per lens sample. Later stages divide the triangles (refined.tesc, refined.tese) and
+// apply the lens shear (refined.geom).
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

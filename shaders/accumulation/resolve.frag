@@ -1,7 +1,8 @@
-// Divides the frame's sum by its number of samples, or by the pixel's own number of samples, which alpha counts.
+// Divides the frame's compensated sum by its number of samples, or by the pixel's own number of samples, which is
+// stored in alpha.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
-layout(location = 0) uniform float sampleCount;   // 0: use alpha
+layout(location = 0) uniform float sampleCount;   // 0: divide by alpha
 
 layout(location = 0) out vec4 mean;
 

@@ -1,4 +1,4 @@
-// Draws the environment that a lens sample sees.
+// Draws the environment as seen by one lens sample.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -11,8 +11,8 @@ in Sky {
 
 layout(location = 0) out vec4 layerOut;
 
-// Returns the direction of the sky that the lens moves to this pixel. A fixed-point iteration finds it, because C at
-// infinity may depend on the position.
+// Returns the view-space direction of the sky that the lens sample sees in this pixel, not normalised. A fixed-point
+// iteration finds the direction, because C at infinity may depend on the pinhole position.
 vec3 directionOfSky() {
     if (chromatic) bandShift = sky.bandShift;
     vec2 unblurred = sky.place - sky.lensAndJitter.zw;

@@ -1,4 +1,4 @@
-// Draws a triangle at infinite depth over each sample's layer, so that uncovered pixels show the environment.
+// Draws a triangle at infinite depth over the layer of each lens sample, so that uncovered pixels show the environment.
 
 #include "include/layer_choice.glsl"
 

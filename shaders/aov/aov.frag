@@ -1,4 +1,5 @@
-// Writes depth (m), signed circle of confusion (px) and fractional level of the nearest surface seen through the pinhole.
+// Writes depth (m), signed CoC diameter (px) and fractional level of detail of the nearest surface seen through the
+// pinhole.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -1,4 +1,4 @@
-// Draws a triangle edge in the colour of its object's level.
+// Draws a triangle edge in the colour of the object's level of detail.
 
 #include "include/frame.glsl"
 #include "include/tone_map.glsl"

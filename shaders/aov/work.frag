@@ -1,4 +1,4 @@
-// Outputs 1 for each pixel that a triangle touches; additive blending counts the triangles.
+// Outputs 1 for each fragment of a triangle; additive blending counts the triangles per pixel.
 
 layout(location = 0) out float touched;
 

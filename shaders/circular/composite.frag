@@ -1,5 +1,5 @@
-// Composites the sharp image, the blurred far field and the near field, in this order. The far field covers only pixels
-// behind the focus.
+// Composites the blurred far field over the sharp image, and the blurred near field over both. The far field covers
+// only pixels behind the focus.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -8,35 +8,36 @@ layout(binding = 0) uniform sampler2D pinholeColor;
 layout(binding = 2) uniform sampler2D farBlurred;    // combinedFields: both fields
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
-layout(location = 2) uniform float perNearDiameter;  // as in split.frag
-// ≥ 1: higher values make the near field cover more. 0: no near field.
+layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus (px)
+// 0: no near field. ≥ 1: factor on the near field's coverage.
 layout(location = 0) uniform float blendBias;
-layout(location = 1) uniform float perFarDiameter;   // as in split.frag
+layout(location = 1) uniform float perFarDiameter;   // 1 / max diameter behind the focus (px)
 
 layout(location = 0) out vec4 image;
 
-// Returns the radiance of a blurred field at a pixel that belongs to it with weight `own`. The kernel's negative lobes
-// may leave less than a quarter of that weight. The sharp pixel then supplies the missing weight.
+// Returns the radiance of a blurred field at a pixel that belongs to the field with weight `own`. The kernel's negative
+// lobes may reduce the blurred weight to less than own/4. The sharp pixel then supplies the missing weight.
 vec3 radianceOf(vec4 field, float own, vec3 sharp) {
     float missing = max(0.25 * own - field.a, 0.0);
     return max(field.rgb + missing * sharp, vec3(0.0)) / max(field.a + missing, 1e-12);
 }
 
-// Returns the near field's coverage of a pixel.
+// Returns the near field's coverage of a pixel, from the blurred weight `weight`.
 float coverageOf(float weight, vec2 place) {
     if (nearPremultiplied) {
-        // The weight is relative to a surface with the gathered blur. A wide blur covers fully, a smaller one partially.
+        // Divides by the weight that split.frag gives to a surface with the gathered blur. Surfaces with that blur then
+        // cover fully, and less blurred surfaces partially.
         float diameter = 2.0 * float(reduction) * textureLod(nearRadii, place, 0.0).r;
         weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
     }
     return clamp(weight, 0.0, 1.0);
 }
 
-// Returns the bias for compositing a near field with radiance `before` over `behind`.
+// Returns the factor on the coverage for compositing a near field of radiance `before` over radiance `behind`.
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
-    // The full bias applies where most of the disk is near field and brighter than the background. There the sharp
-    // image would otherwise show through.
+    // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.
+    // Without the bias, the sharp image would show through there.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float near = dot(before, luminance);
     return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);
@@ -49,7 +50,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);   // no disk below two field px
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);   // fades in from 1 to 2 field px
     vec3 color;
     if (combinedFields) {
         own += clamp(-diameter, 0.0, 1.0);

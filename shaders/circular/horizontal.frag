@@ -1,15 +1,15 @@
 // Filters the rows of a field (premultiplied radiance and its weight) with `components` complex kernels. The result is
-// divided by the number of taps. The sum of the taps is no suitable divisor, because it nearly vanishes at some radii.
+// divided by the number of taps, because the sum of the complex taps nearly vanishes at some radii.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
-layout(binding = 2) uniform sampler2D brightest;       // bracketed: one pixel, the field's max radiance and max weight
-layout(location = 16) uniform vec4 brackets[components];   // offset and scale, real part then imaginary
+layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: the field's max radiance, max weight
+layout(location = 16) uniform vec4 brackets[components];   // offset, scale of the real part; then of the imaginary part
 layout(location = 15) uniform int firstComponent;
 
-// Per component: real and imaginary part. If bracketed: real rgb, imaginary rgb, and (real, imaginary) of the weight
-// with the weight's mean; the last output is the mean rgb.
+// Per component, the real part and the imaginary part of the sum. If bracketed, per component the real rgb, the
+// imaginary rgb, and the weight's (real part, imaginary part, mean); the last output is then the mean rgb.
 layout(location = 0) out vec4 sums[bracketed ? 3 * components + 1 : 2 * components];
 
 vec4 pairAt(ivec2 pixel, int i, Taps taps) {

@@ -1,7 +1,7 @@
-// Computes the max near radius whose disk reaches this tile or a neighbour, because the near field spreads beyond its
-// edges.
+// Computes for each tile the max blur radius of the near surfaces whose disks reach this tile or a neighbouring tile.
+// Disks spread beyond the edges of their surfaces.
 layout(binding = 0) uniform sampler2D tiles;
-layout(location = 0) uniform int farthest;   // max distance, in tiles, that a radius reaches
+layout(location = 0) uniform int farthest;   // max distance in tiles at which a disk reaches a tile or its neighbour
 
 layout(location = 0) out float reaching;
 

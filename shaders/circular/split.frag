@@ -1,14 +1,14 @@
-// Splits the pinhole image into a far field (behind the focus plane) and a near field (in front of it). Each holds
-// weighted radiance and the weight, with the blur radius in field px. A field pixel averages reduction × reduction
-// image pixels.
+// Splits the pinhole image into a far field (behind the focus plane) and a near field (in front of the focus plane).
+// Each field holds weighted radiance and the weight; another output is the field's blur radius in field px. A field
+// pixel averages reduction × reduction image pixels.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(location = 0) uniform float largestRadius;   // px
-layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane, px
-layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane
+layout(location = 0) uniform float largestRadius;   // image px
+layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
+layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
 
 layout(location = 0) out vec4 farField;             // combinedFields: both fields
 layout(location = 1) out float farRadius;
@@ -26,8 +26,9 @@ void main() {
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y));
             vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
-            // Blur below one pixel belongs to the sharp image. Behind the focus the weight is the blur itself (Garcia's
-            // premultiplied far field). Nearly sharp surfaces therefore leak little into the wide disks behind them.
+            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus the weight is
+            // proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces therefore leak
+            // little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
             if (nearPremultiplied) before *= min(-diameter * perNearDiameter, 1.0);

@@ -1,6 +1,7 @@
-// Filters the columns of the complex row sums and adds the components. The output is the blurred field, normalised by
-// the sum of its taps. If the rows used other radii, that sum is inexact, but the ratio of radiance to weight stays
-// correct. kernelAxes: horizontal and vertical radii of an oval, relative to the disk's radius.
+// Filters the columns of the complex row sums from horizontal.frag and adds the components. The output is the blurred
+// field, divided by the sum of the kernel over all taps. If the rows used other radii, that sum is inexact, but the
+// ratio of radiance to weight stays correct. kernelAxes: horizontal and vertical semi-axis of an elliptical blur,
+// relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];   // as in horizontal.frag
@@ -66,7 +67,7 @@ void main() {
         kernelSum += times(times(weight, rowNorm), norm).x;
     }
     if (components < kernelSize) {
-        // Other runs of this pass filter the remaining components.
+        // The kernel's sum includes the components that other runs of this pass filter.
         kernelSum = 0.0;
         for (int c = 0; c < kernelSize; ++c) {
             vec2 norm = tapSum(kernel[c], taps);
@@ -74,6 +75,6 @@ void main() {
             kernelSum += times(times(weightOf(kernel[c]), rowNorm), norm).x;
         }
     }
-    blurred = sum * (tapCount(rowTaps) / kernelSum);   // the rows were divided by their number of taps
+    blurred = sum * (tapCount(rowTaps) / kernelSum);   // undoes the division of the rows by their number of taps
     if (bracketed) blurred *= texelFetch(brightest, ivec2(0), 0).rrrg;
 }

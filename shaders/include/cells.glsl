@@ -1,30 +1,31 @@
-// Lens cells (src/plan/lens_cells/lens_cells.h): sums of pixels by the blur of their images. Each class has one layer,
-// ordered from the least blurred to the most.
+// Lens cells (src/plan/lens_cells/lens_cells.h): a pixel's samples are sorted by the blur of their images into classes
+// of increasing blur, separately in front of and behind the focus plane. The array texture of sums has one layer per
+// class.
 //
-// The first cellsInFront layers are in front of the focus; layer k sums all samples blurred less than class k. The
-// other layers are behind the focus; their layer k sums class k and everything blurred more. A layer therefore counts
-// the samples that nearer classes don't hide. The difference of adjacent layers is a class. RGB is radiance, and alpha
-// counts samples.
+// Layer k < cellsInFront sums all samples except those in front of the focus plane of class k or more blurred. Layer
+// cellsInFront + k sums the samples behind the focus plane of class k or more blurred. A class is the difference of
+// two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
-// Number of layers that a render target holds, beside the sum of all samples.
+// Number of class sums that fit into a render target beside the sum of all samples.
 const int drawnClasses = min(cellClasses, 7);
 
-// Side in px of the tiles that record which classes they contain, as bit k for class k. Most tiles contain few classes.
+// Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.
 const int cellTile = 8;
-const int besideSpread = 16;   // first bit of the neighbours' classes in spread_classes.frag
+const int besideSpread = 16;   // first bit of the second class mask that spread_classes.frag writes
 
-// Returns the variance of class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class −1 is
-// unblurred.
+// Returns the blur variance of class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class −1
+// is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
-// Returns the share of a pixel with blur variance `variance` that belongs to class k or a more blurred class.
+// Returns the fraction of a sample with blur variance `variance` that counts for class k or more blurred classes.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
 
-// Returns the texel where the means of class k begin. Class 0 is on the left; the others are stacked beside it.
-// Separate textures or mip levels are slower, because software drivers query their size for each pixel.
+// Returns the lower left texel of class k in the texture that holds the means of all classes. Class 0 is on the left;
+// the others are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip levels
+// are slower, because software drivers query their size for each pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

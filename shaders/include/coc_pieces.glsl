@@ -1,11 +1,12 @@
-// Smooth pieces of C in clip space. Unlike C itself, they are also defined behind the near plane. They are linear if C
-// has no curved terms and the surface's blur modifiers are uniform.
-// C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w).
+// Smooth pieces of the clip-space circle of confusion C, whose terms F, B, R₁ and R₂ are defined in
+// src/lens/circle_of_confusion.h. Unlike C itself, the pieces are also defined behind the near plane. They are linear
+// if C has no curved terms and the surface's blur modifiers are uniform.
+//   C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w)
 
 struct CocPieces {
     float factor;   // blur factor of the surface times (1 + g·r²)
-    float front;    // w·F
-    float behind;   // w·B
+    float front;    // w·F, < 0 in front of the focus
+    float behind;   // w·B, > 0 behind the focus
     float added;
 };
 

@@ -1,17 +1,17 @@
 // Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010;
 // Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. exactTaps: one tap per pixel;
-// otherwise taps have a fractional spacing.
+// otherwise a fixed number of taps is spread over the radius.
 
-layout(location = 0) uniform vec4 kernel[kernelSize];   // a, b, A, B
+layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
 
 struct Taps {
-    int count;      // on each side of the centre
+    int count;      // taps on each side of the centre
     float radius;   // radius of the disk, in taps
     float spacing;  // px
 };
 
 Taps tapsOf(float radius) {
-    // Taps fade in as the radius grows: tap i has the weight clamp(radius + 1/2 − i, 0, 1).
+    // With exactTaps, taps fade in as the radius grows: tap i has the fade weight clamp(radius + 1/2 − i, 0, 1).
     if (exactTaps) return Taps(int(ceil(radius - 0.5)), max(radius, 0.5), 1.0);
     if (!tapSets) return Taps(8, 8.0, radius / 8.0);
     int count = radius <= 4.0 ? 4 : radius <= 8.0 ? 8 : radius <= 16.0 ? 16 : 32;
@@ -29,13 +29,14 @@ float tapCount(Taps taps) {
 
 vec2 times(vec2 p, vec2 q) { return vec2(p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x); }
 
-// Returns q = F at x² = 1/radius². The recurrence F((i + 1)/R) = F(i/R)·q^(2i + 1) evaluates taps without exponentials.
+// Returns q = F(1/R) for a radius of R taps. The recurrence F((i + 1)/R) = F(i/R)·q^(2i + 1) evaluates F at all taps
+// without further exponentials.
 vec2 firstRatio(vec4 component, Taps taps) {
     float u = 1.0 / (taps.radius * taps.radius);
     return exp(-component.x * u) * vec2(cos(component.y * u), sin(component.y * u));
 }
 
-// Returns Σ F over all taps.
+// Returns the sum of F over all taps, weighted by fade().
 vec2 tapSum(vec4 component, Taps taps) {
     vec2 ratio = firstRatio(component, taps);
     vec2 grow = times(ratio, ratio);
@@ -49,5 +50,5 @@ vec2 tapSum(vec4 component, Taps taps) {
     return sum;
 }
 
-// Returns a component's weight A − i·B: A·Re z + B·Im z = Re((A − i·B)·z).
+// Returns a component's complex weight A − i·B, with which A·Re z + B·Im z = Re((A − i·B)·z).
 vec2 weightOf(vec4 component) { return vec2(component.z, -component.w); }

@@ -1,16 +1,17 @@
-// The environment: its radiance along a direction, and its light on a surface. environmentType: 0 none, 1 uniform, 2
-// gradient, 3 map. backgroundType: the environment shown behind surfaces, 0 or equal to environmentType.
+// The environment: radiance along a direction, and irradiance of a surface. environmentType: 0 none, 1 uniform, 2
+// gradient, 3 map. backgroundType: type of the environment shown behind surfaces, 0 or equal to environmentType.
 
 #include "include/lighting.glsl"
 
 #ifdef ENVIRONMENT_MAP
-layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; mip levels serve rough reflections
+layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; coarse mip levels are for rough reflections
 
 vec2 equirectangular(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) * 0.15915494309, acos(clamp(d.y, -1.0, 1.0)) * 0.31830988618);
 }
 
-// Returns the radiance of the map. `level` is a mip level, for rough reflections.
+// Returns the radiance of the environment map along a unit direction. `level` is a mip level; > 0 for rough
+// reflections.
 vec3 environmentRadiance(vec3 worldDirection, float level) {
     return textureLod(environmentMap, equirectangular(worldDirection), level).rgb;
 }
@@ -18,7 +19,8 @@ vec3 environmentRadiance(vec3 worldDirection, float level) {
 vec3 environmentRadiance(vec3 worldDirection, float level) { return vec3(0.0); }
 #endif
 
-// Returns irradiance over π for a normal, from second-order spherical harmonics (Ramamoorthi and Hanrahan 2001).
+// Returns the irradiance over π of a surface with unit normal n, from second-order spherical harmonics (Ramamoorthi and
+// Hanrahan 2001).
 vec3 environmentDiffuse(vec3 n) {
     return max(lighting.irradiance[0].rgb + lighting.irradiance[1].rgb * n.y + lighting.irradiance[2].rgb * n.z +
                lighting.irradiance[3].rgb * n.x + lighting.irradiance[4].rgb * (n.x * n.y) + lighting.irradiance[5].rgb * (n.y * n.z) +
@@ -26,18 +28,18 @@ vec3 environmentDiffuse(vec3 n) {
                lighting.irradiance[8].rgb * (n.x * n.x - n.y * n.y), vec3(0.0));
 }
 
-// Returns the gradient's radiance for the height (y) of a unit direction.
+// Returns the radiance of the gradient environment along a unit direction with y = `height`.
 vec3 gradientRadiance(float height) {
     vec3 pole = height > 0.0 ? lighting.environment[0].rgb : lighting.environment[2].rgb;
     return mix(lighting.environment[1].rgb, pole, abs(height));
 }
 
-// Returns irradiance over π as a zonal polynomial of the normal's height.
+// Returns the irradiance over π by the gradient environment, a polynomial of the unit normal's y (`height`).
 vec3 gradientDiffuse(float height) {
     return lighting.irradiance[0].rgb + height * (lighting.irradiance[1].rgb + height * lighting.irradiance[2].rgb);
 }
 
-// Returns the radiance of an environment of type `type` along a unit direction of the world.
+// Returns the radiance of an environment of type `type` (1 … 3, as in environmentType) along a unit direction.
 vec3 skyRadiance(int type, vec3 worldDirection) {
     if (type == 3) return environmentRadiance(worldDirection, 0.0);
     if (type == 2) return gradientRadiance(worldDirection.y);

@@ -1,14 +1,15 @@
-// Uniform blocks of the frame, the object and the material. The C++ counterparts are in frame_uniforms.cpp,
-// surface_pass.cpp and gpu_scene.h.
+// Uniform blocks of the frame, the object and the material. The C++ counterparts are GpuFrame in frame_uniforms.cpp,
+// GpuObject in surface_draws.h and GpuMaterial in gpu_scene.h, all in src/render/gpu_scene/.
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
-    vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
-    vec4 cocField;        // tilt t (2), κ, g
-    vec4 cocLimits;       // R₁, R₂; 1/k²; px, max interpolation error of C in a triangle
-    // a₂ of C; fraction of the image's width per mm on the sensor, for added vertex blur.
+    vec4 coc;             // a, b₁ of C; image width (px); b₂ of C   (src/lens/circle_of_confusion.h)
+    vec4 cocField;        // xy: tilt t of the focus plane; κ; g     (same source)
+    vec4 cocLimits;       // R₁, R₂; 1/k² (k: aspect ratio); max interpolation error of C in a triangle (px)
+    // a₂ of C; fraction of the image's width per mm on the sensor, for added vertex blur; coefficients A of astigmatism
+    // and B of coma (src/lens/aberrations.h).
     vec4 cocOther;
-    vec4 window;          // position of the layers' pixel (0, 0) in the image; image size (px)
+    vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
     mat4 worldFromView;   // rotation
     vec4 lightPositions[maxLights];  // m from the camera along the world's axes; w: range, 0: unlimited
 } frame;
@@ -16,20 +17,22 @@ layout(std140, binding = 0) uniform FrameBlock {
 layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
     mat4 normalMatrix;    // inverse transpose of the upper 3×3
-    // Fractional level λ; share of the boundary sample that draws the coarser level; object number; blur factor.
+    // Fractional level of detail λ; fraction of the pixels of the boundary sample (the lens sample that mixes two
+    // levels) that show the coarser level; object number; blur factor.
     vec4 values;
-    ivec4 posing;         // texels per pose, joints, active morph targets, texels per attribute of a morph target
-    vec4 levels;          // x: m, max deviation of the drawn level from full detail
+    // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
+    ivec4 posing;
+    vec4 levels;          // x: max deviation of the drawn levels from full detail (m)
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;
     vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
-    vec4 reflectance;     // dielectric part: rgb at normal incidence; w: specularFactor, not included in rgb
-    vec4 transmission;    // share, thickness (object units), 1/ior, blur of the background per roughness
-    vec4 absorption;      // rgb: per metre
-    vec4 coat;            // share, roughness, normal scale
-    vec4 sheen;           // rgb; w: roughness
-    vec4 uvRows[28];      // two rows of a 2×3 matrix per texture; w of the first row: the UV set
+    vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without the factor w: specularFactor
+    vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
+    vec4 absorption;      // rgb: absorption coefficient (1/m)
+    vec4 coat;            // coated fraction, roughness, normal scale
+    vec4 sheen;           // rgb: colour; w: roughness
+    vec4 uvRows[28];      // per texture: two rows of a 2×3 matrix; w of the first row: number of the UV set
 } material;

@@ -1,4 +1,5 @@
-// Selects the layer in the vertex shader. Without VERTEX_LAYER, a geometry shader selects it.
+// Selects the layer of the render target in the vertex shader. Without VERTEX_LAYER, a geometry shader selects the
+// layer instead.
 void chooseLayer(float layer) {
 #ifdef VERTEX_LAYER
     gl_Layer = int(layer);

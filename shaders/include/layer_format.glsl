@@ -1,8 +1,8 @@
 // Rounding of a lens sample's radiance to the format of its layer.
 
-// Rounds to a half float with 11 significant bits, up to layerLargest; 0: layers of 32-bit floats. The rounding mode of
-// conversions depends on the driver, and truncation would darken every sample slightly. The rounded value is exact in
-// any conversion.
+// Returns the colour clamped to layerLargest and rounded to 11 significant bits, as in half floats. layerLargest = 0:
+// layers are 32-bit floats, and the colour is unchanged. Drivers may truncate in conversions to half floats, which
+// would darken every sample slightly; the rounded value converts exactly.
 vec3 roundedToLayer(vec3 color) {
     if (layerLargest == 0.0) return color;
     uvec3 bits = floatBitsToUint(min(color, vec3(layerLargest)));

@@ -1,14 +1,14 @@
 // The clip-space lens shear p' = p + C·(u, k·v, 0, 0) (Munkberg, Toth and Akenine-Möller 2012; here C > 0 behind the
-// focus plane). src/lens/circle_of_confusion.h documents C. cocControls: C differs from a + b·w. `own` holds the
-// surface's blur modifiers: a factor and an added fraction of the image's width.
-// Depth is reversed with an infinite far plane: z = near, so that z/w runs from 1 at the near plane to 0.
+// focus plane). src/lens/circle_of_confusion.h documents C and its terms. cocControls: C differs from a + b·w. `own`
+// holds the surface's blur modifiers: a factor and an added fraction of the image's width.
+// Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0 at infinity.
 
-float bandShift = 0.0;   // change of b₁ and b₂ by the wavelength of the current lens sample; 0 unless chromatic
+float bandShift = 0.0;   // change of b₁ and b₂ in C by the lens sample's wavelength; 0 unless chromatic
 
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²)
-    float front;    // F
-    float behind;   // B
+    float front;    // F, < 0 in front of the focus
+    float behind;   // B, > 0 behind the focus
 };
 
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
@@ -18,7 +18,8 @@ CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
                     frame.cocOther.x * inverseDepth + (frame.coc.w + bandShift) * focus);
 }
 
-// Returns C/w, the signed diameter as a fraction of the image's width, at 1/w and a position in the image.
+// Returns C/w, the signed diameter of the circle of confusion as a fraction of the image's width, for the inverse depth
+// 1/w and an image position in normalised device coordinates.
 float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     if (!cocControls) return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
     CocTerms terms = cocTerms(inverseDepth, ndc, own.x);
@@ -26,7 +27,8 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
 }
 
-// Returns the offset by astigmatism and coma for a lens point (u, k·v); see src/lens/aberrations.h.
+// Returns the image offset by astigmatism and coma for a lens point (u, k·v), in normalised device coordinates; see
+// src/lens/aberrations.h.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     vec2 field = ndc * perAspect;
@@ -43,13 +45,13 @@ vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     return shift;
 }
 
-// Returns (x, y, w) of a view-space position in the pinhole image.
+// Returns the clip-space (x, y, w) of a view-space position as seen through a pinhole at the lens centre.
 vec3 pinholePosition(vec3 viewPosition) {
     return vec3(viewPosition.xy * frame.projection.xy, -viewPosition.z);
 }
 
-// Returns the clip position as seen from a point of the lens. `lensAndJitter` holds (u, k·v) and the pixel jitter in
-// normalised device coordinates. With cocControls the position must lie in front of the camera.
+// Returns the clip position as seen from a lens point; `pinhole` is pinholePosition(). `lensAndJitter` holds the lens
+// point (u, k·v) and the pixel jitter in normalised device coordinates. With cocControls, w must be > 0.
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
     vec2 shift;
@@ -60,7 +62,8 @@ vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     return vec4(pinhole.xy + shift + w * lensAndJitter.zw, frame.projection.z, w);
 }
 
-// Returns the signed diameter of the circle of confusion in px for a depth-buffer value, near / w; 0 is infinity.
+// Returns the signed diameter of the circle of confusion in px for a depth-buffer value near / w, which is 0 at
+// infinity.
 float circleOfConfusion(float depth, vec2 ndc, vec2 own) {
     return relativeCircleOfConfusion(depth / frame.projection.z, ndc, own) * frame.coc.z;
 }

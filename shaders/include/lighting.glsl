@@ -1,11 +1,11 @@
-// Light sources in world axes, independent of the camera. If they aren't animated either, they are compiled as
-// constants (LIGHTING_VALUES). Software rasterizers read constants far faster than a uniform block, which Mesa 22.3
-// fetches for each pixel.
+// Light sources in world axes, independent of the camera. A few lights that are not animated are compiled as constants
+// (LIGHTING_VALUES). Software rasterizers read constants far faster than a uniform block, which Mesa 22.3 fetches for
+// each pixel.
 
 struct LightData {
     vec4 directionType;   // direction of the light's rays; w: 0 directional, 1 point, 2 spot
-    vec4 colorScale;      // colour · intensity / π; w: spot cone scale
-    vec4 cone;            // x: spot cone offset
+    vec4 colorScale;      // rgb: colour · intensity / π; w: scale of the spot cone's falloff
+    vec4 cone;            // x: offset of the spot cone's falloff
 };
 
 #define LIGHTING_MEMBERS \

@@ -1,9 +1,9 @@
-// Textures of the material. materialTextures holds only those that the material has. textureUnits[slot] is the index of
-// a texture there, or −1 for a texture that isn't used.
+// Textures of the material. The array materialTextures holds only textures that the material uses. textureUnits[slot]
+// is the index in this array of the texture for a slot (base colour, normal, …), or −1 without such a texture.
 
 layout(binding = 8) uniform sampler2D materialTextures[textureCount];
 
-// x: index in materialTextures, or −1; y: slot, in the order of textureUses().
+// x: index in materialTextures, or −1; y: slot, in the order of textureUses() in src/scene/scene.h.
 const ivec2 baseColorTexture = ivec2(textureUnits[0], 0);
 const ivec2 metallicRoughnessTexture = ivec2(textureUnits[1], 1);
 const ivec2 normalTexture = ivec2(textureUnits[2], 2);
@@ -19,7 +19,7 @@ const ivec2 clearcoatNormalTexture = ivec2(textureUnits[11], 11);
 const ivec2 sheenColorTexture = ivec2(textureUnits[12], 12);
 const ivec2 sheenRoughnessTexture = ivec2(textureUnits[13], 13);
 
-// Returns the texture coordinates for texture `slot`, from both UV sets.
+// Returns the texture coordinates of texture slot `slot`. `uvSets` holds both UV sets of the surface.
 vec2 uvOf(int slot, vec4 uvSets) {
     if (!uvTransforms) return uvSets.xy;
     vec4 rowU = material.uvRows[2 * slot];
@@ -28,10 +28,11 @@ vec2 uvOf(int slot, vec4 uvSets) {
     return vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0)));
 }
 
-// Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the pixel. The including stage defines it.
+// Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the pixel. Each including shader defines
+// this function.
 vec4 surfaceTexel(int unit, int slot);
 
-// Returns the texture in this pixel, or white if it isn't used.
+// Returns the value of a texture in this pixel, or white if the material has no such texture.
 vec4 materialTexel(ivec2 unitAndSlot) {
     if (unitAndSlot.x < 0) return vec4(1.0);
     return surfaceTexel(unitAndSlot.x, unitAndSlot.y);

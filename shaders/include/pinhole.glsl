@@ -1,9 +1,9 @@
-// Blur of a pixel in the pinhole image, from its depth and its surface's blur modifiers.
+// Blur of a pixel in the pinhole image, computed from its depth and its surface's blur modifiers.
 
 layout(binding = 1) uniform sampler2D pinholeDepth;
 layout(binding = 6) uniform sampler2D pinholeOwnBlur;   // only with usesOwnBlur
 
-// Returns the signed diameter in px.
+// Returns the signed diameter of the circle of confusion in px.
 float pinholeCircleOfConfusion(ivec2 pixel) {
     vec2 own = vec2(1.0, 0.0);
     if (usesOwnBlur) own = texelFetch(pinholeOwnBlur, pixel, 0).rg;

@@ -1,10 +1,11 @@
 // Poses vertices: first morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. skinInfluences: 4
-// or 8 for a skin, else 0. morphed: morph targets move positions; morphNormals, morphTangents: also normals, tangents.
-// morphAttributes: number of morphed attributes, 1 … 3.
+// or 8 joints per vertex for a skin, else 0. morphed: morph targets move positions, and also normals and tangents with
+// morphNormals and morphTangents. morphAttributes: number of morphed attributes, 1 … 3.
 //
-// Layout of a pose in `poses`. First, the three rows of the view-from-vertex matrix of each joint; without a skin, the
-// object counts as the only joint. Then (weight, index) of each active morph target. With cameraMoves, a matrix follows
-// from this moment's view space to that of the middle of the exposure. Lights and sky are defined in the latter.
+// A pose in the buffer `poses` begins with the three rows of the view-from-vertex matrix of each joint; without a skin,
+// the object counts as the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the
+// pose ends with a matrix from the view space at this shutter moment to the view space in the middle of the exposure,
+// in which lights and sky are defined.
 
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -12,9 +13,9 @@ layout(location = 11) in vec4 joints1In;
 layout(location = 12) in vec4 weights1In;
 
 layout(binding = 6) uniform samplerBuffer poses;
-layout(binding = 7) uniform samplerBuffer morphDisplacements;   // per target: positions, then normals, then tangents
+layout(binding = 7) uniform samplerBuffer morphDisplacements;   // per target: of positions, then normals, then tangents
 
-struct Rows {         // rows of a matrix that transforms points
+struct Rows {         // three rows of an affine matrix
     vec4 x;
     vec4 y;
     vec4 z;
@@ -27,7 +28,7 @@ Rows rowsAt(int texel) {
 void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joints, vec4 weights) {
     for (int i = 0; i < 4; ++i) {
         if (!(weights[i] > 0.0)) continue;
-        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // missing joints use the first one
+        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // numbers out of range select joint 0
         Rows rows = rowsAt(firstTexel + 3 * joint);
         sum.x += weights[i] * rows.x;
         sum.y += weights[i] * rows.y;
@@ -50,8 +51,8 @@ vec3 turned(Rows rows, vec3 direction) {
     return vec3(dot(rows.x.xyz, direction), dot(rows.y.xyz, direction), dot(rows.z.xyz, direction));
 }
 
-// Transforms a normal by the inverse transpose and keeps its length. The rows of that matrix are cross products of the
-// rows over the determinant.
+// Transforms a normal by the inverse transpose of a matrix with rows `rows`, and keeps the normal's length. The rows of
+// the inverse transpose are cross products of `rows`, divided by the determinant.
 vec3 turnedNormal(Rows rows, vec3 normal) {
     vec3 x = cross(rows.y.xyz, rows.z.xyz);
     vec3 y = cross(rows.z.xyz, rows.x.xyz);
@@ -79,7 +80,7 @@ Posed morphedVertex(int firstTexel, Posed vertex) {
     return vertex;
 }
 
-// Returns the vertex in pose number `pose`.
+// Returns a vertex, given at rest, in pose number `pose`.
 Posed posedVertex(int pose, Posed vertex) {
     int firstTexel = pose * object.posing.x;
     if (morphed) vertex = morphedVertex(firstTexel, vertex);
@@ -94,7 +95,8 @@ Posed between(Posed a, Posed b, float fraction) {
     return Posed(mix(a.position, b.position, fraction), mix(a.normal, b.normal, fraction), mix(a.tangent, b.tangent, fraction));
 }
 
-// Transforms a vertex and the lens point to the view space in the middle of the exposure.
+// Transforms a vertex and the lens point `eye` from the view space at `moment` to the view space in the middle of the
+// exposure.
 void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     int texel = (int(moment.x) + 1) * object.posing.x - 3;
     Rows rows = rowsAt(texel);
@@ -107,9 +109,9 @@ void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     eye = turned(rows, eye) + middle;
 }
 
-// Returns the vertex at a moment: shutter moment, fraction of the way to the next moment. The clip position is linear in
-// time (Munkberg et al. 2012). C is evaluated at the interpolated position. For a plain lens this is the paper's linear
-// C(t). With controls it matches a still frame at that moment.
+// Returns the vertex at `moment`: x is the number of a shutter moment, y the fraction of the way to the next one.
+// Between them the clip position is linear in time (Munkberg et al. 2012), and C is evaluated at the interpolated
+// position. For a plain lens, C is then linear in time as in the paper; with blur controls, C matches a still frame.
 Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
     Posed posed = posedVertex(moving ? int(moment.x) : 0, rest);
     if (moving && moment.y > 0.0) posed = between(posed, posedVertex(int(moment.x) + 1, rest), moment.y);

@@ -5,15 +5,15 @@
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
 // Both variations widen the specular lobe without changing its total energy.
 //
-// Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights can therefore be summed before F0 and albedo are
-// known. The three sums need few operations per light, which matters on software rasterizers.
+// Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights are therefore summed without F0 and albedo
+// (LightSums). This takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;    // number in the frame of the wave's first sample
-    float firstOfBlock;   // number in the frame of the block's first sample
+    float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)
+    float firstOfBlock;   // number in the frame of the first lens sample of this block of blockSamples samples
 } wave;
 
-// Returns the number of the sample in the frame. The including stage defines it.
+// Returns the number in the frame of the lens sample that is shaded. Each including shader defines this function.
 float sampleNumber();
 
 struct SurfacePoint {
@@ -23,26 +23,27 @@ struct SurfacePoint {
     vec3 normal;          // unit vector in world axes, like all directions here
     vec3 toEye;           // unit vector
     vec3 emission;        // only if emissive
-    // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up.
+    // Sum of the squared changes of the interpolated normal over one pixel to the right and one pixel up.
     float footprint;
-    // Only for coarseLevel.
+    // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the represented normals, in (0, 1]
-    float spread;         // normalSpread()
-    vec3 seen;            // seenNormal()
-    float grazing;        // reflectance at grazing angles, F90; 1 without ownReflectance
-    vec3 transmitted;     // radiance from behind, transmitted in the share that the surface doesn't reflect
-    // Only with sheen.
-    vec3 sheen;
+    float spread;         // normalSpread(agreement)
+    vec3 seen;            // seenNormal(…)
+    float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
+    vec3 transmitted;     // radiance from behind the surface, before the loss by reflection at the surface
+    // The next two members are set only if the material has sheen.
+    vec3 sheen;           // colour
     float sheenRoughness; // perceptual
-    // Only with clearcoat.
-    float coat;           // coated share of the surface
+    // The next three members are set only if the material has clearcoat.
+    float coat;           // coated fraction of the surface
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit vector
     vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
 };
 
-float lightShares[lightCount + 1];   // visible share of each light; only if shadowed
+float lightShares[lightCount + 1];   // visible fraction of each light; only if shadowed
 
+// Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
 struct LightSums {
     vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
     vec3 specular;        // Σ E·(n·l)·D·V
@@ -51,27 +52,28 @@ struct LightSums {
     vec3 sheen;           // Σ E·(n·l)·D·V of the sheen lobe
 };
 
-// Returns the mean of max(n·l, 0) over the represented normals; `cosine` is between the shading normal and the light.
-// The normals' mean of n·l is `mean`. With isotropic spread their variance is proportional to 1 − cosine². For a normal
-// distribution (μ, σ²) the mean of the positive part is approximately (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for
-// light from the side.
+// Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
+// n·l, and `cosine` is the cosine between the shading normal and the light. With isotropic spread, the variance of n·l
+// is proportional to 1 − cosine². For a normal distribution (μ, σ²), the mean of the positive part is approximately
+// (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for light perpendicular to the shading normal.
 float meanCosine(float mean, float cosine, float spread) {
     return 0.5 * (mean + sqrt(mean * mean + spread * max(1.0 - cosine * cosine, 0.0)));
 }
 
-// Returns the spread S for which the mean over all light directions equals that of one normal, 1/4. The surface then
-// reflects as much light as it receives: |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1. The fit has an error of 7e-4
-// relative to that mean.
+// Returns the spread S for which the mean of meanCosine() over all light directions is 1/4, as for a single normal. The
+// surface then reflects as much light as it receives: |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1, where |n| is
+// `agreement`. The polynomial is a fit; its error is 7e-4 relative to the mean 1/4.
 float normalSpread(float agreement) {
     float lost = 1.0 - agreement;
     float root = sqrt(lost);
     return lost * (0.17796 + root * (1.04019 + root * (-1.37493 + root * (1.28514 - 0.72122 * root))));
 }
 
-// Returns the mean of the normals weighted by their visible area: normals that face the eye cover more pixels. |n|
-// describes the view from straight above. In other views, the mean of n (n·v) / (n·v) keeps about 1 − |n| of the
-// component across the normal. At grazing angles few normals are visible, and the length is limited to what |n| allows.
-// This bound is fitted to the von Mises–Fisher distribution.
+// Returns the mean of the represented normals weighted by their visible area, because normals that face the eye cover
+// more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has the length |n| = `agreement`. In
+// other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the component of v perpendicular to the
+// mean normal. At grazing angles few normals are visible, and a bound on the tilt keeps the length within what |n|
+// allows. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -80,21 +82,21 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ² of the slopes of the represented normals: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ² of the slopes of the normals that a coarse level's normal represents: σ² ≈ (1 − |n|)/|n| (Toksvig 2005,
+// Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
 
-// Returns 2σ² of normals whose slopes have the variance σ² along each axis: the mean square of their angular
-// differences.
+// Returns 2σ², where σ² is the variance along each axis of the slopes of all normals that the sample represents.
 //
 // Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
-// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents a share
-// 1/(n + 1) of a pixel, as a normal distribution half as wide. A lobe narrower than the pixel's variation of normals
-// would give isolated white pixels at few samples. The first block widens it to that variation, and later blocks to a
-// share of it. Both depend only on the sample's number, so blocks add up to the image that is drawn at once. Both
-// vanish as the number of samples grows, so highlights converge. The result is proportional to the square of the pixel
-// size, and 0 on flat surfaces.
+// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents 1/(n + 1)
+// of the pixel's area, as a normal distribution whose σ is half the width of that area. With few samples, a lobe
+// narrower than the pixel's variation of normals would give isolated white pixels. The first block of samples therefore
+// widens such a lobe to that variation, and later blocks to a fraction of it. Both widths depend only on the sample's
+// number, so blocks that are drawn separately add up to the same image. Both vanish as the number of samples grows, so
+// highlights converge. The footprint's part of the result is proportional to the pixel's area, and 0 on flat surfaces.
 float slopeSpread(SurfacePoint point) {
     float ofPixel = 0.25 * point.footprint;
     float ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
@@ -104,22 +106,22 @@ float slopeSpread(SurfacePoint point) {
     return coarseLevel ? spread + coarseSpread(point) : spread;
 }
 
-// Specular lobe of GGX slopes of width α, convolved with a normal distribution of variance σ². If σ dominates, the
-// result is close to Beckmann's distribution. Its far tail, however, remains that of GGX. The model mixes Beckmann with
-// weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's tail α²/(π
-// tan⁴).
+// Specular lobe of GGX slopes of width α, convolved with a normal distribution of slopes of variance σ². If σ
+// dominates, the result is close to Beckmann's distribution, but its far tail remains that of GGX. The model mixes
+// Beckmann with weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's
+// tail α²/(π tan⁴).
 //
-// Masking: normals from the spread belong to other positions in the pixel, or to level 0, and don't mask each other
-// like microfacets. Masking therefore uses α. For the spread's share, both cosines are those of the half vector h: v·h.
+// Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
+// like microfacets. Masking therefore uses α. For the weight of Beckmann, both cosines are v·h, with the half vector h.
 //
-// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h over its mean. Their cosine is
-// therefore the mean, like n·v for microfacets. Where the microfacets themselves are rough, a share α of them reflects
-// from the underlying normal, masked as usual.
+// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h.
+// The cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are rough,
+// a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
     float spread;         // weight of Beckmann's distribution
-    float shown;          // cosine to the eye: shown + shownOfH · v·h
+    float shown;          // cosine of the reflecting normals to the eye: shown + shownOfH · v·h
     float shownOfH;       // coefficient of v·h in that cosine
 };
 
@@ -136,8 +138,8 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
     return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv + coarse * seen, share - coarse);
 }
 
-// Adds a light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is needed only
-// through cosines: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
+// Adds a light from the unit direction `toLight` to the sums; `illuminance` is divided by π. The half vector h occurs
+// only in cosines: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
 void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec3 toLight, vec3 illuminance) {
     float cosine = dot(point.normal, toLight);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
@@ -145,12 +147,12 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float cosines = max(cosine + nv, 0.0);
     float cosines2 = cosines * cosines;
     float alpha2 = lobe.alpha * lobe.alpha;
-    float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // (n·h)² ≤ 1
+    float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // the max enforces (n·h)² ≤ 1
     float ggx = alpha2 / (base * base);
-    float away = max(cosines2, 1e-4 * sum2);  // avoids a zero cosine
+    float away = max(cosines2, 1e-4 * sum2);  // (n·h)²·|l + v|², bounded away from 0
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
     float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.spread);
-    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // cosine of the reflecting normals
+    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // cosine of the reflecting normals to the light
     float shownV = max(lobe.shown + lobe.shownOfH * vh, 0.0);   // back-facing normals reflect nothing
     float masking = max(mix(2.0 * shownL * shownV, shownL + shownV, lobe.width), 1e-4);
     float specular = shownV > 0.0 ? 0.5 * shownL * distribution / masking : 0.0;
@@ -165,13 +167,14 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     sums.grazing += received * g;
 }
 
-// Returns falloff and direction of a point or spot light (KHR_lights_punctual).
+// Returns the illuminance over π of a point or spot light at `position` (KHR_lights_punctual), and sets the unit vector
+// `toLight`. `positionRange`: position and range of the light; range 0 is unlimited.
 vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toLight) {
     vec3 offset = positionRange.xyz - position;
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (positionRange.w > 0.0) {                                       // window recommended by the extension
+    if (positionRange.w > 0.0) {                                       // the extension's recommended limit of the range
         float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -182,11 +185,11 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     return light.colorScale.rgb * falloff;
 }
 
-// Returns the normal whose cosine gives the diffusely reflected light.
+// Returns the normal with which the environment's diffuse light is evaluated.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the share of a white environment that the specular part reflects. The fit leaves [0, 1] at grazing angles for
-// rough surfaces without reflectance.
+// Returns the fraction of a white environment that the specular part reflects. The fit is clamped, because it leaves
+// [0, 1] at grazing angles for rough surfaces without reflectance.
 vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
@@ -195,8 +198,8 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
 }
 
-// Returns the light left for the layers beneath a layer that reflects `reflected`. The strongest channel of coloured
-// reflections counts, to keep the layers beneath from taking the opposite colour (KHR_materials_specular).
+// Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured reflections
+// the strongest channel counts, so that the layers beneath don't get the complementary colour (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
     return ownReflectance ? vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b))) : 1.0 - reflected;
 }
@@ -215,9 +218,9 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
         float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
         reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * environmentLevels);
     } else if (environmentType == 2) {
-        // Only heights (y) matter, including that of the mirrored direction 2 (n·v) n − v. Mirrored directions spread
-        // twice as far as the normals. Their mean height is therefore 1 − 2·spread of the mirrored height; for diffuse
-        // reflection it is 2/3.
+        // A gradient depends only on the height (y) of a direction, here of the mirrored direction 2 (n·v) n − v. The
+        // spread of the normals scales the mean height of mirrored directions by 1 − 2·spread. Diffuse reflection
+        // scales the height by 2/3; mixing in 6·spread of the diffuse light therefore has the same mean height.
         float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
         diffuse = gradientDiffuse(mattNormal(point).y);
         reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
@@ -235,8 +238,8 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     return light * (occlusion * environmentLighting);
 }
 
-// Returns the radiance towards the eye without the coat. `position` (from the camera) is used by point and spot lights
-// only.
+// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, matters only for point
+// and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
     float spread = slopeSpread(point);
@@ -274,7 +277,8 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     return radiance;
 }
 
-// KHR_materials_clearcoat: the coat of refractive index 1.5 reflects, and the rest of the light comes from beneath.
+// Returns the radiance towards the eye, with the clear coat of KHR_materials_clearcoat. The coat, of refractive index
+// 1.5, reflects a part of the light and transmits the rest to and from the surface beneath.
 vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
     if (!clearcoat) return uncoatedRadiance(point, position, occlusion);
     SurfacePoint coat = point;

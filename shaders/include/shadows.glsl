@@ -1,10 +1,11 @@
-// Visibility of each light and of the environment from a point (Williams 1978; Haeberli and Akeley 1990). shadowFirst,
-// shadowFaces: for each light and then the environment, its first map (−1: none) and its number of maps.
+// Visibility of each light and of the environment from a surface point (Williams 1978; Haeberli and Akeley 1990).
+// shadowFirst and shadowFaces hold, for each light and then the environment, the first shadow map (−1: none) and the
+// number of maps.
 //
-// A texel stores one depth, that of its centre, so a plane would shadow itself. The comparison therefore uses the depth
-// of the receiver's facet at the texel centre (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques). This is
-// exact for planes. For concave surfaces, the receiver is offset along the facet's normal n. The offset is a quarter of
-// a texel plus the deviation of the level of detail from the surface.
+// A texel stores only the depth at its centre, so a tilted plane would shadow itself. The comparison therefore uses the
+// depth of the receiver's facet at the texel centre (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques). This
+// is exact for planes. For concave surfaces, the receiver is offset along the facet's normal n by a quarter of a texel
+// plus the deviation of the level of detail from the surface.
 //
 // At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
 // diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
@@ -16,13 +17,14 @@
 layout(binding = 23) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
 
 struct Facet {
-    vec3 place;     // m from the camera along the world's axes
+    vec3 place;     // position in m from the camera along the world's axes
     vec3 normal;    // unit vector
 };
 
-// Returns the change of the facet's depth from `clip` to the texel centre, at offset `toMiddle` (NDC).
+// Returns the change of depth along the facet's plane from the position `clip` to the centre of its shadow map texel,
+// at offset `toMiddle` (NDC). `width` is the size of a texel at this depth, in m.
 float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMiddle) {
-    const float farthest = 4.0;   // texels
+    const float farthest = 4.0;   // texels; max distance along the facet
     vec3 across = normalize(cross(normal, abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 stepA = shadowDirection(texel, across * width);
     vec4 stepB = shadowDirection(texel, cross(normal, across) * width);
@@ -35,7 +37,8 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
     return dot(vec2(a.z, b.z), steps) * (way > farthest ? farthest / way : 1.0);
 }
 
-// Returns 1 if the facet is lit and 0 if not. `toLight` is a unit vector.
+// Returns 1 if the facet is lit according to shadow map `slot` of this layer's sample, else 0. `toLight` is a unit
+// vector.
 float litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
@@ -60,7 +63,7 @@ int cubeFace(vec3 direction) {
     return direction.z > 0.0 ? 4 : 5;
 }
 
-// Returns the visible share of light `i` from the direction `toLight`.
+// Returns the visible fraction of light `i`; `toLight` is the unit vector to the light.
 float lightShare(int i, Facet facet, vec3 toLight) {
     if (shadowFirst[i] < 0) return 1.0;
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);
@@ -69,7 +72,7 @@ float lightShare(int i, Facet facet, vec3 toLight) {
     return sum / float(shadowPoints);
 }
 
-// Returns the occluded part of the environment's irradiance over π, for a surface with the given normal.
+// Returns the irradiance over π that occluders take from the environment's light on a surface with the given normal.
 vec3 hiddenIrradiance(Facet facet, vec3 normal) {
     int map = shadowFirst[lightCount];
     vec3 sum = vec3(0.0);

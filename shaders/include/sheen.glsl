@@ -1,5 +1,6 @@
 // KHR_materials_sheen with the distribution and masking of Estevez and Kulla 2017, Production Friendly Microfacet Sheen
-// BRDF ("Charlie" sheen). Roughness is at least 0.1; smoother sheen would shrink to a line along the outline.
+// BRDF ("Charlie" sheen). Roughness is clamped to at least 0.1, because smoother sheen would shrink to a thin line
+// along the silhouette.
 
 float sheenWidth(float roughness) {
     float bounded = max(roughness, 0.1);
@@ -21,7 +22,8 @@ float sheenMasking(float cosine, float width) {
                         : exp(2.0 * sheenMaskingTerm(0.5, width) - sheenMaskingTerm(1.0 - cosine, width));
 }
 
-// Returns D·V·π for light from `toLight`.
+// Returns π times the sheen's BRDF D·V for light from the unit direction `toLight`. D is the distribution of normals
+// and V the visibility.
 float sheenReflectance(SurfacePoint point, float nv, float nl, vec3 toLight) {
     if (nv <= 0.0 || nl <= 0.0) return 0.0;
     float width = sheenWidth(point.sheenRoughness);
@@ -32,8 +34,8 @@ float sheenReflectance(SurfacePoint point, float nv, float nl, vec3 toLight) {
     return distribution * min(visibility, 1.0);
 }
 
-// Returns the share of a white environment that a white sheen reflects, a fit to ∫ D·V·(n·l) dl. For roughness ≥ 0.1
-// and n·v ≥ 0.035 the error is at most 0.006. The logarithm is a polynomial of n·v and the square root of roughness.
+// Returns the fraction of a white environment that a white sheen reflects, a fit to ∫ D·V·(n·l) dl. For roughness ≥ 0.1
+// and n·v ≥ 0.035 the error is at most 0.006. The logarithm of the fit is a polynomial of n·v and √roughness.
 float sheenAlbedo(float nv, float roughness) {
     vec4 powers = vec4(1.0, nv, nv * nv, nv * nv * nv);
     float root = sqrt(max(roughness, 0.1));
@@ -45,7 +47,8 @@ float sheenAlbedo(float nv, float roughness) {
     return clamp(exp(sum) - 0.001, 0.0, 1.0);
 }
 
-// Returns the light that the sheen leaves to the layers beneath. `share` is the share that a white sheen reflects.
+// Returns the fraction of light that the sheen leaves to the layers beneath. `share` is the fraction that a white sheen
+// reflects.
 float sheenRemaining(SurfacePoint point, float share) {
     return 1.0 - share * max(point.sheen.r, max(point.sheen.g, point.sheen.b));
 }

@@ -1,6 +1,6 @@
 // Varyings of the triangle that draws the sky of a lens sample.
 
-    vec2 place;                // in normalised device coordinates
+    vec2 place;                // image position in normalised device coordinates
     flat vec4 lensAndJitter;
     flat float bandShift;
     flat float layer;

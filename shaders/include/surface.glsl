@@ -1,16 +1,16 @@
-// Attributes of a surface as the vertex stage computes them and the fragment stage reads them. The stages exchange only
-// those that the material needs, as the varyings of surface_varyings.glsl.
+// Attributes of a surface that the vertex stage computes and the fragment stage reads. The stages exchange only the
+// attributes that the material needs, as the varyings of surface_varyings.glsl.
 
 struct Surface {
     vec4 color;
-    vec4 minColor;        // min over the adjacent corners
+    vec4 minColor;        // min and max colour of all triangles at the vertex
     vec4 maxColor;
     vec3 normal;          // in world axes, like all directions here
     float agreement;      // coarse levels: length of the mean of the represented normals, ≤ 1
-    vec3 toEye;           // towards this sample's lens point
-    vec3 position;        // relative to the camera
+    vec3 toEye;           // vector from the surface to this sample's lens point (m)
+    vec3 position;        // relative to the camera (m)
     vec2 lens;            // lens point (u, k·v) of the sample
-    float bandShift;      // as in lens.glsl
+    float bandShift;      // change of b in C by the sample's wavelength, as in lens.glsl
     vec4 uv;              // both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width

@@ -1,4 +1,4 @@
-// Surface at the corners of a triangle, for stages that create vertices.
+// Surface at the corners of a triangle, for tessellation and geometry shaders, which create vertices.
 
 #include "include/surface.glsl"
 
@@ -9,12 +9,13 @@ in SurfaceVaryings {
 #define SURFACE_IN corners[corner]
 #include "include/surface_read.glsl"
 
-// Returns Σ weights · corner. On an edge (one weight 0), both adjacent triangles obtain the same sum.
+// Returns the surface interpolated between the three corners. On an edge (one weight is 0), both adjacent triangles
+// obtain the same result.
 Surface weightedSurface(vec3 weights) {
     Surface a = surfaceAt(0);
     Surface b = surfaceAt(1);
     Surface c = surfaceAt(2);
-    Surface s = a;   // flat attributes
+    Surface s = a;   // flat attributes come from the first corner
     s.color = weights.x * a.color + weights.y * b.color + weights.z * c.color;
     s.normal = weights.x * a.normal + weights.y * b.normal + weights.z * c.normal;
     s.agreement = weights.x * a.agreement + weights.y * b.agreement + weights.z * c.agreement;

@@ -1,4 +1,5 @@
-// The surface in this fragment. main() must call readSurface() first.
+// Interpolated attributes of the fragment's surface, in the global variable `surface`. main() must call readSurface()
+// first.
 
 #include "include/surface.glsl"
 

@@ -8,13 +8,13 @@
 #include "include/shading.glsl"
 #include "include/surface_shading.glsl"
 
-// Min and max of the level's vertex colours, with levelColorRange.
+// Min and max of the vertex colours of the drawn level; used only if levelColorRange.
 layout(location = 0) uniform vec4 levelMin;
 layout(location = 1) uniform vec4 levelMax;
 
-// Clamps interpolated colours to the range of the corner values. Rasterizers round corners to a fraction of a pixel, so
-// a very narrow triangle may cover pixels far outside its plane equations. Normals need no clamp, because only their
-// direction counts. Texture coordinates need none, because steep ones select the smallest mip level.
+// Returns the interpolated colour, clamped to the range of the corner values. Rasterizers round corners to a fraction
+// of a pixel, so attributes of very narrow triangles are extrapolated far outside that range. Normals need no clamp,
+// because only their direction counts. Texture coordinates need none, because steep ones select the smallest mip level.
 vec4 surfaceColor() {
     if (colorRanges) return clamp(surface.color, surface.minColor, surface.maxColor);
     if (levelColorRange) return clamp(surface.color, material.baseColor * levelMin, material.baseColor * levelMax);
@@ -28,22 +28,22 @@ float sampleNumber() { return wave.firstSample + float(gl_Layer); }
 bool showsFront() { return gl_FrontFacing; }
 
 float surfaceFootprint(vec3 normal) {
-    vec3 right = dFdx(normal);   // of the surface normal: mip levels give the mean of normal maps
+    vec3 right = dFdx(normal);   // interpolated normal only: mip levels already average normal maps
     vec3 up = dFdy(normal);
     return dot(right, right) + dot(up, up);
 }
 
-// Returns true if this pixel of a boundary sample draws the coarser level. The ordered dither is the R2 sequence x/ρ +
-// y/ρ² modulo 1 with ρ³ = ρ + 1. Source: Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences. Integer
-// arithmetic in units of 2⁻³² gives identical results on all devices. The chosen pixels are evenly spread; each object
-// has its own offset.
+// Returns true if this pixel shows the coarser level in a boundary sample, the lens sample that mixes two levels. The
+// ordered dither is the R2 sequence x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1 (Roberts 2018, The Unreasonable Effectiveness
+// of Quasirandom Sequences). Integer arithmetic in units of 2⁻³² gives identical results on all devices. The chosen
+// pixels are evenly spread, with a different offset for each object.
 bool drawsCoarser() {
     uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
     uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
     return float(place >> 8) < object.values.y * 16777216.0;
 }
 
-// Returns the premultiplied light of this pixel, or discards it.
+// Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.
 vec4 surfaceLight() {
     if (coarseShare && !drawsCoarser()) discard;
     if (fineShare && drawsCoarser()) discard;

@@ -1,4 +1,4 @@
-// The varyings that a stage passes on.
+// Output varyings of a stage before the fragment stage, and writeSurface() to set them.
 
 out SurfaceVaryings {
 #include "include/surface_varyings.glsl"

@@ -1,4 +1,5 @@
-// Reads the varyings SURFACE_IN of a corner. Attributes that the material doesn't need are 0.
+// Returns the surface read from the varyings SURFACE_IN, an expression that may contain `corner`. Attributes that the
+// material doesn't need are 0, except that an unneeded ownBlur is (1, 0).
 
 Surface surfaceAt(int corner) {
     Surface s = Surface(vec4(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec2(0.0), 0.0, vec4(0.0),

@@ -1,10 +1,10 @@
-// Surface shading from the interpolated `surface`.
+// Shades a surface from its interpolated attributes in the global variable `surface`.
 
-// The including stage defines these two functions.
-bool showsFront();                       // true if the front is visible
+// Each including shader defines these two functions.
+bool showsFront();                       // true if the triangle's front is visible
 float surfaceFootprint(vec3 normal);     // SurfacePoint::footprint of the normalised interpolated normal
 
-// Returns the interpolated normal perturbed by `texel` of a normal map.
+// Returns the interpolated unit normal perturbed by the value `texel` of a normal map. `scale`: the map's normal scale.
 vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     vec3 tangent = surface.tangent.xyz - normal * dot(normal, surface.tangent.xyz);
     float tangent2 = dot(tangent, tangent);
@@ -28,7 +28,7 @@ vec3 shadingNormal(vec3 normal) {
     return towardsViewer(normal);
 }
 
-// Adds KHR_materials_ior and KHR_materials_specular.
+// Sets the reflectances F0 and F90 according to KHR_materials_ior and KHR_materials_specular.
 void addReflectance(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = material.reflectance.w * materialTexel(specularTexture).a;
     vec3 reflectance = material.reflectance.rgb * materialTexel(specularColorTexture).rgb;
@@ -82,7 +82,7 @@ vec3 shaded(vec3 baseColor) {
     point.footprint = surfaceFootprint(normal);
     if (emissive) point.emission = material.emissiveCutoff.rgb * materialTexel(emissiveTexture).rgb;
     if (coarseLevel) {
-        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles may extrapolate
+        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond their corners
         point.spread = normalSpread(point.agreement);
         point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
     }
@@ -96,6 +96,6 @@ vec3 shaded(vec3 baseColor) {
 
 vec3 surfaceRadiance(vec3 baseColor) {
     vec3 radiance = lit ? shaded(baseColor) : baseColor;
-    // NaN from a texel or a narrow triangle becomes black. Otherwise it would persist in the sum of all samples.
+    // NaN from a texel or a narrow triangle becomes black, because NaN would persist in the sum of all samples.
     return any(isnan(radiance)) ? vec3(0.0) : radiance;
 }

@@ -1,4 +1,4 @@
-// Members of the block SurfaceVaryings, which struct Surface describes.
+// Members of the interface block SurfaceVaryings; struct Surface in surface.glsl explains them.
 
     vec4 color;
     flat float ditherOffset;
@@ -16,7 +16,7 @@
 #endif
 #ifdef PLACED
     vec3 position;
-    flat vec3 lensAndBand;   // lens, bandShift
+    flat vec3 lensAndBand;   // Surface::lens, Surface::bandShift
 #endif
 #ifdef TEXTURED
     vec4 uv;

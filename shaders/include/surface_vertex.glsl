@@ -1,15 +1,15 @@
-// A vertex of a surface as one lens sample sees it. Each lens sample is an instance.
+// A vertex of a surface as seen by one lens sample. Each lens sample is one instance of an instanced draw.
 
 #include "include/vertex.glsl"
 #include "include/layer_choice.glsl"
 #include "include/surface.glsl"
 #include "include/surface_output.glsl"
 
-layout(location = 6) in vec4 lensAndJitterIn;   // per instance
+layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, k·v), pixel jitter (NDC)
 layout(location = 7) in vec4 eyeAndDitherIn;    // per instance: lens point (m), dither offset, layer
-layout(location = 13) in vec3 momentIn;         // per instance, as in vertexAt()
-layout(location = 14) in float bandShiftIn;     // per instance
-// Colour range of the adjacent corners. Each channel is 256 · max + min, in units of 1/255.
+layout(location = 13) in vec3 momentIn;         // per instance: `moment` of vertexAt()
+layout(location = 14) in float bandShiftIn;     // per instance: bandShift of lens.glsl
+// Min and max colour of all triangles at the vertex. Each channel is 256 · max + min, in units of 1/255.
 layout(location = 15) in vec4 colorRangeIn;
 
 Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndDitherIn.xy, 0.0)); }

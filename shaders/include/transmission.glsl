@@ -1,6 +1,6 @@
-// Light from behind a transmitting surface.
+// Light from behind a surface that transmits light.
 
-// This layer and the others, as they were before this object.
+// Copy of all layers from before this object was drawn: the background seen through the object.
 layout(binding = 22) uniform sampler2DArray backdrop;
 
 vec2 ndcThroughLens(vec3 viewPosition) {
@@ -8,9 +8,9 @@ vec2 ndcThroughLens(vec3 viewPosition) {
     return clip.xy / clip.w;
 }
 
-// Returns the colour seen through the surface at `offset` (m, along the world's axes). `roughness` in [0, 1] blurs it
-// as in KHR_materials_transmission's sample viewer; 1 blurs over the whole image. Each lens sample shifts the square
-// mip texels, so that they average out over the samples.
+// Returns the background colour at the surface's position plus `offset` (m, along the world's axes). `roughness` (0 …
+// 1) blurs the background as in Khronos's glTF Sample Viewer; 1 blurs over the entire image. Each lens sample shifts
+// the square mip texels, so that their edges average out over the samples.
 vec4 seenBehind(vec3 offset, float roughness) {
     if (chromatic) bandShift = surface.bandShift;
     ivec2 size = textureSize(backdrop, 0).xy;
@@ -24,8 +24,9 @@ vec4 seenBehind(vec3 offset, float roughness) {
     return textureLod(backdrop, vec3(at, gl_Layer), level);
 }
 
-// KHR_materials_transmission and KHR_materials_volume. A thin wall shows the background straight behind it. A volume
-// shows the background at the end of the refracted ray, after the volume's thickness, with Beer–Lambert absorption.
+// Adds transmitted light (KHR_materials_transmission and KHR_materials_volume). A thin wall shows the background
+// straight behind the wall. A volume shows the background at the end of the refracted ray through its thickness, with
+// Beer–Lambert absorption.
 void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = material.transmission.x * materialTexel(transmissionTexture).r;
     float thickness = material.transmission.y * materialTexel(thicknessTexture).g;

@@ -1,5 +1,5 @@
-// Varyings for the stages before the shear, besides the surface: pinhole position (x, y, w of clip space), blur
-// modifiers, and the lens sample of the instance.
+// Varyings of the stages before the lens shear, in addition to the surface: pinhole position (x, y, w of clip space),
+// blur modifiers, and the lens sample of the instance.
 
     vec3 pinhole;
     vec2 ownBlur;

@@ -1,4 +1,4 @@
-// A vertex of a mesh in view space, at rest or in a pose.
+// Transforms a vertex of a mesh to view space; with POSED, after applying its pose.
 
 layout(location = 0) in vec3 positionIn;
 layout(location = 1) in vec3 normalIn;
@@ -15,9 +15,9 @@ struct Posed {
 };
 
 struct Vertex {
-    Posed view;     // in the view space of the middle of the exposure
-    vec3 eye;       // lens point (m) in the same space
-    vec3 pinhole;   // pinholePosition() in the view space of the vertex's own moment
+    Posed view;     // in the view space in the middle of the exposure
+    vec3 eye;       // lens point (m) in the same view space
+    vec3 pinhole;   // pinholePosition() in the view space at the vertex's own moment
 };
 
 #ifdef POSED
@@ -30,10 +30,11 @@ Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
 }
 #endif
 
-// `moment`: shutter moment, fraction of the way to the next moment, time in [0, 1]. `eye`: lens point (m).
+// Returns the vertex at `moment`: shutter moment, fraction of the way to the next moment, time in [0, 1]. `eye`: lens
+// point (m) in view space.
 Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
 
-// Returns the blur modifiers of the vertex at a time in [0, 1].
+// Returns the blur modifiers of the vertex, (factor, added fraction of the image's width), at a time in [0, 1].
 vec2 vertexBlur(float time) {
     if (!vertexBlurs) return vec2(object.values.w, 0.0);
     return object.values.w * vec2(blurIn.x, frame.cocOther.y * mix(blurIn.y, blurIn.z, blurMoves ? time : 0.5));

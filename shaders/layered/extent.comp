@@ -1,9 +1,9 @@
-// Computes the min and max blur (px) of each layer's surfaces in squares of pixels, as a pyramid. A texel of level l
-// covers 2^(l + 1) pixels per side. Without a surface, min > max.
+// Computes one level of a pyramid of the min and max signed blur (px) of each layer's surfaces. A texel of level l
+// covers a square of 2^(l + 1) pixels per side. Without a surface, min > max.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2DArray source;   // finestExtents: surfaces as in layered/peel.frag; else extents
-layout(location = 0) uniform int finer;              // level of the source
+layout(binding = 0) uniform sampler2DArray source;   // finestExtents: surfaceOut of layered/peel.frag; else the pyramid
+layout(location = 0) uniform int finer;              // pyramid level to read from `source`
 layout(binding = 0, rg32f) writeonly uniform image2DArray extentOut;
 
 vec2 extentOf(ivec3 texel) {

@@ -1,13 +1,13 @@
-// Computes, for each pixel and layer, the min and max blur (px) of all surfaces that its lens rays may meet. A ray
-// meets a surface within half the surface's blur from the pixel. The square of that size bounds the blur, which may
-// shrink the square; the shader iterates this.
+// Computes, for each pixel and layer, the min and max signed blur (px) of all surfaces that the pixel's lens rays may
+// meet. A ray meets a surface at most half the surface's blur away from the pixel. The surfaces in a square around the
+// pixel bound the blur, and the bound may allow a smaller square; the shader repeats both steps.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2DArray extents;   // as in layered/extent.comp
+layout(binding = 0) uniform sampler2DArray extents;   // pyramid of min and max blur from layered/extent.comp
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
 layout(location = 0) uniform int border;        // px that the layers extend beyond the image
 layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
-layout(location = 2) uniform float bandBlur;    // px, max change of the blur by a wavelength
+layout(location = 2) uniform float bandBlur;    // max change of the blur by the wavelength (px)
 
 const int maxRounds = 5;
 
@@ -15,8 +15,7 @@ vec2 extentAround(vec2 centre, float radius, int layer) {
     int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, extentLevels - 1);
     float size = float(2 << level);
     ivec2 first = max(ivec2(floor((centre - radius) / size)), ivec2(0));
-    // The size is computed, because threads use different levels and some drivers cannot query the size of a varying
-    // level.
+    // The level's size is computed, because some drivers cannot query the size of a level that differs between threads.
     ivec2 last = min(ivec2(floor((centre + radius) / size)), (textureSize(extents, 0).xy >> level) - 1);
     vec2 extent = vec2(1e30, -1e30);
     for (int y = first.y; y <= last.y; ++y)

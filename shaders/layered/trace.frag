@@ -2,12 +2,11 @@
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
-// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits it if it is in
-// front of the plane at one end of the pixel and behind it at the other.
+// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if the
+// ray is in front of the plane where it enters the pixel and behind the plane where it leaves, or vice versa.
 //
-// Neighbouring pixels whose planes differ by less than a pixel of blur form one surface, which rays cannot pass
-// between. Rays start at a random position in their pixel. This does not affect focused surfaces and smooths the
-// others.
+// Neighbouring pixels whose planes differ by less than a pixel of blur form one surface without a gap between them.
+// Rays start at a random position in their pixel, which smooths blurred surfaces and does not affect focused ones.
 #include "include/frame.glsl"
 #include "include/layer_format.glsl"
 
@@ -16,16 +15,16 @@ in Sky {
 } sky;
 
 layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
-layout(binding = 1) uniform sampler2DArray layerSurfaces;   // as in layered/peel.frag
-layout(binding = 2) uniform sampler2DArray layerReach;      // as in layered/reach.comp
+layout(binding = 1) uniform sampler2DArray layerSurfaces;   // surfaceOut of layered/peel.frag
+layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur from layered/reach.comp
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int border;                    // px that the layers extend beyond the image
-layout(location = 2) uniform vec2 pinhole;                  // px, pinhole position of the layers in the pixel
+layout(location = 2) uniform vec2 pinhole;                  // px, position in the pixel at which the layers were drawn
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // tolerance in px of blur for meeting a plane
-const float oneSurface = 1.0; // px of blur, like the umbra in layered/peel.frag
+const float rounded = 0.05;   // px of blur, tolerance for hitting a plane
+const float oneSurface = 1.0; // px of blur, max difference between adjacent planes of one surface
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
 struct Hit {
@@ -38,16 +37,16 @@ struct Hit {
 struct Ray {
     vec2 start;      // px
     vec2 slope;      // px per px of blur
-    vec2 perSlope;
-    float shift;     // px of blur, added to all surfaces
+    vec2 perSlope;   // 1 / slope
+    float shift;     // px, added to the blur of all surfaces
 };
 
 vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 
-// Finds the nearest hit in a layer beyond the reversed depth `limit`.
+// Updates `hit` if the ray meets a nearer surface in this layer. Only surfaces behind the reversed depth `limit` count.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows with the distance
+    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray
     ivec2 size = textureSize(layerSurfaces, 0).xy;
     vec2 toFirst = -ray.start * ray.perSlope;
     vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;
@@ -59,7 +58,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 forward = ivec2(ray.slope.x < 0.0 ? -1 : 1, ray.slope.y < 0.0 ? -1 : 1);
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
-    bool connected = false;   // to the previous pixel
+    bool connected = false;   // true if the previous pixel has a surface
     float before = 0.0;       // px of blur by which the ray was behind the plane at its exit
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
@@ -92,7 +91,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
-    // Focused surfaces stay in their pixel despite rounding.
+    // The clamp keeps rays to focused surfaces in their pixel despite rounding.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

@@ -1,5 +1,5 @@
-// Kernel 2: finds the tiles that a triangle may cover from any lens point at any time. countsOnly: counts the
-// triangles of each tile; otherwise fills the tiles' lists.
+// Kernel 2 of the lens-space methods: finds the tiles that a triangle may cover as seen from any lens point at any
+// time. countsOnly: counts the triangles of each tile; otherwise fills the tiles' triangle lists.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -7,13 +7,13 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// countsOnly: triangles per tile. Otherwise: next free entry of each tile.
+// countsOnly: number of triangles of each tile. Otherwise: index in `entries` of each tile's next free entry.
 layout(std430, binding = 4) buffer CountBlock { uint counts[]; };
 layout(std430, binding = 5) writeonly buffer EntryBlock { uint entries[]; };
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint triangleCount;
-layout(location = 2) uniform uint firstTile;   // first tile to fill, in rows from the lower left
+layout(location = 2) uniform uint firstTile;   // tiles [firstTile, endTile), in rows from the lower left
 layout(location = 3) uniform uint endTile;
 
 struct Area {
@@ -28,8 +28,8 @@ void add(inout Area area, vec4 clip, float aspect) {
     area.maximum = max(area.maximum, place + reach);
 }
 
-// Extends the area by the part of the triangle beyond the near plane. C/w and the position are monotonic along an edge,
-// so the part's corners bound it.
+// Extends the area by the part of the triangle beyond the near plane, as seen from all lens points. C/w and the image
+// position are monotonic along an edge, so the part's corners bound the area.
 void add(inout Area area, vec4 corners[3], float aspect) {
     float near = frame.projection.z;
     for (int i = 0; i < 3; ++i) {
@@ -67,8 +67,8 @@ void main() {
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);
     if (moving) {
-        // While a vertex moves in front of the camera, its position and C/w stay between their end values. No such
-        // bound exists if a corner crosses the near plane.
+        // While a vertex moves in front of the camera, its image position and C/w stay between their values at the
+        // start and the end. No such bound exists if a corner crosses the near plane.
         vec4 later[3] = vec4[3](clipAtEnd(triangle.x), clipAtEnd(triangle.y), clipAtEnd(triangle.z));
         float near = frame.projection.z;
         float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));

@@ -5,7 +5,7 @@
 #include "include/lens.glsl"
 #include "include/vertex.glsl"
 
-layout(location = 0) uniform vec3 moment;   // as in vertexAt()
+layout(location = 0) uniform vec3 moment;   // shutter moment, fraction of the way to the next, time in [0, 1]
 
 layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w of clip space; C
 
@@ -13,7 +13,8 @@ void main() {
     vec3 pinhole = vertexAt(moment, vec3(0.0)).pinhole;
     float c = frame.coc.x + frame.coc.y * pinhole.z;
     if (cocControls) {
-        // Vertices at the near plane have one linear C, because the methods reject objects with a kinked C there.
+        // C is linear at and behind the near plane, because the lens-space methods reject objects on which C has kinks
+        // there. Only w = 0 must be avoided.
         float w = pinhole.z == 0.0 ? 1e-20 : pinhole.z;
         c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, vertexBlur(moment.z));
     }

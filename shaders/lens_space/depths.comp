@@ -1,4 +1,5 @@
-// Computes the min depth w of each triangle over time, as bits with the same ordering; 0 if it reaches the near plane.
+// Computes each triangle's min depth w over time, as float bits, which sort like the values. The result is 0 if the
+// triangle extends in front of the near plane.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"

@@ -1,8 +1,8 @@
-// A group of surfaces with the same shader, and its range in the list of a wave's records.
+// A group of surfaces with the same shader, and the group's range in the list of a wave's records (ray hits).
 
 struct Group {
     uint count;
-    uint first;      // index of its first record in the list
+    uint first;      // index of the group's first record in the list
     uint listed;     // number of records listed so far
     uint unused;
 };

@@ -1,8 +1,8 @@
-// Shades records with the interpolated light of their triangle's vertices.
+// Shades records (ray hits) by interpolating the light of the hit triangle's vertices.
 
 #include "lens_space/shade.glsl"
 
-layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front, back
+layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
 
 vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place) {
     uvec3 vertices = triangles[record.triangle].xyz;

@@ -1,11 +1,12 @@
-// Computes where each group's records begin in the list, and how many workgroups shade them.
+// Computes where the records of each group of surfaces begin in the list of records, and how many workgroups of 256
+// threads shade them.
 
 #include "lens_space/groups.glsl"
 
 layout(local_size_x = 1) in;
 
 layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };
-layout(std430, binding = 6) writeonly buffer DispatchBlock { uint sizes[]; };   // x, y, z of each group's dispatch
+layout(std430, binding = 6) writeonly buffer DispatchBlock { uint sizes[]; };   // per group: x, y, z of the dispatch
 
 layout(location = 0) uniform uint groupCount;
 

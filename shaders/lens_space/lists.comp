@@ -1,4 +1,5 @@
-// Sorts records into groups of surfaces with the same shader. countsOnly: counts the records; otherwise lists them.
+// Sorts records (ray hits) into groups of surfaces with the same shader. countsOnly: counts each group's records;
+// otherwise writes the records' indices to the groups' ranges of the list.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"

@@ -1,4 +1,4 @@
-// Outputs the mean over a pixel's rays.
+// Outputs the mean light over a pixel's rays.
 
 layout(std430, binding = 3) readonly buffer SumBlock { vec4 sums[]; };
 

@@ -1,4 +1,4 @@
-// Compensated sum of the results of each pixel's rays.
+// Compensated sum of the light of each pixel's rays.
 
 #include "include/compensated.glsl"
 #include "lens_space/records.glsl"
@@ -11,12 +11,12 @@ layout(location = 0) uniform uint pixelCount;
 layout(location = 1) uniform uint rayCount;
 layout(location = 2) uniform bool begins;   // true: first wave of the frame
 
-// Returns the pixel of this thread; pixelCount and above: none.
+// Returns the index of this thread's pixel. Threads with an index ≥ pixelCount have no pixel.
 uint pixelOfThread() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-// Adds a shaded record.
+// Adds the light of a shaded record, which replaces the record's hit (records.glsl).
 void addRecord(inout vec4 sum, inout vec4 compensation, Record light) {
     addCompensated(sum.rgb, compensation.rgb, vec3(uintBitsToFloat(light.triangle), uintBitsToFloat(light.ray), light.place));
     addCompensated(sum.a, compensation.a, light.weight);

@@ -1,16 +1,18 @@
-// Rays of each pixel. There are rayVariants sets of rays, each well distributed over lens and pixel. Pixels of a square of
-// up to 8 × 8 pixels use different sets, and each square has its own order (src/render/lens_space/ray_sets.h).
+// Rays of each pixel. There are rayVariants sets (variants) of rays, each well distributed over lens and pixel. The
+// pixels of a square of up to 8 × 8 pixels use different sets, in a different order in each square
+// (src/render/lens_space/ray_sets.h).
 
 struct Ray {
-    // Lens point (u, k·v), or the direction of a line over the lens; then the position in the pixel, in px from its
-    // centre.
+    // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the
+    // pixel's centre.
     vec4 lensAndPixel;
-    // Point: x is the time in the part of the exposure. Line: its backward extent, and the share of its light that
-    // passes forwards.
+    // Point sample: x is the time in the part of the exposure, [0, 1]. Line sample: x is the line's extent on the other
+    // side of the lens centre, relative to the rim; y is the fraction of its light on the rim's side; z is the position
+    // of the shading point in a segment, [0, 1).
     vec4 values;
 };
 
-layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // ray · rayVariants + variant
+layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index: ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint firstRay;   // first ray of the wave
@@ -21,8 +23,8 @@ uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     return x ^ (x >> 16);
 }
 
-// Returns the ray set of a pixel. Bayer's matrix (1973) separates successive sets, and each square flips the index with
-// its own bits.
+// Returns the number of a pixel's ray set. Bayer's matrix (1973) assigns successive sets to distant pixels of a square,
+// and each square of 8 × 8 pixels flips random bits of the number.
 uint variantOf(uvec2 pixel) {
     uint order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -33,8 +35,8 @@ uint variantOf(uvec2 pixel) {
     return (order ^ mixedBits((pixel.x >> 3u) + mixedBits(pixel.y >> 3u))) & (rayVariants - 1u);
 }
 
-// Returns ray `ray` of the wave.
+// Returns ray number `ray` of the wave for a pixel.
 Ray rayOf(uint ray, uvec2 pixel) { return rays[(firstRay + ray) * rayVariants + variantOf(pixel)]; }
 
-// Returns the ray's position in the image, in normalised device coordinates.
+// Returns the image position of a pixel's ray, in normalised device coordinates.
 vec2 placeOf(Ray ray, uvec2 pixel) { return 2.0 * (vec2(pixel) + 0.5 + ray.lensAndPixel.zw) / vec2(imageSize) - 1.0; }

@@ -1,4 +1,4 @@
-// Shades the records of one group. The including file defines lightOf().
+// Shades the records (ray hits) of one group of surfaces with the same shader. Each including file defines lightOf().
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -16,7 +16,8 @@ layout(std430, binding = 5) readonly buffer ListBlock { uint list[]; };
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform float lensRadius;   // m
 
-// Returns the light of a record's surface or of the sky, through a lens point to a position in the image.
+// Returns the light (rgb, coverage) of a record's surface, or of the sky, along the ray through lens point `lens` to
+// image position `place`.
 vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place);
 
 vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }

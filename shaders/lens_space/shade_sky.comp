@@ -1,4 +1,4 @@
-// Shades the records of the sky. The sky lies at infinity, where C/w = b.
+// Shades the records of rays that meet no surface with the sky, which lies at infinity, where C/w = b.
 
 #include "lens_space/shade.glsl"
 

@@ -1,4 +1,4 @@
-// Shades the records of surfaces with the same material and features.
+// Shades the records (ray hits) of surfaces with the same material and features.
 
 #include "lens_space/shade.glsl"
 #include "lens_space/surface.glsl"

@@ -1,6 +1,7 @@
-// Sorts each tile's triangles by min depth, then by their order in the frame, so that the result is deterministic. Late
-// triangles are mostly hidden, and rays may finish early. The bitonic sort (Batcher 1968) has mirrored first steps. All
-// steps therefore put the smaller value first, and entries beyond the end can be skipped.
+// Sorts each tile's triangles by min depth, so that rays finish before the hidden triangles at the end of the list.
+// Triangles of equal depth are sorted by number, which makes the result deterministic. In this bitonic sort (Batcher
+// 1968) the first step of each block is mirrored. All steps therefore put the smaller value first, and positions beyond
+// the end of the list can be skipped.
 
 layout(local_size_x = 256) in;
 
@@ -10,8 +11,8 @@ layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 6) readonly buffer DepthBlock { uint depths[]; };
 
 layout(location = 0) uniform uint firstTile;
-// A block and a step of it; 0: all. Mesa's software driver ends the loops of a thread after a total of 65,535 rounds,
-// so long lists need several dispatches.
+// Size of the block and step to run; (0, 0) runs all. Mesa's software driver ends the loops of a thread after a total
+// of 65,535 iterations, so long lists need one dispatch per step.
 layout(location = 1) uniform uvec2 only;
 
 void order(uint a, uint b) {

@@ -1,8 +1,8 @@
-// Shades surfaces of one material from the attributes of their vertices.
+// Shades surfaces of one material in compute shaders, which interpolate the attributes of vertices themselves.
 
 struct Attributes {
     vec4 position;   // m from the camera along the world's axes
-    vec4 normal;     // w: agreement
+    vec4 normal;     // w: length of the mesh's normal, 1 except in coarse levels
     vec4 color;
     vec4 uv;
     vec4 tangent;
@@ -19,12 +19,13 @@ struct Surface {
     vec4 tangent;
     float agreement;
     bool showsFront;
-    vec4 uvRight;       // UV that the same lens point sees one pixel to the right; uvUp: one pixel up
-    vec4 uvUp;
+    vec4 uvRight;       // UV that the same lens point sees one pixel to the right
+    vec4 uvUp;          // UV that the same lens point sees one pixel up
     vec3 normalRight;
     vec3 normalUp;
 };
-// Initialised, because functions above the assignment read it and drivers warn about uninitialised values.
+// Initialised because drivers warn about uninitialised values: functions read this variable before the code that
+// assigns it.
 Surface surface = Surface(vec4(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), 1.0, true, vec4(0.0), vec4(0.0), vec3(0.0),
                           vec3(0.0));
 
@@ -37,7 +38,8 @@ vec4 surfaceTexel(int unit, int slot) {
                        uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv));
 }
 
-// All samples of a block use the same sample number, whose pixel share is the mean of a frame's first 64 samples.
+// Returns one number for all samples of a block. In the first block it is 12.5, because 1/(12.5 + 1) is the mean of
+// 1/(n + 1), the fraction of a pixel that sample n represents, over the first 64 samples.
 float sampleNumber() { return wave.firstOfBlock + 12.5; }
 
 bool showsFront() { return surface.showsFront; }

@@ -1,11 +1,11 @@
-// Kernel 1, second part: converts a range of a level's indices to triangles of the frame, counter-clockwise if the
-// front is visible.
+// Second part of kernel 1 of the lens-space methods: converts a range of a level's indices to triangles of the frame,
+// which are counter-clockwise in the image if the front is visible.
 
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex; only with lightsVertices
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex; only if lightsVertices
 
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;

@@ -1,8 +1,8 @@
 // Triangles of a frame as seen from a point of the lens.
 //
-// A vertex is (x, y, w, C). From the lens point l = (u, k·v) it appears at p + C·(l, 0) (Munkberg, Toth and
-// Akenine-Möller 2012). Relative to an image position s it is q = (x, y) + C·l − w·s. The edge from i to j has the
-// function
+// A vertex is (x, y, w, C), with C the clip-space circle of confusion. Seen from the lens point l = (u, k·v) its clip
+// position is (x, y) + C·l (Munkberg, Toth and Akenine-Möller 2012). Relative to an image position s this is
+// q = (x, y) + C·l − w·s. The edge from vertex i to vertex j has the function
 //   e_ij = q_i × q_j,
 // the volume spanned by the ray and the edge. All three functions are ≥ 0 if the ray meets the triangle's front at w >
 // 0, and ≤ 0 if it meets the back. This also holds for vertices behind the camera (Olano and Greer 1997, Triangle Scan
@@ -12,7 +12,7 @@
 // between them.
 
 struct Draw {
-    uint firstRay;      // rays [firstRay, endRay) of each pixel see the triangle
+    uint firstRay;      // only rays [firstRay, endRay) of each pixel see the draw's triangles
     uint endRay;
     uint group;         // group of surfaces with the same shader
     uint doubleSided;
@@ -28,14 +28,16 @@ vec4 clipAtEnd(uint vertex) { return clipsAtEnd[vertex]; }
 #else
 vec4 clipAtEnd(uint vertex) { return clips[vertex]; }
 #endif
-layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };  // three vertices; draw
+layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };  // xyz: vertices; w: draw
 
-// Returns a vertex at `fraction` of the current part of the exposure; positions and C are linear in time.
+// Returns a vertex (x, y, w, C) at the time `fraction` in the current part of the exposure. Positions and C are linear
+// in time.
 vec4 clipAt(uint vertex, float fraction) {
     return moving ? mix(clips[vertex], clipAtEnd(vertex), fraction) : clips[vertex];
 }
 
-// Returns q. For a plain lens, C = a + b·w, the lens costs one multiplication and one addition.
+// Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. For a plain lens,
+// C = a + b·w, the compiler reduces the lens to one multiplication and one addition per coordinate.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     precise vec2 q;
     if (cocControls)
@@ -45,7 +47,7 @@ vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     return q;
 }
 
-// Returns the functions of the edges opposite to the three corners.
+// Returns the edge functions of a triangle; component i belongs to the edge opposite to corner i.
 vec3 edgeFunctions(vec4 a, vec4 b, vec4 c, vec2 lens, vec2 place) {
     precise vec2 qa = relativeTo(a, lens, place);
     precise vec2 qb = relativeTo(b, lens, place);
@@ -61,7 +63,7 @@ float minDepthOf(uvec3 vertices) {
     return minimum;
 }
 
-// Returns the depth w of the hit; 0 for a miss or a hit in front of the near plane.
+// Returns the depth w at which a ray hits the triangle; 0 for a miss or a hit in front of the near plane.
 float depthMet(vec4 a, vec4 b, vec4 c, bool doubleSided, vec2 lens, vec2 place) {
     vec3 e = edgeFunctions(a, b, c, lens, place);
     bool met = all(greaterThanEqual(e, vec3(0.0))) || (doubleSided && all(lessThanEqual(e, vec3(0.0))));

@@ -1,4 +1,5 @@
-// Adds the results of a wave's lines to each pixel's compensated sum, in order. Each line has a range of records.
+// Adds the light of a wave's lines to each pixel's compensated sum, in the order of the lines. Each line has a range of
+// records.
 
 #include "lens_space/pixel_sum.glsl"
 

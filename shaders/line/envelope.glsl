@@ -1,25 +1,26 @@
-// Visible pieces of a line: disjoint, ordered by p, each from the nearest segment so far.
+// Visible pieces of a line over the lens: disjoint intervals, sorted by the position p along the line. Each piece
+// belongs to the segment (triangle on the line) that is nearest so far.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    uint index;      // index among the line's pieces, for the final walk
+    uint index;      // index of the next piece in the line's list
 };
 
-// Double buffer: each new segment rewrites one list into the other.
+// Double buffer of the list of pieces: each new segment reads one list and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
-vec4 pieceDepths[2 * segmentCapacity];   // E at 0, its slope; D at 0, its slope
+vec4 pieceDepths[2 * segmentCapacity];   // 1/w = E/D (line.glsl): E at 0, slope of E; D at 0, slope of D
 uint pieceTriangles[2 * segmentCapacity];
 uint pieceCount = 0u;
 uint current = 0u;                // start of the current list: 0 or segmentCapacity
 uint nextCount = 0u;
 uint nextList = 0u;
 vec2 lineSides;
-float lost = 0.0;                 // light of pieces that exceeded the capacity
+float lost = 0.0;                 // fraction of the line's light in pieces beyond the capacity
 uint lostPieces = 0u;
-float hidden = 0.0;               // min visible 1/w if the entire line is covered
-float nextMin = 1e30;           // min visible 1/w of the new list
+float hidden = 0.0;               // min visible 1/w if the entire line is covered, else 0
+float nextMin = 1e30;           // min visible 1/w in the list being written
 bool nextHasGaps = false;
 
 void beginLine(vec2 sides) { lineSides = sides; }
@@ -49,9 +50,9 @@ void emitPiece(float first, float last, uint triangle, vec4 depth) {
     ++nextCount;
 }
 
-// Returns a function that is > 0 where `a` is nearer than `b`: E₁/D₁ − E₂/D₂ times both determinants. The determinants
-// are positive where the triangles are visible.
-vec3 nearness(vec4 a, vec4 b) {   // constant, linear, quadratic term
+// Returns the coefficients (constant, linear, quadratic) of a polynomial in p that is > 0 where `a` is nearer than `b`:
+// (E₁/D₁ − E₂/D₂)·D₁·D₂. The determinants D are positive where the triangles are visible.
+vec3 nearness(vec4 a, vec4 b) {
     return vec3(a.x * b.z - b.x * a.z, a.x * b.w + a.y * b.z - b.x * a.w - b.y * a.z, a.y * b.w - b.y * a.w);
 }
 
@@ -60,7 +61,8 @@ bool nearer(vec3 f, float p, uint a, uint b) {
     return value > 0.0 || (value == 0.0 && a < b);
 }
 
-// Returns the ordered positions where two segments intersect; values above 2 mean no intersection.
+// Returns the two positions p, in ascending order, where two segments with nearness polynomial `f` intersect. Values
+// above 2 mean no intersection.
 vec2 crossings(vec3 f) {
     if (f.z == 0.0) return vec2(f.y == 0.0 ? 4.0 : -f.x / f.y, 4.0);
     float discriminant = f.y * f.y - 4.0 * f.x * f.z;
@@ -71,10 +73,10 @@ vec2 crossings(vec3 f) {
     return vec2(min(a, b), max(a, b));
 }
 
-// Returns true if a surface at this inverse depth may be visible.
+// Returns true if a surface at inverse depth 1/w may be visible on the line.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Returns true if any part of a segment may be visible. The max of 1/w is at one of its ends.
+// Returns true if any part of a segment may be visible. The max of 1/w on a segment is at one of the segment's ends.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -108,7 +110,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // one for each of the parts below, and one for the loop
+        ownRounds += 4u;   // one for this loop and three for the parts below
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];
@@ -116,7 +118,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
             emitPiece(ends.x, ends.y, other, otherDepth);
             continue;
         }
-        // Processes the free part before the piece, the overlap, and the rest of the piece on either side.
+        // The new segment fills the gap before this piece.
         if (cursor < interval.last && ends.x > cursor) {
             float last = min(ends.x, interval.last);
             emitPiece(cursor, last, triangle, depth);
@@ -147,7 +149,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     hidden = nextHasGaps || pieceEnds[current + pieceCount - 1u].y != 1.0 ? 0.0 : nextMin;
 }
 
-// Returns the piece at p, or the gap up to the next piece.
+// Returns the part of the line that begins at p: the piece there, or the gap up to the next piece.
 Piece pieceFrom(uint index, float p, Interval whole) {
     if (index < pieceCount) {
         vec2 ends = pieceEnds[current + index];
@@ -161,7 +163,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
 
-// Returns an upper bound on the loop rounds of the final walk.
+// Returns an upper bound on the loop iterations for writing the line's records at the end.
 uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(maxShadingPoints)); }
 
 const uint stateSize = 2u + 4u * uint(segmentCapacity);

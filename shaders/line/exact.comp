@@ -1,4 +1,5 @@
-// Each line keeps its visible parts as disjoint pieces. Every new segment is cut at their ends and at intersections.
+// Finds the visible surfaces of lines exactly. Each line keeps its visible parts as disjoint pieces. Each new segment
+// is cut at the ends of these pieces and at intersections with them.
 
 #include "line/kernel.glsl"
 #include "line/envelope.glsl"

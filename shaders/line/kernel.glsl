@@ -1,5 +1,5 @@
-// Inputs of the kernel that finds the segments of lines. A workgroup processes one tile and one line of each of its
-// pixels.
+// Inputs of the kernel that finds the visible segments of lines. A workgroup processes one tile and one line of each of
+// the tile's pixels.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -11,7 +11,7 @@
 layout(local_size_x = tileSize, local_size_y = tileSize) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// Ends of the tiles' triangle lists in the entries.
+// End of each tile's triangle list, as an index into `entries`.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
@@ -21,52 +21,53 @@ layout(std430, binding = 1) buffer OutputBlock {
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
-    // Per ray of the wave: first record, number of records. Then the deferred jobs, two elements each: (tile, ray) and
-    // (next entry, status). Then the saved state of the lines of unfinished jobs.
+    // First, (first record, number of records) of each line of the wave. Then two elements for each deferred job:
+    // (tile, line) and (next entry, status). Then the saved states of the lines of unfinished jobs.
     uvec2 ranges[];
 };
 struct Bounds {
-    vec4 box;               // box of the line over the variants: min (u, k·v), max (u, k·v)
-    // xy: unit vector across the line in (u, v); z: max offset of any variant from the middle along it.
+    vec4 box;               // bounding box of all variants of the line: min (u, k·v), max (u, k·v)
+    // xy: unit vector in (u, v) perpendicular to the mean of the line's variants; z: max distance of a variant's points
+    // from that mean line.
     vec4 strip;
 };
 layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
-layout(location = 2) uniform uint firstTile;       // first tile that the entries cover
+layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// Surface motion in px that one shading point covers; 0: one shading point per segment.
+// Max motion of a surface in the image (px), along a segment, for one shading point; 0: one point per segment.
 layout(location = 5) uniform float shadingStep;
-// A job is the work of a workgroup: one tile and one line of each of its pixels. Mesa's software driver ends the loops
-// of a thread after a total of 65,535 rounds. Jobs that need more are deferred and continue in later dispatches.
-layout(location = 6) uniform uint maxRounds;      // approximate limit on loop rounds per dispatch; 0: none
-// x: 1 for deferred jobs, 0 for all tiles and rays; y: first job of the dispatch; z: start of the saved states; w:
-// where to store deferred jobs. y, z and w are indices into `ranges`.
+// A job is the work of a workgroup: one tile and one line of each of the tile's pixels. Mesa's software driver ends the
+// loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
+layout(location = 6) uniform uint maxRounds;      // approximate max loop iterations per dispatch; 0: unlimited
+// x: 1 runs deferred jobs, 0 all tiles and lines. Indices into `ranges`: y: first deferred job to run; z: start of the
+// saved states; w: position for storing deferred jobs.
 layout(location = 7) uniform uvec4 jobs;
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans before the kept triangles' segments are added. A scan covers as many entries as there are
-// threads.
+// Max number of scans of the tile's list before the segments of the kept triangles are added. A scan covers one entry
+// per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangle, double-sided
+shared uvec2 kept[maxKept];    // triangle; 1 if double-sided, else 0
 shared uint keptHere[2];        // one bit for each thread whose candidate is kept
 shared uint keptCount;
 shared uint nextBase;
-shared uint open;               // true if some line may still see later triangles
-shared uint halted;             // status of threads that ran out of rounds: the flags below
+shared uint open;               // 1 if some line may still see later triangles of the list, else 0
+shared uint halted;             // reasons of threads to interrupt the job: the flags below
 
-const uint hasSegments = 1u;    // visible segments are not yet added
-const uint hasNoRounds = 2u;
+const uint hasSegments = 1u;    // a thread has visible segments that are not yet added
+const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // continues with the triangles from the next entry on
-const uint jobHasSeen = 2u;     // has scanned the triangles there; some segments are not yet added
+const uint jobGoesOn = 1u;      // continues with the triangles from the job's next entry on
+const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible ones are known and only remain to be added
 const uint jobIsDone = 3u;
 
-// A driver's vector of threads runs a loop as often as its slowest thread.
+// Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.
 const uint widestVector = 16u;
-uint commonRounds = 0u;         // rounds of loops that all threads run equally often
-uint ownRounds = 0u;
+uint commonRounds = 0u;         // iterations of loops that all threads run equally often
+uint ownRounds = 0u;            // iterations of this thread's other loops
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }

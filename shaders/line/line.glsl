@@ -1,17 +1,19 @@
 // A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
 // Samples).
 //
-// The line has the direction d = (cos φ, k·sin φ). At its lens point p·d, a vertex lies at q(p) = α + p·β relative to
-// an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the edge functions are linear in p:
+// The line has the direction d = (cos φ, k·sin φ). Seen from lens point p·d, a vertex (x, y, w, C) lies at
+// q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the edge
+// functions are linear in p:
 //   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
-// This is the paper's C + u·A(y) − v·B(x) ≥ 0. With E = Σ e and D = Σ e·w, the triangle's determinant, 1/w = E/D. Both
-// are linear in p. So is D − near·E, which is ≥ 0 for the part of the triangle beyond the near plane.
+// The line sees the triangle's front where all e_ij ≥ 0, the paper's C + u·A(y) − v·B(x) ≥ 0. The depth w there follows
+// from 1/w = E/D, with E = Σ e and the triangle's determinant D = Σ e·w. Both are linear in p. So is D − near·E, which
+// is ≥ 0 for the part of the triangle beyond the near plane.
 
 struct OnLine {
     vec3 edgesAt0;
     vec3 edgeSlopes;
-    vec2 sums;         // E at 0, its slope
-    vec2 determinant;  // D at 0, its slope
+    vec2 sums;         // E at p = 0, slope of E
+    vec2 determinant;  // D at p = 0, slope of D
 };
 
 struct Interval {
@@ -50,7 +52,7 @@ OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
     return line;
 }
 
-// Returns the back side of the triangle.
+// Returns the triangle with its front and back exchanged.
 OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
 
 void cut(inout Interval interval, float at0, float slope) {
@@ -63,7 +65,7 @@ void cut(inout Interval interval, float at0, float slope) {
     else interval.last = min(interval.last, root);
 }
 
-// Returns the interval within `whole` in which the line sees the front.
+// Returns the interval of positions p, within `whole`, in which the line sees the triangle's front.
 Interval seen(OnLine line, Interval whole) {
     Interval interval = whole;
     if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // degenerate triangle

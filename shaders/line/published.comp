@@ -1,4 +1,4 @@
-// Segments are kept in a buffer in shared memory, as published, and resolved at the end.
+// Keeps the segments of lines in a buffer in shared memory and resolves visibility at the end, as in Tzeng et al. 2012.
 
 #include "line/kernel.glsl"
 #include "line/segment_buffer.glsl"

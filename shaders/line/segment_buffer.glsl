@@ -1,20 +1,20 @@
-// Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Hidden segments are
-// dropped, and so are segments with a negligible share of the line's light. If the buffer is full, a new segment is
-// merged with one that it continues on the same surface. Otherwise the segment with the smallest contribution is
-// dropped. A final sweep along the line finds the nearest segments. The sweep reorders intersecting segments only where
-// one of them ends.
+// Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Hidden segments and
+// segments with a negligible fraction of the line's light are dropped. If the buffer is full, a new segment is merged
+// with a segment that it continues on the same surface. Without such a segment, the segment with the smallest fraction
+// of the light is dropped. A final sweep along the line finds the nearest segments. Where segments intersect, the sweep
+// switches between them only at an end of a segment.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    float nextLast;      // end of the segment behind it, from another triangle
-    uint nextTriangle;
+    float nextLast;      // end of the next part of the line, which shows another triangle
+    uint nextTriangle;   // triangle in that part
 };
 
 const float minLight = 1.0 / 4096.0;       // fraction of the line's light
-const float continuation = 1e-3;             // fraction of the line: max gap between a segment and its continuation
-const float sameDepth = 0.02;                // relative tolerance of the inverse depth
+const float continuation = 1e-3;             // max gap in p between a segment and its continuation
+const float sameDepth = 0.02;                // max relative difference of 1/w at the gap
 
 shared vec4 segments[threads * uint(segmentCapacity)];         // p at both ends, 1/w at both ends
 shared uint segmentTriangles[threads * uint(segmentCapacity)];
@@ -23,9 +23,9 @@ vec2 lineSides;
 float lost = 0.0;
 uint lostSegments = 0u;
 uint merged = 0u;
-float hidden = 0.0;      // 1/w below which a segment over the entire line hides everything
+float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment over the entire line
 
-uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // adjacent threads use adjacent words
+uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // adjacent threads access adjacent elements
 
 void beginLine(vec2 sides) { lineSides = sides; }
 
@@ -33,7 +33,7 @@ float inverseDepthAt(vec4 segment, float p) {
     return mix(segment.z, segment.w, clamp((p - segment.x) / (segment.y - segment.x), 0.0, 1.0));
 }
 
-// Returns true if `a` covers all of `b` and is nearer at both ends of `b`.
+// Returns true if segment `a` covers all of segment `b` and is not farther at both ends of `b`.
 bool hides(vec4 a, vec4 b) {
     return a.x <= b.x && a.y >= b.y && inverseDepthAt(a, b.x) >= b.z && inverseDepthAt(a, b.y) >= b.w;
 }
@@ -50,16 +50,16 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     bool before = abs(segment.y - other.x) < continuation && abs(segment.w - other.z) < sameDepth * other.z;
     if (!after && !before) return false;
     segments[slotOf(i)] = after ? vec4(other.x, segment.y, other.z, segment.w) : vec4(segment.x, other.y, segment.z, other.w);
-    // The triangle with the longer segment shades both.
+    // The triangle with the longer segment provides the shading for both.
     if (segment.y - segment.x > other.y - other.x) segmentTriangles[slotOf(i)] = triangle;
     ++merged;
     return true;
 }
 
-// Returns true if a surface at this inverse depth may be visible.
+// Returns true if a surface at inverse depth 1/w may be visible on the line.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Returns true if any part of a segment may be visible. The max of 1/w is at one of its ends.
+// Returns true if any part of a segment may be visible. The max of 1/w on a segment is at one of the segment's ends.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -116,7 +116,7 @@ struct Part {
     uint triangle;
 };
 
-// Returns the nearest part from p on, up to the start of another segment or the end of this one.
+// Returns the part of the line from p to the next start or end of any segment, with the nearest triangle in this part.
 Part partFrom(float p, Interval whole) {
     float last = whole.last;
     for (uint i = 0u; i < segmentCount; ++i) {
@@ -140,7 +140,8 @@ Part partFrom(float p, Interval whole) {
     return Part(last, triangle);
 }
 
-// Returns the piece that begins with a part; adjacent parts of one triangle form one piece.
+// Returns the piece of the line that begins at p with the given part. Consecutive parts with the same triangle form one
+// piece.
 Piece pieceFrom(float p, Part part, Interval whole) {
     Piece piece = Piece(p, part.last, part.triangle, part.last, noTriangle);
     while (piece.last < whole.last) {
@@ -157,7 +158,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
 
-// Returns an upper bound on the loop rounds of the final walk.
+// Returns an upper bound on the loop iterations for writing the line's records at the end.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
     return parts * (4u * segmentCount + 2u + uint(maxShadingPoints));

@@ -1,5 +1,5 @@
-// Kernel 3 of the line samples: finds the surfaces that each line of a tile's pixels sees along its path over the lens.
-// The including file defines how the segments of a line are kept.
+// Kernel 3 of the method "line": finds the surfaces that each line of a tile's pixels sees along the line's path over
+// the lens. The including file (exact.comp, published.comp) chooses how the segments of a line are stored.
 
 bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     vec2 minimum = vec2(1e30);
@@ -24,12 +24,13 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     return range.x <= dot(middle, across) + reach && range.y >= dot(middle, across) - reach;
 }
 
-// Returns the number of shading points of a visible piece: one for each step that its surface moves in the image.
+// Returns the number of shading points of the visible piece from p1 to p2: one for each shadingStep px that the surface
+// moves in the image.
 uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
     float blur = 0.0;   // C/w
     if (triangle == noTriangle) {
-        if (backgroundType == 3) blur = frame.coc.w;   // other skies vary too slowly to need more than one point
+        if (backgroundType == 3) blur = frame.coc.w;   // only an environment map varies enough to need several points
     } else {
         uvec4 vertices = triangles[triangle];
         for (int i = 0; i < 3; ++i) {
@@ -49,17 +50,17 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     for (uint i = 0u; i < count; ++i) {
         float from = i == 0u ? p1 : placeOfShare(p1, p2, float(i) / float(count));
         float to = i + 1u == count ? p2 : placeOfShare(p1, p2, float(i + 1u) / float(count));
-        // As published, the middle is shaded. Otherwise the position is random, which gives the correct mean along the
-        // segment.
+        // shadingStep = 0 shades the middle, as published. Otherwise the position is random, so that the expected value
+        // is the mean light along the segment.
         float place = shadingStep == 0.0 ? 0.5 * (from + to) : placeOfShare(from, to, mine.values.z);
         records[at + i] = Record(triangle, ray, place, lightBetween(from, to, sides));
     }
     return count;
 }
 
-// Collects the next triangles of the tile that its lines may see, until enough are found or the scan limit is reached.
-// All threads must call it. The triangles stay in list order, because a full buffer drops segments depending on the
-// order.
+// Collects the tile's next triangles, from entry `base` on, that its lines may see. Stops after maxKept triangles or
+// maxScans scans. All threads must call this function. The triangles stay in list order, because the order determines
+// which segments a full segment buffer drops.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
@@ -118,8 +119,8 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Returns bit masks of the kept triangles that the line sees: xy their fronts, zw their backs. With the complete masks,
-// threads can add segments simultaneously even if they see different triangles.
+// Returns bit masks of the kept triangles that this thread's line sees: xy their fronts, zw their backs. With complete
+// masks, all threads add a segment in each iteration of addSeen(), even if they see different triangles.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     uvec4 sides = uvec4(0u);
     for (uint i = 0u; i < keptCount; ++i) {
@@ -136,7 +137,8 @@ uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     return sides;
 }
 
-// Adds the segments of the visible triangles while rounds remain; the rest stays in `sides`.
+// Adds the segments of the triangles in the masks `sides`, and clears their bits, until the max loop iterations are
+// reached.
 void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
     while (sides != uvec4(0u) && hasRoundsFor(0u, maxRounds)) {
         ++ownRounds;
@@ -190,7 +192,7 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileMin, tileMax);
-        // The list is ordered front to back. Once nearer surfaces cover all lines, the job is done.
+        // The list is ordered front to back. The job is done once nearer surfaces cover the tile's lines completely.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
         if (open == 0u) {
@@ -212,7 +214,7 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // Defers the rest.
+        // In the first dispatch, the job is deferred and restarts later. In later dispatches, its state is saved.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {
@@ -241,7 +243,7 @@ void main() {
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    if (at + needed > recordCapacity) return;   // the wave is drawn again with enough room
+    if (at + needed > recordCapacity) return;   // the buffer is enlarged and the wave drawn again
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);
 }

@@ -1,4 +1,4 @@
-// Outputs a blurred, premultiplied bucket for compositing over the buckets behind it.
+// Outputs the blurred, premultiplied image of a bucket of alpha-blended objects, for blending over the buckets behind.
 
 layout(binding = 0) uniform sampler2D radiance;
 layout(binding = 1) uniform sampler2D coverage;

@@ -1,10 +1,10 @@
-// Writes a bucket's nearest surface: its depth and its blur modifiers. Mip levels average them with the last channel as
-// weight.
+// Writes the depth and the blur modifiers of the nearest surface of a bucket of alpha-blended objects. Alpha is 1, or 0
+// without a surface, so that it is the weight of the averages in mip levels.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
 layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // only with usesOwnBlur
 
-layout(location = 0) out vec4 known;   // depth, blur factor, added blur, 1; 0 without a surface
+layout(location = 0) out vec4 known;   // reversed depth, blur factor, added blur, 1; all 0 without a surface
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

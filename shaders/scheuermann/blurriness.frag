@@ -1,23 +1,23 @@
-// Stores blurriness and relative depth in the pinhole image's alpha. The range −1 (in front) … 0 (in focus) … 1
-// (behind) is stored as [0, 1].
+// Stores the signed blurriness of the pinhole image, which also orders surfaces by depth, in alpha. Blurriness is −1 at
+// max blur in front of the focus, 0 in focus and 1 at max blur behind the focus; [−1, 1] is stored as [0, 1].
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 #include "include/tone_map.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(location = 0) uniform float perLargest;   // 1 / max diameter, px
-layout(location = 1) uniform vec4 planes;        // focus (m), 1/(focus − near), 1/(far − focus), cutoff behind
+layout(location = 0) uniform float perLargest;   // 1 / max CoC diameter (px)
+layout(location = 1) uniform vec4 planes;        // focus (m); 1/(focus − near); 1/(far − focus); max blurriness behind
 
 layout(location = 0) out vec4 colorAndBlurriness;
 
-// Returns the blurriness by planes, linear in depth, as published.
+// Returns the blurriness as published: linear in depth, −1 at the near plane, 0 at the focus plane, 1 at the far plane.
 float blurrinessByPlanes(ivec2 pixel) {
     float depth = texelFetch(pinholeDepth, pixel, 0).r;
-    // Infinite depth counts as the farthest distance behind the focus.
+    // Infinite depth counts as 3e38 m behind the focus.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
-    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // 0: pinhole
+    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // a pinhole (a = 0) has no blur
 }
 
 void main() {

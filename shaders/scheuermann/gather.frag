@@ -1,7 +1,8 @@
-// Gathers diskTaps taps of a Poisson disk, or of the aperture's shape, scaled to the blur at the centre pixel.
+// Blurs each pixel by gathering diskTaps taps of a Poisson disk, or of the aperture's shape, scaled to the pixel's
+// blur.
 #include "include/tone_map.glsl"
 
-layout(binding = 0) uniform sampler2D sharpImage;   // rgb; alpha: blurriness and relative depth, 1/2 in focus
+layout(binding = 0) uniform sampler2D sharpImage;   // alpha: blurriness from blurriness.frag, 1/2 in focus
 layout(binding = 1) uniform sampler2D smallImage;   // reduced and pre-blurred version of sharpImage
 layout(std140, binding = 1) uniform TapBlock {
     vec4 taps[maxDiskTaps];                           // xy in the unit disk
@@ -13,11 +14,11 @@ layout(location = 0) out vec4 blurred;
 
 void main() {
     vec2 perPixel = 1.0 / vec2(textureSize(sharpImage, 0));
-    vec2 perPixelSmall = 1.0 / (smallPixel * vec2(textureSize(smallImage, 0)));   // one pixel of the sharp image
+    vec2 perPixelSmall = 1.0 / (smallPixel * vec2(textureSize(smallImage, 0)));   // one sharpImage pixel in smallImage
     float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
     float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;
-    // Behind the focus the aperture appears upright, in front of it rotated by 180°. Gathering looks in the opposite
-    // direction.
+    // Blurred points show the aperture upright behind the focus plane, and rotated by 180° in front of the focus plane.
+    // Gathering rotates the shape by 180°, so taps change sign behind the focus plane.
     if (shaped && centreDepth > 0.5) radius = -radius;
     float smallRadius = radius * smallRadiusScale * smallPixel;
 
@@ -27,7 +28,7 @@ void main() {
         vec4 sharpTap = textureLod(sharpImage, (gl_FragCoord.xy + taps[i].xy * radius) * perPixel, 0.0);
         vec4 smallTap = textureLod(smallImage, (gl_FragCoord.xy + taps[i].xy * smallRadius) * perPixelSmall, 0.0);
         vec4 tap = mix(sharpTap, smallTap, abs(sharpTap.a * 2.0 - 1.0));
-        // Leak prevention: taps nearer than the centre are weighted by their own blur.
+        // Against leaks of sharp foreground: taps nearer to the camera than the centre are weighted by their own blur.
         float weight = tap.a >= centreDepth ? 1.0 : abs(tap.a * 2.0 - 1.0);
         sum += weight * tap.rgb;
         weights += weight;

@@ -1,4 +1,4 @@
-// Applies a 3 × 3 Gaussian (weights 1 2 1).
+// Blurs an image with the separable 3 × 3 filter of weights 1 2 1, an approximate Gaussian.
 layout(binding = 0) uniform sampler2D small;
 
 layout(location = 0) out vec4 blurred;

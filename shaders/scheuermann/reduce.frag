@@ -1,4 +1,4 @@
-// Averages blocks of reduction × reduction pixels; blocks at the border average the existing pixels.
+// Averages blocks of reduction × reduction pixels; blocks at the border average only the pixels inside the image.
 layout(binding = 0) uniform sampler2D full;
 
 layout(location = 0) out vec4 mean;

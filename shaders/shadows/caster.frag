@@ -1,5 +1,5 @@
-// Draws a shadow caster; only depth is written. A partially transmitting caster covers the matching share of the
-// texels, different ones in each lens sample (Enderton et al. 2010, Stochastic Transparency).
+// Draws a shadow caster; only depth is written. A caster that transmits a part of the light covers the corresponding
+// fraction of the texels, different texels in each lens sample (Enderton et al. 2010, Stochastic Transparency).
 
 #include "include/frame.glsl"
 #include "include/surface_fragment.glsl"
@@ -7,8 +7,8 @@
 
 vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv)); }
 
-// Returns a threshold that is evenly distributed over the texels, and over the samples in each texel (Roberts 2018).
-// drawsCoarser() in surface_light.glsl uses the same pattern.
+// Returns a dither threshold in [0, 1) that is evenly distributed over neighbouring texels, and over the lens samples
+// in each texel (Roberts 2018). drawsCoarser() in surface_light.glsl uses the same pattern.
 float threshold() {
     uvec2 texel = uvec2(gl_FragCoord.xy);
     uint place = texel.x * 3242174889u + texel.y * 2447445414u + uint(object.values.z) * 2654435769u;

@@ -1,4 +1,4 @@
-// Draws one instance of a shadow caster per lens sample into map shadowSlot of the sample.
+// Draws one instance of a shadow caster per lens sample, into the sample's shadow map number shadowSlot.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

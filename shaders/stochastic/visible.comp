@@ -1,6 +1,7 @@
-// Kernel 3: finds the first hit of each ray of a tile's pixels. A workgroup processes one tile and one ray of each of
-// its pixels. These rays pass through a small part of the lens. They are tested only against the triangles that this
-// part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests with bounds of u and v).
+// Kernel 3 of the method "stochastic": finds the first hit of each ray of a tile's pixels. A workgroup processes one
+// tile and one ray of each of the tile's pixels. These rays pass through a small part of the lens. They are tested only
+// against the triangles that this part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests
+// with bounds of u and v).
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -10,25 +11,27 @@
 layout(local_size_x = tileSize, local_size_y = tileSize) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// Ends of the tiles' triangle lists in the entries.
+// End of each tile's triangle list, as an index into `entries`.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-// Lens bounds of each ray over the variants: min (u, k·v), max (u, k·v).
+// Bounds of the lens points of each ray over all variants (rays.glsl): min (u, k·v), max (u, k·v).
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 
-layout(location = 2) uniform uint firstTile;   // first tile that the entries cover
-// Part of each tile's list that is tested in this dispatch. Mesa's software driver ends the loops of a thread after a
-// total of 65,535 rounds. Long lists take several dispatches; each continues where the last one ended.
+layout(location = 2) uniform uint firstTile;   // first tile whose list is in `entries`
+// Part of each tile's list that this dispatch tests: first entry, number of entries. Mesa's software driver ends the
+// loops of a thread after a total of 65,535 iterations. Long lists therefore need several dispatches, each of which
+// continues where the previous dispatch ended.
 layout(location = 3) uniform uvec2 part;
 
 const uint threads = uint(tileSize * tileSize);
 const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
-shared uvec2 kept[threads];   // triangle, double-sided
+shared uvec2 kept[threads];   // triangle; 1 if double-sided, else 0
 shared uint keptCount;
-shared uint open;             // true if some ray may still hit a later triangle
+shared uint open;             // 1 if some ray may still hit a later triangle of the list, else 0
 
-// Extends the bounds (normalised device coordinates) by the positions that the vertex takes over the lens.
+// Extends the bounds (normalised device coordinates) by the image positions of a vertex as seen from all lens points in
+// the box `lens`.
 void addPlaces(inout vec2 minimum, inout vec2 maximum, vec4 clip, vec4 lens) {
     vec2 shear = vec2(clip.w) / clip.z;
     vec2 place = clip.xy / clip.z;
@@ -80,7 +83,7 @@ void main() {
             open = 0u;
         }
         barrier();
-        // The list is ordered front to back.
+        // Triangles are sorted by min depth, so a ray is done once its hit is nearer than the next triangle.
         if (inside && nearest * (1.0 + 1e-5) >= minDepthOf(triangles[entries[base]].xyz)) atomicOr(open, 1u);
         barrier();
         if (open == 0u) break;
@@ -107,7 +110,7 @@ void main() {
             if (moving)
                 for (uint k = 0u; k < 3u; ++k) corners[k] = mix(corners[k], keptCorners[slot + k + 3u], mine.values.x);
             float w = depthMet(corners[0], corners[1], corners[2], kept[i].y != 0u, lens, place);
-            // At equal depth, the triangle that is first in the frame's order wins, whatever the order in the list.
+            // At equal depth the triangle with the smaller number wins, so that the result is deterministic.
             if (w > 0.0 && (w < nearest || (w == nearest && kept[i].x < triangle))) {
                 nearest = w;
                 triangle = kept[i].x;

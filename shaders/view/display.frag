@@ -1,20 +1,20 @@
-// Displays the image: tone mapping, side-by-side comparison and overlays.
+// Draws the rendered image to the window, with tone mapping, side-by-side comparison and overlays.
 
 #include "include/tone_map.glsl"
 
 layout(binding = 0) uniform sampler2D firstImage;    // linear, premultiplied
 layout(binding = 1) uniform sampler2D secondImage;
-layout(binding = 2) uniform sampler2D cocImage;      // signed px
-layout(binding = 3) uniform sampler2D levelImage;    // λ; −1: empty
+layout(binding = 2) uniform sampler2D cocImage;      // signed CoC diameter (px)
+layout(binding = 3) uniform sampler2D levelImage;    // fractional level of detail λ; −1: no surface
 layout(binding = 4) uniform sampler2D wireImage;     // display-encoded
 layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed over lens samples
 layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay
 
 layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of the difference
-layout(location = 1) uniform ivec4 choices;    // curve; overlay; flags; unused
-layout(location = 2) uniform float divider;    // share of the width that shows the first image
+layout(location = 1) uniform ivec4 choices;    // tone curve; overlay; flags; unused
+layout(location = 2) uniform float divider;    // fraction of the width that shows the first image
 layout(location = 3) uniform float cocScale;   // output px per px of cocImage
-// 1 / lens samples in workImage; 1 / log2 value at which colours saturate.
+// x: 1 / number of lens samples in workImage; y: 1 / log2(1 + triangles per sample) at the end of the colour map.
 layout(location = 4) uniform vec2 workScale;
 
 layout(location = 0) out vec4 display;
@@ -40,7 +40,8 @@ vec3 encodedAt(sampler2D image, vec2 uv) {
     return colour + (1.0 - clamp(value.a, 0.0, 1.0)) * board;
 }
 
-// Unused features are excluded at compile time, because drivers that draw on the CPU execute both sides of each branch.
+// Returns the display colour without overlays: of the first image, the second image, or their difference. Unused
+// features are excluded at compile time, because drivers that draw on the CPU execute both sides of each branch.
 vec3 shown(vec2 uv) {
     vec3 first = encodedAt(firstImage, uv);
     if (!compares) return first;
@@ -49,7 +50,8 @@ vec3 shown(vec2 uv) {
     return (choices.z & FLAG_DIFFERENCE) == 0 ? second : min(size.w * abs(first - second), 1.0);
 }
 
-// Returns orange in front of the focus plane and blue behind it, darker where the image is sharper.
+// Returns the overlay colour for a signed CoC diameter (px): orange in front of the focus plane, blue behind the focus
+// plane, and grey where the image is sharp. `grey` is the brightness of the image.
 vec3 cocColour(float coc, float grey) {
     float amount = clamp(log2(1.0 + abs(coc)) / 6.0, 0.0, 1.0);
     vec3 side = coc < 0.0 ? vec3(1.0, 0.55, 0.10) : vec3(0.20, 0.55, 1.0);
@@ -73,7 +75,8 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     return colour;
 }
 
-// Returns the strength of high-contrast edges with a blur below about one pixel, like a camera's focus peaking.
+// Returns the strength in [0, 1] of high-contrast edges whose blur is below about one pixel, like a camera's focus
+// peaking.
 float peaking(vec2 uv) {
     vec2 step = 1.0 / size.xy;
     float right = dot(shown(uv + vec2(step.x, 0.0)), luma) - dot(shown(uv - vec2(step.x, 0.0)), luma);
@@ -85,7 +88,7 @@ float peaking(vec2 uv) {
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
-    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read without filtering
+    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // no overlays over the difference
         display = vec4(colour, 1.0);
         return;
     }

@@ -1,4 +1,4 @@
-// Computes the squared difference of two images' display values at EV 0, averaged over the channels.
+// Computes the squared difference of two images' sRGB-encoded values at EV 0, averaged over the channels.
 
 #include "include/tone_map.glsl"
 

@@ -15,7 +15,7 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // equals drawnClasses in shaders/include/cells.glsl
+constexpr int maxDrawn = 7;  // equals the max of drawnClasses in shaders/include/cells.glsl
 
 // Side in px of the point sprites of the largest class, a multiple of the sides of all other classes.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);

@@ -247,8 +247,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock of shaders/accumulation/add_layers.frag for each block of samples: colour weights and offsets of
-// b, then lens points.
+// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: colour weights and changes of
+// b by the wavelength, then lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

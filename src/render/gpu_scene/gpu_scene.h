@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Vertex attribute locations of shaders/include/vertex.glsl and surface_vertex.glsl.
+// Vertex attribute locations of vertex.glsl, posing.glsl and surface_vertex.glsl in shaders/include/.
 enum AttributeLocation : unsigned {
     positionLocation,
     normalLocation,

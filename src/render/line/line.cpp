@@ -29,7 +29,7 @@ constexpr std::uint32_t maxCapacity = 1536;
 constexpr std::uint32_t sharedBytes = 24;  // shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
-// Uniform block in shaders/line/visible.comp (std140).
+// Element of the uniform block BoundBlock in shaders/line/kernel.glsl (std140).
 struct GpuBounds {
     glm::vec4 box;
     glm::vec4 strip;
@@ -175,7 +175,8 @@ private:
         program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
     }
 
-    // Returns the size in ranges of an invocation's state between dispatches; matches shaders/line/.
+    // Returns the size in ranges of an invocation's state between dispatches: 2 plus stateSize in
+    // shaders/line/envelope.glsl (exact) or shaders/line/segment_buffer.glsl (published).
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
@@ -234,7 +235,7 @@ private:
         glUniform1ui(6, maxRounds_);
     }
 
-    // Dispatches the kernel; `jobs` is the uniform of this name in shaders/line/visible.comp.
+    // Dispatches the kernel; `jobs` is the uniform of this name in shaders/line/kernel.glsl.
     static void dispatch(const std::array<std::uint64_t, 4>& jobs, std::uint32_t width, std::uint32_t height) {
         glUniform4ui(7, static_cast<GLuint>(jobs[0]), static_cast<GLuint>(jobs[1]), static_cast<GLuint>(jobs[2]),
                      static_cast<GLuint>(jobs[3]));
