@@ -105,7 +105,7 @@ struct Material {
 
 inline constexpr std::size_t materialTextureCount = 14;
 
-// Returns all textures of a material in the order of the texture slots in shaders/include/surface_shading.glsl.
+// Returns all textures of a material in the order of the texture slots in shaders/include/material_textures.glsl.
 inline std::array<const TextureUse*, materialTextureCount> textureUses(const Material& m) {
     return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
             &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,

@@ -43,7 +43,9 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     EXPECT_EQ(request.motionSegments, MotionSegments(4u));
     EXPECT_EQ(request.camera, CameraChoice(NamedCamera{"Near"}));
     EXPECT_TRUE(shot.focus);
-    EXPECT_EQ(request.lens.bladeCount, 7);
+    EXPECT_EQ(shot.lens.size(), 27u);
+    EXPECT_EQ(shot.lens.at("bladeCount").keys.front().value, 7);
+    EXPECT_EQ(shot.lens.at("fStop").keys.back().value, 8);
     EXPECT_EQ(request.samples, 128u);
     EXPECT_EQ(request.targetError, 0.003);
     EXPECT_EQ(request.sequence, Sequence::scrambledHalton);

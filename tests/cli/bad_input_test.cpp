@@ -128,7 +128,7 @@ TEST_F(BadInput, wordsThatAreNotKnown) {
     expectFault(2, "size, error, halving, measured, score", {"--lod-metric", "speed"});
     expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
     expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
-    expectFault(2, "depth, coc, level, rate, work", {"--aov", "depth,normal"});
+    expectFault(2, "depth, coc, level, work", {"--aov", "depth,normal"});
     expectFault(2, "another.gltf", {"another.gltf"});
     expectFault(2, "excludes", {"--fish", "3"});
     expectFault(2, "excludes", {"--focus-distance", "1", "--focus-node", "Near"});

@@ -31,8 +31,8 @@ TEST(MethodSettings, whatIsNotSaidIsStandard) {
 
 TEST(MethodSettings, faultsNameTheMethodAndWhatItTakes) {
     EXPECT_EQ(faultOf({{"tap", "9"}}), "method m has no setting 'tap'; it has: taps, coc, bias");
-    EXPECT_EQ(faultOf({{"coc", "x"}}), "method m: coc is one of published, thin-lens, not 'x'");
-    EXPECT_EQ(faultOf({{"taps", "7"}}), "method m: taps is an integer from 8 to 64, not '7'");
+    EXPECT_EQ(faultOf({{"coc", "x"}}), "method m: coc must be one of published, thin-lens, not 'x'");
+    EXPECT_EQ(faultOf({{"taps", "7"}}), "method m: taps must be an integer from 8 to 64, not '7'");
     for (const char* bad : {"8.5", "", "nan", "inf", "8x", "1e9"}) EXPECT_NE(faultOf({{"taps", bad}}), "") << bad;
     EXPECT_EQ(faultOf({{"bias", "0.5"}}), "");
 }

@@ -441,16 +441,16 @@ TEST(GltfScene, impossiblePhysicalCamerasAreFaults) {
         }
         return "";
     };
-    EXPECT_NE(fault({{"focalLength", 0}, {"sensorSize", {0.036, 0.024}}}).find("impossible focalLength of 0"),
+    EXPECT_NE(fault({{"focalLength", 0}, {"sensorSize", {0.036, 0.024}}}).find("invalid focalLength: 0"),
               std::string::npos);
-    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, -1}}}).find("impossible sensorSize of -1"),
+    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, -1}}}).find("invalid sensorSize: -1"),
               std::string::npos);
     EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036}}}).find("must have 2 numbers, not 1"),
               std::string::npos);
     EXPECT_NE(fault({{"focalLength", 0.05}}).find("sensorSize is missing"), std::string::npos);
     EXPECT_NE(fault({{"focalLength", "50 mm"}, {"sensorSize", {0.036, 0.024}}}).find("must be a number"),
               std::string::npos);
-    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}, {"fStop", 0}}).find("impossible fStop"),
+    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}, {"fStop", 0}}).find("invalid fStop"),
               std::string::npos);
     EXPECT_EQ(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}}), "");
 }
