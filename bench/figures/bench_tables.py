@@ -4,7 +4,7 @@ import json
 import re
 from statistics import mean
 
-from figures.markdown import run_source, run_table, source, table
+from figures.markdown import run_table, source, table
 from figures.results import lens_levels, lines_of, numbers, numbers_after, run_of
 
 

@@ -4,7 +4,7 @@ import re
 import textwrap
 
 from figures.markdown import run_source, run_table, source, table
-from figures.results import (accumulation_rows, command_of, error_ratio, lines_of, numbers, numbers_after, rmse, run_of, samples_sweep,
+from figures.results import (accumulation_rows, command_of, error_ratio, lines_of, numbers, numbers_after, run_of, samples_sweep,
                              seconds)
 
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"

@@ -169,7 +169,7 @@ def share_film(cluster, program, batch, folder, samples):
             "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}
     (folder / "shot.json").write_text(json.dumps(shot))
     full, frames = folder / f"single{samples}", folder / f"frames{samples}"
-    subprocess.run([program, "capture", "shot.json", "--quiet", "-o", f"{whole}/####.exr"], cwd=folder, check=True)
+    subprocess.run([program, "capture", "shot.json", "--quiet", "-o", f"{full}/####.exr"], cwd=folder, check=True)
     job = cluster.submit(f"--array=0-{TASKS - 1}", f"--chdir={folder}", str(batch), "shot.json", "--quiet", "-o",
                          f"{frames}/####.exr")
     wait_until("task 1 has no frame", lambda: (frames / "0001.exr").exists())
