@@ -9,7 +9,12 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 // countsOnly: number of triangles of each tile. Otherwise: index in `entries` of each tile's next free entry.
 layout(std430, binding = 4) buffer CountBlock { uint counts[]; };
+#ifdef COUNTS_ONLY
+void addEntry(uint tile, uint triangle) { atomicAdd(counts[tile], 1u); }
+#else
 layout(std430, binding = 5) writeonly buffer EntryBlock { uint entries[]; };
+void addEntry(uint tile, uint triangle) { entries[atomicAdd(counts[tile], 1u)] = triangle; }
+#endif
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint triangleCount;
@@ -93,8 +98,7 @@ void main() {
         for (int x = from.x; x <= to.x; ++x) {
             uint tile = uint(y * across + x);
             if (tile < firstTile || tile >= endTile) continue;
-            uint entry = atomicAdd(counts[tile], 1u);
-            if (!countsOnly) entries[entry] = index;
+            addEntry(tile, index);
         }
     }
 }

@@ -5,7 +5,9 @@ layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex; only if lightsVertices
+#ifdef LIGHTS_VERTICES
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex
+#endif
 
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;
@@ -21,6 +23,7 @@ void main() {
     uvec3 corners = uvec3(indices[at], indices[at + 1u], indices[at + 2u]) + firstVertex;
     if (mirrored) corners.yz = corners.zy;
     triangles[firstTriangle + i] = uvec4(corners, draw);
-    if (lightsVertices)
-        for (int corner = 0; corner < 3; ++corner) atomicMin(firstTriangles[corners[corner]], firstTriangle + i);
+#ifdef LIGHTS_VERTICES
+    for (int corner = 0; corner < 3; ++corner) atomicMin(firstTriangles[corners[corner]], firstTriangle + i);
+#endif
 }

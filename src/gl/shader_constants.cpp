@@ -93,8 +93,7 @@ constexpr ShaderConstant constants[] = {
     {"int", "tileSize", "1"},  // px; also of the circular method
     {"int", "maxRays", "1"},   // per wave
     {"uint", "rayVariants", "1u"},
-    {"bool", "countsOnly", "false"},
-    {"bool", "lightsVertices", "false"},
+    {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
     {"int", "maxShadingPoints", "1"},

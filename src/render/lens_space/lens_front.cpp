@@ -79,7 +79,7 @@ LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertice
       unusedTarget_({&unused_}) {
     sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
     ShaderDefines defines;
-    if (lightsVertices_) defines.emplace_back("lightsVertices", "true");
+    if (lightsVertices_) defines.emplace_back("LIGHTS_VERTICES", "");
     trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
 }
 
