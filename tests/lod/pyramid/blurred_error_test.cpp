@@ -170,7 +170,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     EXPECT_EQ(levelOfBlurredError(pyramid, sides, 100, 0), 0);
 }
 
-// A level's error limit is inversely proportional to its edge length, up to a fraction of the lens samples' error.
+// A level's error limit is inversely proportional to its edge length, but at most 0.3 of the lens samples' error.
 TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     for (const std::uint32_t samples : {16u, 64u, 1024u}) {
         const double light = defaultThresholds(LodMetric::measured, samples).light;
