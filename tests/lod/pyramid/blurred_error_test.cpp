@@ -136,8 +136,8 @@ TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
     EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 100, 0.5), 0);
 }
 
-// At λ, the level's error equals its limit times the contrast; the errors are interpolated linearly between levels. λ
-// is clamped to the range from 0 to the coarsest level.
+// At λ, the error of the level equals its limit times the contrast; error and limit are interpolated linearly between
+// levels. λ is clamped to the range from 0 to the coarsest level.
 TEST(BlurredError, theLevelMeetsItsLimit) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
     ASSERT_GT(pyramid.levels.size(), 4u);
@@ -180,7 +180,8 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
 }
 
 // λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at most 11 levels per unit of the
-// target's logarithm. A patch wider by a thousandth changes E² and V² by at most 4 and 2 thousandths.
+// target's logarithm. A blur over a patch wider by a thousandth changes the squared error E² by at most 4 thousandths
+// and the squared contrast V² by at most 2.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));
