@@ -39,8 +39,9 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// A level 1 + ε times as bright errs by ε times the mean of each patch, and lens samples err by the deviations from
-// that mean. The squares of both add up to the light's mean square.
+// A level 1 + ε times as bright errs, in each patch, by ε times the patch's mean light. Lens samples err by the
+// deviations of the light from that mean. The squares of the mean and of the deviations add up to the light's mean
+// square.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });

@@ -52,8 +52,8 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
-// With the metric `score`, λ is the level whose stored edges are the threshold times the score c/d as long as level
-// 0's.
+// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as those of level 0, for a blur
+// of c px and edges of level 0 that project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
