@@ -59,7 +59,7 @@ const std::array<Kernel, 5> publishedKernels = {{
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
     Values weights;       // areas of the quadrature nodes
-    Values roots;         // square roots of the weights, increased in the square's corners by the guard
+    Values roots;         // square roots of `weights`, which count more in the square's corners (`guard`)
     Values target;        // disk values times `roots`
 };
 
@@ -69,8 +69,8 @@ Problem problemOf(double extent, double guard) {
     Problem problem{Values(count), Values(count), Values(count), Values(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const RadialNode& node = nodes[static_cast<std::size_t>(i)];
-        // Ratio of a ring's area to the area of its arcs inside the square; an angle of 8·arccos(extent/r) lies
-        // outside.
+        // Ratio of a complete ring of radius r to its arcs inside the square. Arcs with a total angle of
+        // 8·arccos(extent/r) lie outside.
         const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
         const double ring = pi / (pi - 4 * std::acos(1 / outward));
         problem.squaredRadii[i] = node.squaredRadius;

@@ -9,10 +9,10 @@
 // objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
 // RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x
 // 8 px compare the means of such squares, which suppresses noise and keeps structure. "As published" has a buffer of 16
-// segments, shades each segment at its middle and uses the same wheel in all pixels. It shades surfaces like the other
-// methods, so that the errors are those of visibility alone. The paper's score selects the levels. Our levels are
-// fractional levels of a pyramid with fitted vertices; the paper has three levels with 100, 75 and 50 % of the
-// vertices. The bench checks that every method's RMSE against accumulation is below 0.1.
+// segments, shades each segment at its middle and has lines of the same directions in all pixels. It shades surfaces
+// like the other methods, so that the errors are those of visibility alone. The paper's score selects the levels. Our
+// levels are fractional levels of a pyramid with fitted vertices; the paper has three levels with 100, 75 and 50 % of
+// the vertices. The bench checks that every method's RMSE against accumulation is below 0.1.
 
 #include <fmt/format.h>
 

@@ -25,7 +25,7 @@ function(defocus_library TARGET KIND)
     target_compile_features(${TARGET} INTERFACE cxx_std_20)
     set(LIBRARIES OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer OpenMeshCore)
     set(FLAGS PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
-    if(KIND STREQUAL "SHARED")  # whoever links it needs none of them: its package doesn't name them
+    if(KIND STREQUAL "SHARED")  # programs that link the shared library need none of these packages
         list(TRANSFORM LIBRARIES REPLACE "(.+)" "$<BUILD_INTERFACE:$<TARGET_LINKER_FILE:\\1>>")
         list(TRANSFORM FLAGS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
         target_link_options(${TARGET} PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)

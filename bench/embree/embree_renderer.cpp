@@ -133,7 +133,7 @@ private:
     View view_;
     RenderSettings settings_;
     bool castsShadows_ = false;
-    std::vector<LensSample> planned_;  // only for EmbreeSampling::planned
+    std::vector<LensSample> planned_;  // samples of the plan; used only with EmbreeSampling::planned
     LensCamera camera_;
     std::optional<ApertureMask> mask_;  // none if ApertureMask::isNeeded is false
     ApertureMap aperture_{Lens{}};      // used if there is no mask_

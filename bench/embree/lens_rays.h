@@ -36,7 +36,7 @@ struct LensCamera {
 
     // Members that are used only with a foreground limit.
     double lensDepth = 0;  // α, m; 0: no foreground limit, the lens is at the eye
-    double cone = 0;       // tangent of the half angle of the cone
+    double cone = 0;       // tangent of the half angle of the eye's cone of rays, which covers c₀ px
 };
 
 LensCamera lensCamera(const View& view);

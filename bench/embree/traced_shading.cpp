@@ -154,8 +154,7 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
 // point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // Axes of the disk; the same as for the light points of the plan, where the second axis is the light's up
-    // direction.
+    // Axes of the light's disk, equal to those that the plan uses for its light points.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));

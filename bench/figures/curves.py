@@ -31,7 +31,7 @@ def blurs(program, options):
 def draw_curves(program, file):
     """Plots over depth w. Left: C in clip space, w · c / W for a blur of c px in an image W px wide. Right: c.
 
-    C has the opposite sign in the paper.
+    C has the opposite sign in Munkberg, Toth and Akenine-Möller 2012.
     """
     figure, (clip, image) = plt.subplots(1, 2, figsize=(10, 3.8), dpi=100, layout="constrained")
     for name, color, style, options in CURVES:

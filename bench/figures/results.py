@@ -7,9 +7,9 @@ from figures.command import ROOT
 from figures.files import read_json
 
 RESULTS = ROOT / "bench" / "results"
-# Options that reproduce older runs with the current program. The default metric of these runs was the size.
+# Options to append to the commands of runs that were measured with the size as the default metric.
 BY_SIZE = {"llvmpipe-methods-fish": " --metrics size", "llvmpipe-speedup-fish": " --lod-metric size"}
-# Runs whose defaults of the circular filter were one near component and a near field by coverage.
+# Runs that were measured with near-components=1 and near-field=coverage as defaults of method "circular".
 CIRCULAR_BY_COVERAGE = ("llvmpipe-methods-fish", "llvmpipe-methods-lens-space")
 
 

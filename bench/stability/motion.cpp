@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t movingSamples = 1024;
-constexpr double halfSide = 8;  // px; the square is white on black
+constexpr double halfSide = 8;  // half the side of the white square, px
 constexpr double way = 40;      // length of the square's path, px
 constexpr double squareDepth = 4;
 

@@ -16,7 +16,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double nudge = 1e-6;                 // tiny change of λ
-constexpr double oneSample = 1 + 1e-4;         // one sample, plus rounding of 32-bit layers
+constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the wave size
 
 // Returns the number of samples whose level changes when λ passes the integer `level`.

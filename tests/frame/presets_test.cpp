@@ -76,7 +76,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        const double growth = 0.25 * object.coc.smallest / edge;  // relative to the edge length
+        const double growth = 0.25 * object.coc.smallest / edge;  // a quarter of the blur over the edge's length in px
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {
             const double middle = std::sqrt(pyramid.levels[l - 1].meanEdge * pyramid.levels[l].meanEdge);
@@ -162,7 +162,7 @@ TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
             SCOPED_TRACE(object.name);
             const double centre = -object.viewBox.centre().z;
             const double nearest = -object.viewBox.maximum.z;
-            const double pixels = plan.view.width / (2 * tanHalfWidth);  // pixels of 1 m at a distance of 1 m
+            const double pixels = plan.view.width / (2 * tanHalfWidth);  // size of 1 m at a distance of 1 m, px
             const double blur = aperture * std::abs(1 / lens.focusDistance - 1 / centre) * pixels;
             const Pyramid& pyramid = frame_->world.pyramids[static_cast<std::size_t>(object.mesh)];
             const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the scale is uniform

@@ -71,7 +71,7 @@ TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const std::vector<glm::dvec2> points = mapped(lens);
     const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
-    // The bound above distinguishes shapes: a slightly different shape exceeds it.
+    // The bound of 0.006 distinguishes shapes: a slightly different shape exceeds twice the bound.
     Lens other = lens;
     other.bladeRotation += 0.1;
     other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);

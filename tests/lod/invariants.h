@@ -45,8 +45,9 @@ inline void expectClustersHold(const Pyramid& pyramid) {
     }
 }
 
-// Expects λ to grow with the target from level 0 to the last level without jumps. The min growth per level bounds the
-// slope of λ: 5 % for edges and 25 % for errors, where the slope is largest at an interval's end.
+// Expects λ to grow without jumps from level 0 to the last level as the target grows. The min growth per level, 5 % for
+// edges and 25 % for errors, bounds the slope of λ. For errors, the slope is largest at the end of the interval between
+// two levels.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;

@@ -182,10 +182,11 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     return steps;
 }
 
-// λ has no jumps while a sphere moves away: the change in each step stays below a bound. An edge at distance n projects
-// to a length proportional to 1/n. At λ, an object's edges, interpolated in their logarithm between levels, project to
-// τ = max(kBlur·c, kSize). Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth.
-// Only c = K·|1/s − 1/n| changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+// λ has no jumps while a sphere moves away: the change in each step from distance n to n' stays below a bound. An edge
+// at distance n projects to a length proportional to 1/n. At λ, an object's edges, interpolated in their logarithm
+// between levels, project to τ = max(kBlur·c, kSize), with the blur c in px and the thresholds kBlur and kSize. Edges
+// grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ,
+// by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();

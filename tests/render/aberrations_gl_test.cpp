@@ -80,9 +80,10 @@ constexpr double inFocus = 2;        // m
 // Variance in px² of the sharp point: 1/3 from its width of two pixels, and 1/12 from the jitter inside a pixel.
 constexpr double ownVariance = 5.0 / 12;
 
-// Astigmatism A turns a point at the image position m into a line towards the image's centre, for lens points l = (u,
-// v). Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4 along the line and 0 across it. The line's outer half
-// is brighter: there, the point is the image of an area smaller by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
+// Astigmatism A turns a point at the image position m, relative to the image's centre, into a line towards the centre.
+// Lens points l = (u, v) cover the unit disk with u along m. Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4
+// along the line and 0 across it. The line's outer half is brighter: there, the point is the image of an area smaller
+// by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
     constexpr double share = 0.05;  // A, relative to half the image's width
@@ -102,9 +103,10 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     }
 }
 
-// Coma B turns a point at the image position m into a comet, for lens points (u, v) with u along m. The deviation ∇W of
-// a ray is B·m·(3u² + v²) along m and 2·B·m·u·v across m. Over the disk, its mean is B·m, and its variances are B²·m²/2
-// and B²·m²/6. Rays of the rim enlarge the point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
+// Coma B turns a point at the distance m from the image's centre into a comet. Lens points l = (u, v) cover the unit
+// disk with u along the line to the centre. A ray deviates by B·m·(3u² + v²) along this line and by 2·B·m·u·v across
+// it. Over the disk, the mean deviation is B·m, and the variances are B²·m²/2 and B²·m²/6. A ray through l enlarges the
+// point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
     for (const double share : {0.03, -0.03}) {  // B, relative to half the image's width
         const glm::dvec2 place(134, 60);
@@ -122,7 +124,7 @@ TEST_F(Aberrations, comaMakesComets) {
 
 // Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
 // along the line and c²/16 across it. An astigmatic lens has two foci: at the depth where c = −L, a point becomes a
-// line across the first one.
+// line perpendicular to the line of the first focus.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);

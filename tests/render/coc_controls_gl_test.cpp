@@ -135,9 +135,9 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// C is interpolated linearly inside a triangle, so a large triangle across a kink of C would move the focus (Munkberg
-// et al. 2012, Figures 2 and 10). Two large triangles are therefore divided, and their floor looks like one of many
-// small triangles.
+// C is interpolated linearly inside a triangle, so a large triangle in which the slope of C jumps would move the focus
+// (Munkberg et al. 2012, Figures 2 and 10). Two large triangles are therefore divided, and their floor looks like one
+// of many small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);

@@ -75,7 +75,8 @@ void rasterise(const std::array<glm::dvec2, 3>& p, std::vector<bool>& covered) {
     }
 }
 
-// Returns the blur diameter in px: c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2)), A = f / (1000 · fStop), f =
+// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with focus distance s and depth z in m, and W
+// the width of the image in px. The aperture diameter is A = f / (1000·fStop), with the focal length f =
 // horizontalAperture / (2 tan(θx/2)).
 double blur(const Camera& camera, const View& view, double depth) {
     const double focalLength = *camera.lensValue("horizontalAperture") / (2.0 * view.tanHalfWidth);

@@ -86,7 +86,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half of the frames are missing, so the capture needs more than calls / 3 calls.
+        // More than half of the frames are missing here, so the capture makes more than a third of the calls of the
+        // undisturbed run.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {

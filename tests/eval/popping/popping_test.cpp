@@ -122,8 +122,7 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     EXPECT_THROW(busiestStretch(frames, small->world, settings, 41), Error);
 }
 
-// ---- pixels of the objects
-// -------------------------------------------------------------------------------------------
+// ---- pixels of the objects -----------------------------------------------------------------------------------------
 
 // A pixel of an object with a blur of 6 px marks the pixels within 3 px as pixels of objects. The background marks
 // none.

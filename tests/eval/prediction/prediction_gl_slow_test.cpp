@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the rows of a plaster ball with bumps and stripes, whose appearance the pyramid's model covers completely.
+// Returns the predicted and the rendered errors of the levels of a plaster ball with bumps and stripes. The pyramid's
+// model covers the appearance of such a ball completely.
 std::vector<PredictionRow> rowsOfABall() {
     Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)

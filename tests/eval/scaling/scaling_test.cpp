@@ -55,8 +55,7 @@ TEST(ScalingFit, needsTwoDifferentPlaces) {
     EXPECT_FALSE(fittedPowerLaw(Points{{1, 1}, {100, 2}})) << "only one point in the upper half";
 }
 
-// ---- bottlenecks of a frame
-// ------------------------------------------------------------------------------------------
+// ---- bottlenecks of a frame ----------------------------------------------------------------------------------------
 
 ScalingRow rowOf(double value, double frame, double layers, double vertices) {
     ScalingRow row;
@@ -75,7 +74,7 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "overlapping parts leave no time for fill";
 }
 
-// The spread of `fill`, the unexplained time, is that of its runs: 5, 7 and 6 ms.
+// `fill` is the time that layers and vertices do not explain. Its spread is computed from the runs: 5, 7 and 6 ms.
 TEST(ScalingParts, spreadAsTheirRunsDo) {
     ScalingRow row;
     setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
@@ -87,7 +86,8 @@ TEST(ScalingParts, spreadAsTheirRunsDo) {
 }
 
 TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
-    // A single run gives no estimate of its noise: 23.5 and 24.1 ms of 60 ms are too close to rank.
+    // A single run gives no estimate of its noise: vertices (23.5 ms of 60 ms) and fill (24.1 ms) are too close to
+    // rank.
     EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
     EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),

@@ -53,7 +53,8 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     }
 }
 
-// From four or more points on a focus surface s(n) = s/(1 + κ·r² + t·n), focusThrough finds the surface.
+// From four or more points on a curved and tilted focus surface, focusThrough finds the surface. Its depth at the image
+// position n is s/(1 + κ·|n|² + t·n), with the focus distance s, the curvature κ and the tilts t of the lens.
 TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     std::mt19937 generator(2);
     const auto random = [&](double min, double max) {

@@ -39,8 +39,9 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// A level 1 + ε times as bright errs by ε times the mean of each patch, and lens samples err by the deviations from
-// that mean. The squares of both add up to the light's mean square.
+// A level 1 + ε times as bright errs, in each patch, by ε times the patch's mean light. Lens samples err by the
+// deviations of the light from that mean. The squares of the mean and of the deviations add up to the light's mean
+// square.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -136,8 +137,8 @@ TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
     EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 100, 0.5), 0);
 }
 
-// At λ, the level's error equals its limit times the contrast; the errors are interpolated linearly between levels. λ
-// is clamped to the range from 0 to the coarsest level.
+// At λ, the error of the level equals its limit times the contrast; error and limit are interpolated linearly between
+// levels. λ is clamped to the range from 0 to the coarsest level.
 TEST(BlurredError, theLevelMeetsItsLimit) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
     ASSERT_GT(pyramid.levels.size(), 4u);
@@ -170,7 +171,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     EXPECT_EQ(levelOfBlurredError(pyramid, sides, 100, 0), 0);
 }
 
-// A level's error limit is inversely proportional to its edge length, up to a fraction of the lens samples' error.
+// A level's error limit is inversely proportional to its edge length, but at most 0.3 of the lens samples' error.
 TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     for (const std::uint32_t samples : {16u, 64u, 1024u}) {
         const double light = defaultThresholds(LodMetric::measured, samples).light;
@@ -180,7 +181,8 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
 }
 
 // λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at most 11 levels per unit of the
-// target's logarithm. A patch wider by a thousandth changes E² and V² by at most 4 and 2 thousandths.
+// target's logarithm. A blur over a patch wider by a thousandth changes the squared error E² by at most 4 thousandths
+// and the squared contrast V² by at most 2.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));

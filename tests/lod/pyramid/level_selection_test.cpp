@@ -52,8 +52,8 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
-// With the metric `score`, λ is the level whose stored edges are the threshold times the score c/d as long as level
-// 0's.
+// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as those of level 0, for a blur
+// of c px and edges of level 0 that project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -90,9 +90,10 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     expectContinuousLevels(pyramid);
 }
 
-// λ has the slope 1/ln(e[l+1]/e[l]) over the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target
-// for errors, between levels l and l + 1. Blur, threshold and distance all change the same quotient, target over
-// projected size, so a step in any of them changes λ by the integral of that slope.
+// Between levels l and l + 1 with the edge lengths or errors e[l] and e[l+1], λ has the slope 1/ln(e[l+1]/e[l]) over
+// the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target for errors. Blur, threshold and distance
+// all change the same quotient, target over projected size, so a step in any of them changes λ by the integral of that
+// slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -178,7 +179,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// Coarse samples and the boundary sample's share add up to f·N, the fractional part of λ times N, for every λ.
+// Of N samples, the coarse ones and the boundary sample's share add up to f·N, where f is the fractional part of λ, for
+// every λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

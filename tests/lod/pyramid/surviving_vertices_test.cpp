@@ -58,7 +58,8 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// Levels with fitted vertices keep fewer than half of the mesh's own values, so the test above distinguishes the two.
+// In levels with fitted vertices, fewer than half of the values are the mesh's own. Counts of own values therefore
+// distinguish fitted from surviving vertices.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));
     const OwnValues own = ownValues(mesh, buildPyramid(mesh));

@@ -84,9 +84,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the smallest patch, in object units, whose blur draws the level in at least half of `samples` samples, or
-// nullopt if no patch of the pyramid's table does. A patch covers at least a pixel; at more pixels per patch, edges are
-// longer on screen and the chosen level is finer.
+// Returns the side, in object units, of the smallest patch for which a blur over the patch selects the level in at
+// least half of `samples` samples; nullopt if no patch does. The patch is one pixel wide: with more pixels per patch,
+// edges are longer on screen and the selected level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {

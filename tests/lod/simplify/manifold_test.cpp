@@ -70,7 +70,7 @@ TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
 
 TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
     // 1   4
-    // | X |   with the knot 2 in the middle
+    // | X |   with the common vertex 2 in the middle
     // 0   3
     const Points points = {{0, 0, 0}, {0, 2, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}};
     const Manifold manifold = manifoldOf(points, {0, 2, 1, 3, 4, 2});

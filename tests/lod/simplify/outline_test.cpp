@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Index in directionsOfOutlines(): 4 is (−1, 0, 0), 10 is (0, −1, 0) and 12 is (0, 0, −1).
+// Index of an axis direction in directionsOfOutlines().
 constexpr std::size_t alongZ = 4;
 
 TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {

@@ -62,7 +62,7 @@ TEST(AttributeQuadric, aStepCostsItsSquareTimesTheArea) {
     EXPECT_NEAR(quadric.at(glm::vec3(corner[1] - corner[0]), change), area * (0.25 + 0.0625), 1e-5);
 }
 
-// The sum of quadrics costs as much as its faces: two faces at one vertex, of which the second was stored at another
+// The sum of two faces' quadrics gives the sum of the faces' costs, even if the second quadric was stored at another
 // vertex with different attributes.
 TEST(AttributeQuadric, sumsLikeItsFaces) {
     const glm::vec3 step(0.1f, -0.8f, 0.1f);

@@ -44,8 +44,8 @@ Moments momentsOf(const Points& points) {
 }
 
 // Lens cells preserve the position and size of blurred objects at every sample count. The cells' centres have the
-// lens's mean, and the covariances of the centres and of the blur add up to the lens's covariance. An image blur of σ =
-// b·c px corresponds to σ = 2b lens radii.
+// lens's mean, and the covariances of the centres and of the blur add up to the lens's covariance. For a circle of
+// confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens radii.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {

@@ -72,7 +72,7 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// For a thin lens, the bound is that of an eye that moves over a disk of radius |a| (Eq. 6 of the paper).
+// For a thin lens, C = a + b·w, the bound is that of an eye that moves over a disk of radius |a| (Eq. 6 of the paper).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;

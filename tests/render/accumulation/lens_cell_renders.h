@@ -66,8 +66,8 @@ protected:
         return lensCells(planFrame(small.world, small.view, settings));
     }
 
-    // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes of σ = 1 and 2
-    // px.
+    // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes (groups of pixels
+    // with similar blur) of σ = 1 and 2 px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
         auto small = fiveSpheres();
         small->view.lens.fStop = 0.25;

@@ -312,8 +312,9 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// Nothing pops where blur classes begin: as the lens opens in small steps, from a blur below every class to three
-// classes, no step changes the image by more than twice its neighbouring steps.
+// The image does not pop where blur classes (groups of pixels with similar blur) begin: as the lens opens in small
+// steps, from a blur below every class to several classes, no step changes the image by more than twice its
+// neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

@@ -10,7 +10,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the light between two points of a line in the paper's units, p from −1/2 to 1/2.
+// Returns the light between the points p1 and p2 of a lens line, by Tzeng et al. 2012: p runs from −1/2 to 1/2 over the
+// line.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
 }

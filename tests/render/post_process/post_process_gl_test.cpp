@@ -36,7 +36,7 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image image = postProcessed(*small, GetParam());
-    // The reference is the pinhole image of another method.
+    // Without blur, the image equals the pinhole image of another post-process method.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes.c_str())), 2e-3);

@@ -106,7 +106,7 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     }
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_LT(error, 1.0 / 255);
-    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half the error of rounding alone; alpha has none
+    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half the RMS error of rounding; alpha adds no error
 }
 
 TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {
