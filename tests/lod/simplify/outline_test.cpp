@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 // Index of an axis direction in directionsOfOutlines().
-constexpr std::size_t alongZ = 4;
+constexpr std::size_t towardsMinusX = 4;
 
 TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -31,7 +31,7 @@ TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {
 }
 
 TEST(CoverGrid, ofAnEmptyBoxIsEmpty) {
-    CoverGrid grid(Bounds(), directionsOfOutlines()[alongZ], 256);
+    CoverGrid grid(Bounds(), directionsOfOutlines()[towardsMinusX], 256);
     grid.add({}, {});
     EXPECT_EQ(grid.area(), 0);
     EXPECT_FALSE(grid.covers({0, 0}));
