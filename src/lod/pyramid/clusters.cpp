@@ -18,7 +18,7 @@ namespace {
 
 // ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // weight of similar normals against compactness
+constexpr float coneWeight = 0.75f;     // weight of similar normals, relative to that of a compact shape
 constexpr float minTurn = 1e-3f;        // lower bound of the cost factor of a differing normal
 constexpr std::size_t seedsAhead = 64;  // max number of triangles next to earlier clusters that are considered as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
@@ -55,7 +55,7 @@ struct ClusterGrowth {
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex: expensive to draw in another cluster
+    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex: another cluster would repeat the vertex
     std::vector<TriangleNumber> beside;    // two corners are in the cluster
     std::vector<TriangleNumber> touching;  // one corner is in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters

@@ -87,9 +87,10 @@ struct LightSlopes {
 };
 
 // Derivatives of the mean light with respect to the normal of a group, split into two parts. For a light direction d,
-// the part `odd` · d changes sign with d. The other part is the same for opposite lights.
+// the first part, odd · d with a symmetric matrix `odd`, changes sign with d. The second part is the same for opposite
+// lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {

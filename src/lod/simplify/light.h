@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Returns unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the first.
+// Light directions: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the first.
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 

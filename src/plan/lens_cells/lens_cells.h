@@ -25,7 +25,7 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // classes in front of the focus, and behind it; the last class limits σ
+inline constexpr int maxCellClasses = 5;  // max number of variance classes on each side of the focus
 // Returns the blur variance of class k ≥ 0 along an axis in px²: 4^k/3 + 1/6. The image of a class consists of
 // tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
