@@ -21,7 +21,7 @@ namespace {
 
 constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
 constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
-constexpr double manyShare = 0.25;        // fraction of the faces, for manyAreSmallest()
+constexpr double manyShare = 0.25;        // manyAreSmallest(): min fraction of the faces
 constexpr std::uint32_t fewestFaces = 4;  // min faces that collapses can reach: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -64,7 +64,7 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
-    // Join vertices at the same position, which cutting non-manifold edges creates.
+    // Join vertices at the same position. Such vertices result from cutting non-manifold edges.
     const Numbered<SurfaceVertexNumber, PositionNumber>& places = s.origin->places;
     const std::size_t placeCount = places.empty() ? 0 : 1 + indexOf(*std::max_element(places.begin(), places.end()));
     Numbered<PositionNumber, VertexHandle> seen(placeCount);

@@ -267,7 +267,7 @@ private:
     }
 
     // Returns x with (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The
-    // sum exploits that most vertices are on few outlines.
+    // matrix is summed over the vertices, skipping zero gradients, because most vertices are on few outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);

@@ -34,7 +34,7 @@ struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of any lens point from its position in the middle
+    double motion = 0;             // max distance of a lens point from its own position in the middle
 };
 
 // An object as seen by all samples of the frame.
@@ -44,7 +44,7 @@ struct ObjectViews {
     double lensRadius = 0;                   // m, radius of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
     double minVolume = 0;                    // m³, min view-space volume of a unit cube of object space
-    double largestSize = 0;                  // upper bound of the matrices' norms
+    double largestSize = 0;                  // upper bound of the norms of viewFromObject
     double largestOffset = 0;                // m, max distance of the object's origin from the camera
     OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces
 };
@@ -54,8 +54,9 @@ double frobeniusNorm(const glm::dmat3& m) {
 }
 
 // Returns bounds of the lens in object space while the object's matrix, A with translation T, moves linearly from
-// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I +
-// τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt if the matrix may become singular or mirrored.
+// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). Let A, T and x₀ be the values in the middle; ΔA and ΔT are
+// half the changes. At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt
+// if the matrix may become singular or mirrored.
 std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
     const glm::dmat4 middle = 0.5 * (from + to);
     const glm::dmat3 matrix(middle);
@@ -141,10 +142,11 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
 }
 
 // Returns how far the lens must lie behind the planes of the cluster's triangles, in object units, so that rounding
-// flips no triangle.
-// A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². f is the number of px
-// per unit at distance 1, and h the lens's distance from the triangle's plane. The triangle's edges are at most
-// f·L·‖A‖·distance/w² px long. Returns infinity if rounding may flip a triangle at any distance.
+// flips no triangle. Returns infinity if rounding may flip a triangle at any distance.
+//
+// A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². A is the matrix from
+// object to view space, and wᵢ are the depths of the corners. f is the number of px per unit at distance 1, and h the
+// lens's distance from the triangle's plane. The triangle's edges are at most f·L·‖A‖·distance/w² px long.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
