@@ -121,7 +121,7 @@ void countComponents(Simplifier& s) {
 // A component that may be removed.
 struct Removable {
     ComponentNumber component;
-    std::size_t size = 0;  // size class, in ascending order
+    std::size_t size = 0;  // size class, ascending; equal for components of similar size
     std::vector<FaceHandle> faces;
 };
 
@@ -152,7 +152,7 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
-        // Shuffle components of equal size, so that removals are spread over the mesh.
+        // Shuffle components of similar size, so that removals are spread over the mesh.
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
             return lowbias32(a.component.value) < lowbias32(b.component.value);
         });
@@ -325,8 +325,8 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Process one size class after another. A component that has replaced another stays until every component of its
-    // class has been considered. Removals are therefore spread evenly.
+    // Process components of similar size together, the smallest first. A component that has replaced another stays
+    // until all components of similar size have been considered. Removals are therefore spread evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

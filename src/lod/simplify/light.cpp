@@ -154,7 +154,7 @@ struct FollowingMeans {
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the means and derivatives. Reuses the memory of `result`, which may be large.
+// Computes the mean light from each direction and its derivatives. Reuses the memory of `result`, which may be large.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -181,9 +181,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the means by approximately `wanted`. `damping` is
-// relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because only
-// about nine of the lights are independent.
+// Returns the smallest change of the groups' normals that changes the mean light by approximately `wanted`. `damping`
+// is relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because
+// only about nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -268,7 +268,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
     // Turning normals changes the shading at each point, which a narrow blur still shows. The RMS change is therefore
-    // limited to this multiple of the improvement of the means.
+    // limited to this multiple of the improvement of the mean light.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

@@ -308,7 +308,7 @@ private:
     std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
     double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
-    int vainRounds_ = 0;                // rounds since `best_`
+    int vainRounds_ = 0;                // rounds since the last improvement
     std::vector<glm::vec3> gradients_;  // area gradients: for each vertex group, one per direction
     // State for the direction of the last cover().
     EdgeFill fill_;
