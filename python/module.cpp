@@ -72,7 +72,7 @@ bool isViewable(const Array& array) {
 }
 
 // Returns a view of the array's pixels without a copy; it is valid as long as the array. The package passes arrays with
-// 2 or 3 axes whose strides are positive and whose channels are neighbours.
+// 2 or 3 axes whose strides are positive and whose channels are contiguous.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
     if (array.size() == 0) return {};

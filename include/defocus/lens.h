@@ -28,7 +28,7 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
     std::optional<double> catEye;                    // [0, 1]; part of the aperture's radius hidden in image corners
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor, length of a focused point at left, right edge
+    std::optional<double> astigmatism;               // mm on the sensor, length of a focused point at side edges
     std::optional<double> coma;                      // mm on the sensor, tail at left and right edges; > 0: outwards
     std::filesystem::path apertureImage;             // aperture as an image, replaces blades and rings; empty: none
 

@@ -28,7 +28,8 @@ struct PlannedObject {
     double nearestDepth = 0;   // m, min depth of the bounding box
     double farthestDepth = 0;  // m
     // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
-    // depth, then min and max over the bounding box. Infinite for a box that extends to the camera.
+    // depth, then min and max of the unsigned diameter over the bounding box. Infinite for a box that extends to the
+    // camera.
     double nearestCoc = 0;
     double farthestCoc = 0;
     double smallestCoc = 0;

@@ -278,7 +278,7 @@ def _float32(array: numpy.ndarray) -> numpy.ndarray:
 
 
 def _rows(label: str, name: str, value: Any, *columns: int) -> numpy.ndarray:
-    """Returns `value` as an array of float32 with one of the numbers of `columns`."""
+    """Returns `value` as a 2D float32 array; its number of columns must be one of `columns`."""
     array = numpy.asarray(value)
     if array.ndim != 2 or array.shape[1] not in columns:
         wanted = " or ".join(f"N×{count}" for count in columns)

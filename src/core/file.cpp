@@ -32,7 +32,7 @@ FileHandle openFile(const fs::path& path, const char* mode) {
     return {std::fopen(path.c_str(), mode), &std::fclose};
 }
 
-// Locks a new temporary file until it is closed; the lock tells other processes that its writer is alive. Returns false
+// Locks a new temporary file until it is closed; the lock tells other processes that the writer is alive. Returns false
 // if another process has already removed the file as abandoned. Returns true on file systems without locks.
 bool isKept(int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;

@@ -63,7 +63,7 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Returns the directives before all declarations. They let a vertex shader write gl_Layer.
+// Returns the #version and #extension directives of a stage. The extensions let a vertex shader write gl_Layer.
 std::string directivesOf(const Stage& stage) {
     std::string text = "#version 450 core\n";
     if (stage.type == GL_VERTEX_SHADER)

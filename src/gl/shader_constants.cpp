@@ -10,23 +10,24 @@ namespace defocus::engine {
 namespace {
 
 struct ShaderConstant {
-    std::string_view type;  // of GLSL
+    std::string_view type;  // GLSL type
     std::string_view name;
-    std::string_view standard;  // default
-    // Defined where the constant isn't the default, for the parts of a stage's interface that depend on it.
+    std::string_view standard;  // default value
+    // Macro that is defined if the constant's value isn't the default; empty: none. Shaders use it for inputs and
+    // outputs that depend on the constant, because `if` cannot remove them.
     std::string_view macro = {};
 };
 
 // Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
 constexpr ShaderConstant constants[] = {
     // Frame
-    {"int", "blockSamples", "64"},  // samples per block of the sum
+    {"int", "blockSamples", "64"},  // lens samples per block of the accumulated sum
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
     {"float", "environmentLighting", "1.0"},  // scale of the environment's light on surfaces
     {"int", "lightCount", "0"},
-    {"int", "maxLights", "1"},         // capacity of the lighting
+    {"int", "maxLights", "1"},         // length of the uniform arrays of lights
     {"bool", "usesOwnBlur", "false"},  // surfaces have blur modifiers
     {"bool", "chromatic", "false"},
     {"bool", "cocControls", "false"},
@@ -47,7 +48,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "doubleSided", "false"},
     {"bool", "alphaTested", "false"},
     {"bool", "alphaBlended", "false"},
-    {"bool", "letsLightPass", "false"},  // a transmitting shadow caster
+    {"bool", "letsLightPass", "false"},  // the shadow caster transmits light
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},
     {"bool", "levelColorRange", "false"},
@@ -55,8 +56,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "textureCount", "1"},
     {"int[14]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
-    {"bool", "coarseShare", "false"},  // draws only the pixels of a boundary sample that show the coarser level
-    {"bool", "fineShare", "false"},    // or the finer level
+    {"bool", "coarseShare", "false"},                       // draws only the pixels of the coarser of two levels
+    {"bool", "fineShare", "false"},                         // draws only the pixels of the finer of two levels
 
     // Poses
     {"bool", "moving", "false", "MOVING"},
@@ -90,8 +91,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "extentLevels", "1"},
 
     // Lens space
-    {"int", "tileSize", "1"},  // px; also of the circular method
-    {"int", "maxRays", "1"},   // per wave
+    {"int", "tileSize", "1"},  // px; the circular method uses it, too
+    {"int", "maxRays", "1"},   // max lens samples drawn at once
     {"uint", "rayVariants", "1u"},
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
@@ -107,7 +108,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "exactTaps", "false"},
     {"bool", "tapSets", "false"},
     {"bool", "ofChannels", "false"},
-    {"int", "reduction", "1"},  // factor per side; also of the method scheuermann
+    {"int", "reduction", "1"},  // downsampling factor per axis; method scheuermann uses it, too
     {"bool", "combinedFields", "false"},
     {"bool", "nearPremultiplied", "false"},
     {"bool", "biasByLuminance", "false"},

@@ -153,8 +153,8 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double pixels = width / box.zNear;
     const double factor = parts.factor.max;
 
-    // Two linear functions that meet at a kink differ by at most the change of slope times the distance from the kink.
-    // Interpolation along an edge of length L errs most if the kink lies in the middle of the edge: by slope·L/4.
+    // C has kinks, where its slope jumps, at the ends of the focus range and at the blur limits. Interpolation along an
+    // edge of length L errs most if the kink lies in the middle of the edge: by (change of slope)·L/4.
     const Interval added{box.own.addedMin, box.own.addedMax};
     const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
@@ -170,7 +170,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
-    // Vertex blur that varies along an edge adds to the error at a kink.
+    // Blur modifiers of the vertices that vary along an edge add to the error at a kink.
     const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
     const double gained = 1 + coc.gain * parts.radius2.max;
     const double factors = box.own.factorMax - box.own.factorMin;
@@ -179,8 +179,8 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
     // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Lengths are
-    // measured in clip space and divided by the nearest depth. Then the second derivatives of r²·w are at most 2·(1 +
-    // r)².
+    // measured in clip space and divided by the nearest depth. Then the second derivatives of r²·w are at most
+    // 2·(1 + r)², where r is the distance from the image's centre.
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *

@@ -106,7 +106,7 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
-    double kinks = 0;   // error at the kinks of a piecewise linear C; cutting triangles there removes it
+    double kinks = 0;   // error where the slope of C jumps; cutting triangles there removes it
     double curved = 0;  // error where C is curved, or by vertex blur; only smaller triangles reduce it
 };
 

@@ -226,7 +226,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
         {"lens samples", fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", blur,
                                      kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
-    const double aspect = plan.coc.aspect;  // the aspect ratio is kept without the lens
+    const double aspect = plan.coc.aspect;  // a pinhole needs the aspect ratio, too
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
@@ -354,7 +354,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
-    // Leave out the lens before choosing levels, because levels depend on the blur.
+    // Switch to a pinhole, if no blur is visible, before choosing levels, because levels depend on the blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());

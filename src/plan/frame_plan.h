@@ -42,7 +42,7 @@ struct VisibleLevel {
 // the circle of confusion in clip space (circle_of_confusion.h).
 enum class Refinement {
     none,       // triangles are drawn undivided
-    split,      // triangles are cut along the kinks of C, and at the near plane before the lens shear
+    split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
     subdivide,  // triangles are divided into small ones because C is curved, then split
 };
 
@@ -120,9 +120,10 @@ struct FramePlan {
     RenderSettings settings;
     LodThresholds thresholds;  // settings.thresholds, completed by defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
-    double apertureDiameter = 0;  // m; 0 if the lens is left out
+    double apertureDiameter = 0;  // m; 0 for a pinhole, also if the blur is too small to be visible
     // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound comes
-    // from bounding boxes and is infinite if a box reaches the near plane. The value is kept if the lens is left out.
+    // from bounding boxes and is infinite if a box reaches the near plane. Also set if the
+    // frame uses a pinhole because the blur is too small to be visible.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;  // samples to draw, in order
@@ -154,7 +155,7 @@ struct FramePlan {
 
 // Number of samples for antialiasing if nothing is blurred.
 inline constexpr std::uint32_t antialiasingSamples = 16;
-// A frame is drawn without the lens if all CoC diameters are smaller, unless RenderSettings::keepAll is set.
+// A frame is drawn with a pinhole if all CoC diameters are below this value, unless RenderSettings::keepAll is set.
 inline constexpr double minBlur = 0.5;  // px
 
 // Returns the part of `level` that remains after culling, or null if the level is drawn completely.

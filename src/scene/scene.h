@@ -174,14 +174,14 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // property of a node, as the next three
+    translation,  // this and the next three: properties of a node
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; property of a camera (KHR_animation_pointer), as the next two
+    cameraYfov,   // radians; this and the next two: properties of a camera (KHR_animation_pointer)
     cameraZnear,  // m
     cameraLens,   // entry `lensValue` of Camera::lens
-    lightColor,   // property of a light (KHR_animation_pointer), as the next two
+    lightColor,   // this and the next two: properties of a light (KHR_animation_pointer)
     lightIntensity,
     lightRange,  // m
 };
@@ -214,7 +214,7 @@ struct Scene {
     std::filesystem::path file;  // source file; empty: none
     bool school = false;         // the built-in school of fish, whose lights suit an exposure of 0 EV
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;  // without glTF's default material, Primitive::material −1
+    std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
     std::vector<std::string> imageNames;  // one per entry of `images`

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Half a step of 8 bits: values that exceed [0, 1] by less are clamped, as rounding errors do that.
+// Half a step of 8 bits. Values outside [0, 1] by less are treated as rounding errors and clamped.
 constexpr float tolerance = 0.5f / 255;
 
 void checkSize(const ImageView& image, const std::string& label) {

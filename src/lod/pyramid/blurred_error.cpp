@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // cells per side; patches of 2, 4, … 512 cells fill a table
+constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTable holds patches of 2, 4, … 512 cells
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1

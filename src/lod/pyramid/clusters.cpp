@@ -18,7 +18,7 @@ namespace {
 
 // ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // weight of similar normals against compactness
+constexpr float coneWeight = 0.75f;     // weight of similar normals, relative to that of a compact shape
 constexpr float minTurn = 1e-3f;        // lower bound of the cost factor of a differing normal
 constexpr std::size_t seedsAhead = 64;  // max number of triangles next to earlier clusters that are considered as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one

@@ -16,8 +16,8 @@ constexpr LodThresholds referenceError{0.018, 0.18};  // error in px at 64 sampl
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 constexpr double lightOfSampleError = 6.7;   // px, default of LodThresholds::light for one sample
-constexpr double sampleErrorShareMax = 0.3;  // max ratio to the sampling error; raises the total error by at most 4 %
-constexpr double largestFactor = 2;          // max factor on the blur threshold: few samples hide no outline errors
+constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; adds at most 4 % to the total error
+constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
 
 // Returns whether the metric compares edge lengths with the target.
 bool bySize(LodMetric metric) {

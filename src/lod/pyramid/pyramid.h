@@ -50,9 +50,9 @@ struct Cluster {
 
 inline constexpr std::uint32_t maxClusterTriangles = 64;
 
-// RMS of a difference after averaging over square patches of growing size.
-// Entry 0: per point, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Light is
-// relative to the mean light of the mesh, so that 1 equals the mean light.
+// Table of the RMS of a light difference after averaging over square patches of growing size. Entry 0: per point,
+// without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Light is relative to the mean
+// light of the mesh, so that 1 equals the mean light.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 

@@ -36,8 +36,8 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// A step through texture space is a jump over a seam if it is longer than this multiple of the mesh's average texture
-// scale.
+// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change that the
+// mesh's average texture scale gives for the edge's length.
 constexpr double longestUvStep = 4;
 
 // One side of the collapsing edge: its face (if any), and the wedges of the removed and of the surviving vertex.
@@ -50,7 +50,7 @@ struct EdgeSide {
 struct Sides {
     const SurfaceMesh& mesh;
     VertexHandle survivor;
-    double longestStep = 0;  // squared, in texture space; longer steps are jumps
+    double longestStep = 0;  // squared, in texture space; longer steps cross a seam
     EdgeSide both[2];
 
     [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {
@@ -97,9 +97,9 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // The survivor's wedge across the edge in the corner's chart. `exact` is also on the same side of every crease.
+    // The survivor's wedge beside the collapsing edge, in the corner's chart.
     WedgeNumber across;
-    WedgeNumber exact;
+    WedgeNumber exact;     // like `across`, and also on the same side of every crease
     bool torn = false;     // a seam crosses the edge at the survivor
     bool creased = false;  // a crease crosses the edge at the survivor
     for (const EdgeSide& side : sides.both) {

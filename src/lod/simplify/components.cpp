@@ -21,7 +21,7 @@ namespace {
 
 constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
 constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
-constexpr double manyShare = 0.25;        // fraction of the faces, for manyAreSmallest()
+constexpr double manyShare = 0.25;        // manyAreSmallest(): min fraction of the faces
 constexpr std::uint32_t fewestFaces = 4;  // min faces that collapses can reach: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -64,7 +64,7 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
-    // Join vertices at the same position, which cutting non-manifold edges creates.
+    // Join vertices at the same position. Such vertices result from cutting non-manifold edges.
     const Numbered<SurfaceVertexNumber, PositionNumber>& places = s.origin->places;
     const std::size_t placeCount = places.empty() ? 0 : 1 + indexOf(*std::max_element(places.begin(), places.end()));
     Numbered<PositionNumber, VertexHandle> seen(placeCount);
@@ -121,7 +121,7 @@ void countComponents(Simplifier& s) {
 // A component that may be removed.
 struct Removable {
     ComponentNumber component;
-    std::size_t size = 0;  // size class, in ascending order
+    std::size_t size = 0;  // size class, ascending; equal for components of similar size
     std::vector<FaceHandle> faces;
 };
 
@@ -152,7 +152,7 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
-        // Shuffle components of equal size, so that removals are spread over the mesh.
+        // Shuffle components of similar size, so that removals are spread over the mesh.
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
             return lowbias32(a.component.value) < lowbias32(b.component.value);
         });
@@ -325,8 +325,8 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Process one size class after another. A component that has replaced another stays until every component of its
-    // class has been considered. Removals are therefore spread evenly.
+    // Process components of similar size together, the smallest first. A component that has replaced another stays
+    // until all components of similar size have been considered. Removals are therefore spread evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

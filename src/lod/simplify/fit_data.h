@@ -1,6 +1,6 @@
 #pragma once
-// Data shared by the fits of a level: the area and normal per anchor, and the least-squares equations for groups of
-// vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
+// Data shared by the fits of a level: the area and normal per anchor (level_fit.h), and the least-squares equations for
+// groups of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Coordinates {
 
 Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 
-// Sums over the vertices that an anchor represents: the vertex that owns the anchor and the vertices that share it.
+// Sums over the vertices that an anchor (a point on the level) represents: its owner and the vertices that share it.
 struct Anchored {
     float area = 0;
     glm::vec3 normal{0};  // area-weighted mean

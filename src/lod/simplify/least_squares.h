@@ -2,9 +2,10 @@
 // Least-squares fit of values at triangle corners to targets at points on the triangles. Minimises
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
 // by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). share is the weight of a point, and
-// weight is the barycentric weight of a corner with the value x. The normal equations are stored as one 3 × 3 matrix
-// per triangle. The time of an iteration is therefore independent of the number of points. Eigen's ConjugateGradient
-// takes five times as long, which would add 4 % to the time of building the pyramids of the school of fish.
+// weight is the barycentric weight of a corner with the value x. weightOf is the sum of share·weight at a corner. The
+// normal equations are stored as one 3 × 3 matrix per triangle. The time of an iteration is therefore independent of
+// the number of points. Eigen's ConjugateGradient takes five times as long, which would add 4 % to the time of building
+// the pyramids of the school of fish.
 
 #include <algorithm>
 #include <array>

@@ -87,9 +87,10 @@ struct LightSlopes {
 };
 
 // Derivatives of the mean light with respect to the normal of a group, split into two parts. For a light direction d,
-// the part `odd` · d changes sign with d. The other part is the same for opposite lights.
+// the first part, odd · d with a symmetric matrix `odd`, changes sign with d. The second part is the same for opposite
+// lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {
@@ -153,7 +154,7 @@ struct FollowingMeans {
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the means and derivatives. Reuses the memory of `result`, which may be large.
+// Computes the mean light from each direction and its derivatives. Reuses the memory of `result`, which may be large.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -180,9 +181,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the means by approximately `wanted`. `damping` is
-// relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because only
-// about nine of the lights are independent.
+// Returns the smallest change of the groups' normals that changes the mean light by approximately `wanted`. `damping`
+// is relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because
+// only about nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -267,7 +268,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
     // Turning normals changes the shading at each point, which a narrow blur still shows. The RMS change is therefore
-    // limited to this multiple of the improvement of the means.
+    // limited to this multiple of the improvement of the mean light.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

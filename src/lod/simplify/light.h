@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Returns unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the first.
+// Light directions: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the first.
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
@@ -50,12 +50,12 @@ struct LitSurface {
 // and at least `minPoints` points in total.
 LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 
-// Number of points that limits the error of the means to 5e-4.
+// Min number of points for lightMeans() that limits the error to 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Turns the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds of
 // the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached. The
-// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the means, because a
+// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean light, because a
 // change is visible at each point. Lengths of normals are preserved, so that roughness does not change. Vertices with
 // equal numbers in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,

@@ -29,8 +29,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // into Mesh::vertices
-// Vertex of the mesh to simplify; equal file vertices share one number. Twins (see Simplification) follow the mesh's
-// own vertices.
+// Vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices (see
+// Simplification), have the numbers after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse

@@ -267,7 +267,7 @@ private:
     }
 
     // Returns x with (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The
-    // sum exploits that most vertices are on few outlines.
+    // matrix is summed over the vertices, skipping zero gradients, because most vertices are on few outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -308,7 +308,7 @@ private:
     std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
     double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
-    int vainRounds_ = 0;                // rounds since `best_`
+    int vainRounds_ = 0;                // rounds since the last improvement
     std::vector<glm::vec3> gradients_;  // area gradients: for each vertex group, one per direction
     // State for the direction of the last cover().
     EdgeFill fill_;

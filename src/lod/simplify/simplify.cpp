@@ -24,8 +24,8 @@ constexpr std::size_t minFacesToReport = 1000;  // for smaller meshes, progress 
 constexpr std::size_t maxFacesToFollow = 8192;
 // While at least this number of faces must remain, collapses are made in sweeps.
 constexpr std::size_t minFacesToSweep = 16'384;
-constexpr std::size_t sweepsPerLevel = 8;   // a sweep covers this fraction (1/8) of the remaining collapses
-constexpr std::size_t minSweepShare = 128;  // a sweep covers at least this fraction (1/128) of the faces
+constexpr std::size_t sweepsPerLevel = 8;   // a sweep makes about 1/8 of the remaining collapses of a level
+constexpr std::size_t minSweepShare = 128;  // a sweep makes at least one collapse per 128 faces, if possible
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
 // Max ratio of the triangle counts of a level and the level before: a level must save a quarter of the triangles.
 constexpr double largestShare = 0.75;
@@ -148,8 +148,8 @@ void collapse(Simplifier& s, HalfedgeHandle along) {
     requeueAround(s, to);
 }
 
-// Collapses in order of class and cost until `floor` faces are left or no collapse is possible. See isKept for `target`
-// and `share`.
+// Performs collapses in order of cost, bad ones last, until `floor` faces are left or no collapse is possible. See
+// isKept for `target` and `share`.
 void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double share) {
     bool collapsed = true;
     while (s.liveFaces > floor) {

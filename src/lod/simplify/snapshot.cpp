@@ -170,13 +170,14 @@ Creases creases(Simplifier& s, const Corners& corners) {
 
 // ---- anchors
 
-// Finds the positions of the mesh's vertices on the simplified surface. Each removed vertex has a survivor; the search
-// for the closest face starts there.
+// Finds the positions of the mesh's vertices on the simplified surface. Each removed vertex has a survivor, from which
+// the search for the closest face starts.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
 constexpr std::size_t maxFacesAround = 1024;  // vertices with more faces are skipped by the search
-constexpr double noDistance = 1e-24;          // squared; shorter distances are rounding errors in a mesh of unit size
-constexpr double minUpright = 0.99;  // squared cosine of the angle between a face's normal and the offset to the point
+constexpr double noDistance = 1e-24;          // squared distance; lower values are rounding errors in a mesh of size 1
+// A point lies above a face if the squared cosine between the face's normal and the offset to the point is larger.
+constexpr double minUpright = 0.99;
 // Min number of anchors searched per surviving vertex. If many mesh vertices collapsed onto that vertex, anchors are
 // searched only for every second, fourth, … of them.
 constexpr std::uint32_t enoughAnchors = 16;

@@ -16,12 +16,12 @@ namespace defocus::engine {
 
 namespace {
 
-// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. Disk-shaped cells would have 1/4. The
+// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. Disk-shaped cells would need 1/4. This
 // value is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, images are not blurred
 constexpr std::uint32_t maxPointsOfCell = 16;
-constexpr std::uint32_t maxPoints = 1u << 14;  // sum over all cells
+constexpr std::uint32_t maxPoints = 1u << 14;  // max lens points in all cells together
 
 std::string reasonForNone(const FramePlan& plan) {
     if (plan.settings.keepAll) return "--keep-all is given";
@@ -75,7 +75,7 @@ LensSpread lensSpread(const Lens& lens) {
     const Aperture aperture = makeAperture(lens);
     if (isUniformDisk(aperture)) return {};
     LensSpread spread = spreadOf(lensSamples(lens, Sequence::sobol, 0, 4096, 0));
-    // Relative area of a uniform ellipse with this covariance; a ring's hole is subtracted below.
+    // Area of a uniform ellipse with this covariance, relative to the unit disk. A ring's hole is subtracted below.
     spread.area = std::min(1.0, 4 * std::sqrt(glm::determinant(spread.covariance)));
     spread.area *= (1 - aperture.obstruction) / (1 + aperture.obstruction);
     if (!aperture.image.rowEnds.empty()) spread.area = std::min(spread.area, filledArea(aperture.image));
@@ -89,9 +89,9 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each sample to the mean of its lens cell. A cell consists of further points of the sequence, which are divided
-// evenly among nearby samples. The division runs along two axes, so the means form rows and columns. The axes are
-// rotated, so that the means of adjacent columns interleave across a blurred vertical or horizontal edge.
+// Moves each sample to the mean point of its lens cell. A cell consists of further points of the sequence, which are
+// divided evenly among nearby samples. The division runs along two axes, so the mean points form rows and columns. The
+// axes are rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -137,7 +137,8 @@ double varianceOf(double blur, double coc) {
     return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
-// Returns the number of variance classes that CoC diameters up to `coc` px need.
+// Returns the number of variance classes (groups of pixels with similar blur, see lens_cells.h) that CoC diameters up
+// to `coc` px need.
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);
     int classes = variance > 0 ? 1 : 0;
@@ -169,7 +170,8 @@ LensCells lensCells(const FramePlan& plan) {
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
     moveToMeans(samples, plan);
-    // The lens point (1, 0) moves the image by c/2 px, so a blur of σ = blur·c px has a σ of 2·blur on the lens.
+    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur of σ = blur·c px therefore has a σ of
+    // 2·blur on the lens.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

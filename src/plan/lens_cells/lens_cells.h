@@ -25,9 +25,9 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // classes in front of the focus, and behind it; the last class limits σ
-// Returns the blur variance of class k ≥ 0 along an axis in px²: 4^k/3 + 1/6. The image of a class consists of
-// tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
+inline constexpr int maxCellClasses = 5;  // max number of variance classes on each side of the focus
+// Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
+// image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
 inline constexpr double minCellVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
 

@@ -152,7 +152,8 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
 }
 
 // Returns the number of points on each light per sample. A penumbra has as many steps as there are points in total, so
-// frames with few samples use several. The count depends on the frame's samples up to the end of this plan.
+// frames with few samples use several points per sample. The number of samples includes all earlier samples of the
+// frame.
 std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
     const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
@@ -184,8 +185,8 @@ std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
     return corners;
 }
 
-// Returns a subpixel shift of the map's texels that depends only on sample and point. Averaging the samples smooths the
-// maps' edges.
+// Returns a subtexel shift of a shadow map that depends only on the lens sample and the point on the light. Averaged
+// over the samples, the shifts smooth the edges of shadows.
 glm::dvec2 texelShift(const LensSample& sample, std::uint32_t point) {
     const glm::dvec2 at = glm::dvec2(sample.light) * glm::dvec2(7919, 6733) + glm::dvec2(sample.pixel) * 5.0 +
                           static_cast<double>(point) * glm::dvec2(0.754877666, 0.569840291);
@@ -193,7 +194,7 @@ glm::dvec2 texelShift(const LensSample& sample, std::uint32_t point) {
 }
 
 // Sets the projection's rows for x and y, so that `area` fills a map of `size` texels. A border leaves room for the
-// subpixel `shift`. `axes` are the coordinate axes of `area`.
+// subtexel `shift`. `axes` are the coordinate axes of `area`.
 void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& origin, Rectangle area, int size,
              const glm::dvec2& shift, double smallest) {
     const glm::dvec2 extent = glm::max(area.max - area.min, glm::dvec2(smallest));

@@ -34,7 +34,7 @@ struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of any lens point from its position in the middle
+    double motion = 0;             // max distance of a lens point from its own position in the middle
 };
 
 // An object as seen by all samples of the frame.
@@ -44,7 +44,7 @@ struct ObjectViews {
     double lensRadius = 0;                   // m, radius of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
     double minVolume = 0;                    // m³, min view-space volume of a unit cube of object space
-    double largestSize = 0;                  // upper bound of the matrices' norms
+    double largestSize = 0;                  // upper bound of the norms of viewFromObject
     double largestOffset = 0;                // m, max distance of the object's origin from the camera
     OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces
 };
@@ -54,8 +54,9 @@ double frobeniusNorm(const glm::dmat3& m) {
 }
 
 // Returns bounds of the lens in object space while the object's matrix, A with translation T, moves linearly from
-// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I +
-// τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt if the matrix may become singular or mirrored.
+// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). Let A, T and x₀ be the values in the middle; ΔA and ΔT are
+// half the changes. At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt
+// if the matrix may become singular or mirrored.
 std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
     const glm::dmat4 middle = 0.5 * (from + to);
     const glm::dmat3 matrix(middle);
@@ -140,10 +141,12 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
     return box;
 }
 
-// Returns how far the lens must lie behind a plane, in object units, so that rounding flips no triangle of the cluster.
-// A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². f is the number of px
-// per unit at distance 1, and h the lens's distance from the triangle's plane. The triangle's edges are at most
-// f·L·‖A‖·distance/w² px long. Returns infinity if rounding may flip a triangle at any distance.
+// Returns how far the lens must lie behind the planes of the cluster's triangles, in object units, so that rounding
+// flips no triangle. Returns infinity if rounding may flip a triangle at any distance.
+//
+// A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². A is the matrix from
+// object to view space, and wᵢ are the depths of the corners. f is the number of px per unit at distance 1, and h the
+// lens's distance from the triangle's plane. The triangle's edges are at most f·L·‖A‖·distance/w² px long.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
@@ -157,7 +160,7 @@ double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectV
            (focal * cluster.minAltitude * views.minVolume * min * min);
 }
 
-// Returns true if the entire lens lies behind all planes of the cluster by at least `margin`.
+// Returns true if the entire lens lies behind the planes of all triangles in the cluster by at least `margin`.
 bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius, double margin) {
     const double cosine = cluster.minCosine;
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
@@ -166,8 +169,8 @@ bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius,
     const double along = glm::dot(toCentre, axis);
     const double across = glm::length(glm::cross(toCentre, axis));
     const double size = glm::length(toCentre);
-    // n·toCentre is minimal for the normal n in the cone that points farthest away from toCentre. If the cone contains
-    // the direction −toCentre, the min is −|toCentre|.
+    // Find the min of n·toCentre over all unit normals n in the cluster's normal cone. If the cone contains the
+    // direction −toCentre, the min is −|toCentre|. Otherwise the min lies on the cone's boundary.
     const bool holdsOpposite = across * cosine + along * sine < 0;
     const double nearest = holdsOpposite ? -size : along * cosine - across * sine;
     const double disk = lensRadius * (glm::length(glm::dvec2(lens.viewFromNormal * axis)) + sine * lens.inverseSize);
@@ -226,7 +229,8 @@ LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const W
     for (std::size_t i = 0; i < object.motion.size(); ++i)
         add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
                                             : static_cast<double>(i) / static_cast<double>(last));
-    // A skin sums weighted matrices. Each term can be as large as the vertex's distance plus the joint's distance.
+    // Rounding errors of a skinned position are relative to the terms of the sum over joints. A term is at most the
+    // vertex's distance plus the joint's distance from the camera.
     const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
     corners.terms = 2 * (corners.terms + farthest);
     corners.lensRadius = lensReach(plan);
@@ -262,9 +266,9 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
     return triangle;
 }
 
-// Returns the margin by which the determinant must be below 0, so that rounded corners can't flip the triangle. Twice
-// the triangle's area in px² is W·H/4·det/(w₀w₁w₂). Moving the corners by r px changes this area by at most 2r·(sum of
-// two edges) + 8r².
+// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounded corners
+// can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H px. Moving the
+// corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
 double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
     double min = infinity;
     double max = 0;
@@ -445,9 +449,9 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 }  // namespace
 
 // Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
-// means x/tan + w + |C| < 0, with half a pixel added for the jitter. The thin lens's |C(w)| is convex, so the corners
-// bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside the image, one more pixel accounts
-// for rounded triangle corners.
+// means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The thin lens's |C(w)| is convex, so the
+// corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside the image, one more pixel
+// accounts for rounded triangle corners.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

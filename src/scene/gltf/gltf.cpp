@@ -87,7 +87,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.nodes = std::move(hierarchy.nodes);
     scene.roots = std::move(hierarchy.roots);
 
-    // 4. Checks, unit, extensions and notes.
+    // Check the transforms; set the unit, the extensions and the notes about ignored content.
     if (const std::string placed = placedAtInfinity(scene); !placed.empty())
         gltf::fault(source.document, "the transform of {} is not finite", placed);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);

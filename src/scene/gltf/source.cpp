@@ -91,8 +91,8 @@ void readBuffers(Source& source, const Progress& progress) {
     }
 }
 
-// Throws Error if a buffer view exceeds its buffer. glTF allows buffers without data; viewBytes throws when one is
-// read.
+// Throws Error if a buffer view exceeds its buffer. glTF allows buffers without data; viewBytes throws Error if such a
+// buffer is read.
 void checkViews(const Source& source) {
     for (std::size_t i = 0; i < source.model.bufferViews.size(); ++i)
         if (!source.unpackedViews[i] && source.buffers[static_cast<std::size_t>(source.model.bufferViews[i].buffer)])
