@@ -1,6 +1,7 @@
-// Cuts a triangle at the near plane and along the kinks of C (abrupt changes of its slope), then shears the pieces.
-// Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| never exceeds its
-// values at the piece's vertices. From front to back, the pieces are separated by the kinks where
+// Cuts a triangle at the near plane and along the kinks of the circle of confusion C (abrupt changes of its slope),
+// then shears the pieces. Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and
+// |C/w| never exceeds its values at the piece's vertices. From front to back, the pieces are separated by the kinks
+// where
 //   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
 // Each cut position on a triangle's edge depends only on the edge's two ends, and not on their order. Neighbouring
 // triangles therefore cut their shared edge at the same position, and no gap opens.
@@ -95,7 +96,7 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a focus range, F = B, and C has one piece between its two limits.
+    // Without a focus range, F = B (src/lens/circle_of_confusion.h), and C has one piece between its two limits.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

@@ -46,12 +46,12 @@ layout(location = 7) uniform uvec4 jobs;
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans of the tile's list before the segments of the kept triangles are added. A scan covers one entry
-// per thread.
+// Max number of scans of the tile's list before the segments of the triangles in `kept` are added. A scan covers one
+// entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangle; 1 if double-sided, else 0
-shared uint keptHere[2];        // one bit for each thread whose candidate is kept
+shared uvec2 kept[maxKept];    // triangles that the tile's lines may see: number; 1 if double-sided, else 0
+shared uint keptHere[2];        // one bit per thread: its candidate is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
 shared uint open;               // 1 if some line may still see later triangles of the list, else 0

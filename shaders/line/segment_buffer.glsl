@@ -158,7 +158,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
 
-// Returns an upper bound on the loop iterations for writing the line's records at the end.
+// Returns an upper bound on the loop iterations for writing the line's records (ray hits) at the end.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
     return parts * (4u * segmentCount + 2u + uint(maxShadingPoints));

@@ -26,7 +26,7 @@ layout(location = 3) uniform uvec2 part;
 const uint threads = uint(tileSize * tileSize);
 const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
-shared uvec2 kept[threads];   // triangle; 1 if double-sided, else 0
+shared uvec2 kept[threads];   // triangles that the tile's rays may hit: number; 1 if double-sided, else 0
 shared uint keptCount;
 shared uint open;             // 1 if some ray may still hit a later triangle of the list, else 0
 

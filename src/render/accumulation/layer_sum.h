@@ -99,9 +99,9 @@ private:
     GlTexture mean_;  // allocated on first use
     bool meanIsCurrent_ = false;
     Target meanTarget_;
-    // By features, which may change from frame to frame.
+    // Programs that add layers to the sum, by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of classes in front and behind
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of blur classes in front and behind
     // Kept after the latest block with lens cells, because the next frame often has the same classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;
