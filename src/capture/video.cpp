@@ -69,7 +69,7 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
-// Adds ffmpeg's prefix for files: it would read "12:30.mp4" as a protocol.
+// Adds ffmpeg's prefix for files; without the prefix, ffmpeg would read "12:30.mp4" as a protocol.
 std::string fileName(const fs::path& path) {
     return "file:" + path.string();
 }

@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether the options request `published`, the published form of a method: published forms are requested, and
-// the method is measured with default settings.
+// Returns whether to measure `published`, the published form of a method: the options request published forms, and this
+// method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {

@@ -25,7 +25,7 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
 
 // ---- results --------------------------------------------------------------------------------------------------------
 
-// What the rows were measured with: program, machine, scene, crops to show and skipped cases.
+// Conditions of the measured rows: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;

@@ -74,7 +74,7 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or splits differ from before
+    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or splits have changed
 };
 
 // Returns `plan` with the levels and splits of the previous frame, for objects that are in both frames. Returns none if

@@ -203,7 +203,7 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    // The blurriness at twice the focus distance is half the cutoff.
+    // The blurriness at twice the focus distance is half the cutoff, which is the blurriness at infinity.
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }
