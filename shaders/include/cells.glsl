@@ -14,11 +14,12 @@ const int drawnClasses = min(cellClasses, 7);
 const int cellTile = 8;
 const int besideSpread = 16;   // bit at which the second class mask of spread_classes.frag begins
 
-// Returns the blur variance of class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class −1
-// is unblurred.
+// Returns the blur variance of blur class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class
+// −1 is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
-// Returns the fraction of a sample with blur variance `variance` that counts for class k or more blurred classes.
+// Returns the fraction of a sample with blur variance `variance` that counts for blur class k and the more blurred
+// classes.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }

@@ -110,7 +110,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // one for this loop and three for the parts below
+        ownRounds += 4u;   // per piece: one of this loop, three of the loop over parts
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];

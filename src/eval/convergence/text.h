@@ -19,8 +19,8 @@ namespace defocus::engine {
 
 std::string convergenceHeader();                         // two lines
 std::string convergenceLine(const ConvergenceRow& row);  // one line
-// Returns sentences about the reference, the rows on the Pareto front, the bias floors, and the times to reach equal
-// errors.
+// Returns sentences about the reference, the rows on the Pareto front, the bias floors (rows.h), and the times to reach
+// equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------
