@@ -6,7 +6,7 @@
 // Both variations widen the specular lobe without changing its total energy.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights are therefore summed without F0 and albedo
-// (LightSums). This takes few operations per light, which matters on software rasterizers.
+// (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
     float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)

@@ -140,8 +140,8 @@ Part partFrom(float p, Interval whole) {
     return Part(last, triangle);
 }
 
-// Returns the piece of the line that begins at p with the given part. Consecutive parts with the same triangle form one
-// piece.
+// Returns the piece of the line that begins at p; `part` is the first part of the piece. Consecutive parts with the
+// same triangle form one piece.
 Piece pieceFrom(float p, Part part, Interval whole) {
     Piece piece = Piece(p, part.last, part.triangle, part.last, noTriangle);
     while (piece.last < whole.last) {

@@ -74,7 +74,7 @@ std::string fileName(const fs::path& path) {
     return "file:" + path.string();
 }
 
-// Runs ffmpeg with a pipe to its standard input. Its output and messages go to files.
+// Runs ffmpeg with a pipe to its standard input. ffmpeg's output and messages go to files.
 class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {

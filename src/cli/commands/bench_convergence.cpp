@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. Their shading differs, so the scene's light is then baked into
-// unlit colours.
+// Returns whether the program includes ray tracers. The shading of ray tracers differs, so if there are any, the
+// scene's light is baked into unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }

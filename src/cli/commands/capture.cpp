@@ -287,7 +287,7 @@ void parseShard(const std::string& text, Shard& shard) {
 }
 
 // Adds the shot and the options that replace parts of the shot. CLI11 applies options in the order in which they were
-// added: --set, which the shot reads, must precede the shot, and the overriding options must follow it.
+// added: --set, which the shot reads, must precede the shot, and the overriding options must follow the shot.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
     advanced(command

@@ -35,7 +35,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of all modes. They use layers precise enough that rounding doesn't affect the results.
+// The renderers of all modes. The layers are precise enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;

@@ -41,7 +41,7 @@ void addSetting(std::string& command, const Setting& setting, const Request& req
 }
 
 // Sets the request's camera to the camera of the view. Does nothing for a camera that moves during the exposure,
-// because options cannot describe it.
+// because options cannot describe such a movement.
 void placeCameraOf(const RenderCommandText& text, Request& request) {
     if (!text.view.shutterCameras.empty()) return;
     const glm::dmat4& camera = text.view.worldFromCamera;

@@ -162,8 +162,8 @@ private:
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. It must be drawn if a transmitting surface shows it, or if alpha marks
-    // blended surfaces for the blur of lens cells.
+    // when the layers are added to the sum. The environment must be drawn if a transmitting surface shows the
+    // environment, or if alpha marks blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&

@@ -31,7 +31,7 @@ public:
     // least one blur class. `passes` must have been built for the same classes and must outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // Returns the defines with which shaders/accumulation/add_layers_to_cells.frag fills the class sums.
+    // Returns the defines with which shaders/accumulation/add_layers_to_cells.frag fills the sums of the blur classes.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
     // Binds the targets and textures for program `addLayers`. `to` is the index in `blockSums` of the texture that is
     // written together with the class sums.

@@ -63,8 +63,8 @@ public:
     void makeMean();
     // Returns the mean of all samples so far as RGBA. Needs at least one sample.
     [[nodiscard]] Image mean();
-    // Returns the same mean as a texture with row 0 at the bottom. The texture is valid until further samples are
-    // added.
+    // Returns the mean of all samples so far as a texture with row 0 at the bottom. The texture is valid until further
+    // samples are added.
     [[nodiscard]] const GlTexture& meanTexture();
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] const LayerSumInfo& info() const { return info_; }

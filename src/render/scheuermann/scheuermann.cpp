@@ -189,7 +189,7 @@ private:
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
     const double radius = largest / width;  // in the unit of |C/w|, for circle of confusion C, depth w
     BlurrinessPlanes planes;
-    // At depth w, C/w = a/w + b with a < 0. It is −radius at the near plane and +radius at the far plane.
+    // At depth w, C/w = a/w + b with a < 0. C/w is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);
     if (std::isinf(focusDistance)) {  // nothing is behind the focus plane
         planes.focus = 2 * planes.near;

@@ -142,8 +142,8 @@ struct ViewState : ViewEdit, SceneState {
     std::string shotPath = "shot.json";
 };
 
-// Actions requested by panels and keys that need files, the GPU or the window. They are executed at the end of the
-// frame.
+// Actions requested by panels and keys that need files, the GPU or the window. The actions are executed at the end of
+// the frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // name of the camera; "auto" frames the scene
@@ -194,7 +194,7 @@ void frameScene(const PreparedFrame& frame, ViewState& state);
 inline constexpr double poppingDuration = 8;  // s
 void togglePoppingTest(ViewState& state);
 
-// Advances focus pull and animation by `seconds`, and ends the popping test when its time is over.
+// Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
 // Returns the --clip value of a clip of the scene: its name, or its index if the name is ambiguous.
