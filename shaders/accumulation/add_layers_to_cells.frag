@@ -1,13 +1,14 @@
-// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the class sums of the lens cells.
+// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the sums of the lens cells' blur
+// classes (include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Class sums that are part of the render target.
+// Sums of the blur classes that are part of the render target.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Class sums that do not fit into the render target.
+// Sums of the blur classes that do not fit into the render target.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
-// Per tile, a bit mask of the classes with samples in the tile.
+// Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
 // σ of the Gaussian that blurs a sample's image, as a fraction of the CoC diameter.
 layout(location = 3) uniform float cellBlur;
@@ -15,10 +16,11 @@ layout(location = 3) uniform float cellBlur;
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 cellsOut[drawnClasses];
 
-// Pixels with a larger alpha contain alpha-blended surfaces, whose alpha is added to the 1 of opaque surfaces and sky.
+// Threshold of alpha: pixels with a larger alpha contain alpha-blended surfaces, whose alpha is added to the 1 of
+// opaque surfaces and sky.
 const float blendedAlpha = 1.001;
 
-// Adds a layer's pixel to the sums of the classes, according to the pixel's blur.
+// Adds a layer's pixel to the sums of the blur classes, according to the pixel's blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < blendedAlpha ? max(0.0, cellBlur * cellBlur * c * c - minCellVariance) : 0.0;
@@ -29,8 +31,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
 }
 
-// Returns a bit mask of the classes that are not empty. The sum of such a class differs in its number of samples from
-// the sum of the next class. `samples`: number of all samples in the pixel.
+// Returns a bit mask of the blur classes that are not empty. The sum of such a class differs in its number of samples
+// from the sum of the next class. `samples`: number of all samples in the pixel.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;

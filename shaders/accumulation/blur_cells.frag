@@ -1,17 +1,18 @@
-// Computes the block's sum with blurred lens cells. The classes are composited from farthest to nearest, each blurred
-// by linear interpolation of its means. Unblurred samples are composited between the classes behind the focus and the
-// classes in front of the focus. Where only foreground samples exist, they also replace the unknown background.
+// Computes the block's sum with blurred lens cells. The blur classes (include/cells.glsl) are composited from farthest
+// to nearest, each blurred by linear interpolation of its means. Unblurred samples are composited between the classes
+// behind the focus and the classes in front of the focus. Where only foreground samples exist, they also replace the
+// unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Means of the classes in front of the focus (layer 0) and behind the focus (layer 1). shownMeans holds the mean
+// Means of the blur classes in front of the focus (layer 0) and behind the focus (layer 1). shownMeans holds the mean
 // radiance and number of a class's own samples; openMeans holds the mean number of samples not hidden by nearer
 // classes.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
-// Columns and rows of the grid of squares of class 0.
+// Columns and rows of the grid of squares of blur class 0.
 layout(location = 0) uniform ivec2 firstSquares;
 // > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the pixel's own number of
 // samples. −1: the output is the sum.
@@ -20,10 +21,10 @@ layout(location = 1) uniform float samples;
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
-// Composites class k in front of (`side` 0) or behind (1) the focus over `image`. The coverage of a class is the ratio
-// of its own samples to all samples not hidden by nearer classes.
+// Composites blur class k in front of (`side` 0) or behind (1) the focus over `image`. The coverage of a class is the
+// ratio of its own samples to all samples not hidden by nearer classes.
 void layOver(inout vec3 image, int k, float side) {
-    // The squares of class 0 have the size of a pixel and are centred at pixel corners.
+    // The squares of blur class 0 have the size of a pixel and are centred at pixel corners.
     vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);
     vec3 place = vec3((square + vec2(meansOrigin(firstSquares, k))) / vec2(textureSize(openMeans, 0).xy), side);
     vec4 shown = textureLod(shownMeans, place, 0.0);
@@ -39,8 +40,8 @@ void main() {
     if (cellsInFront > 0) open = texelFetch(cellSums, ivec3(pixel, 0), 0);
     if (cellsBehind > 0) blurred = texelFetch(cellSums, ivec3(pixel, cellsInFront), 0);
     vec3 image = vec3(0.0);
-    // A loop over the existing classes is faster than a branch around missing classes, because software drivers execute
-    // both sides of a branch.
+    // A loop over the blur classes in the tile is faster than a branch per class, because software drivers execute both
+    // sides of a branch.
     uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r & ((1u << cellClasses) - 1u);
     for (uint rest = spread >> cellsInFront; rest != 0u;) {
         int k = findMSB(rest);

@@ -1,28 +1,28 @@
-// Computes tent-weighted means for one class of lens cells. Each mean is centred on a square of pixels, and its tent
-// extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. One output is
-// the mean of the class's own samples; the other is the mean number of samples not hidden by nearer classes. With both,
-// neither blurred surfaces nor the edges of their occluders spread beneath the occluders.
+// Computes tent-weighted means for one blur class of lens cells. Each mean is centred on a square of pixels, and its
+// tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. One
+// output is the mean of the class's own samples; the other is the mean number of samples not hidden by nearer classes.
+// With both, neither blurred surfaces nor the edges of their occluders spread beneath the occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Number of the class. With nearestClass it is the most blurred class in front of the focus, which nothing hides.
+// Number of the blur class. With nearestClass it is the most blurred class in front of the focus, which nothing hides.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.
 layout(location = 1) uniform int side;
-// Lower left texel of the class in the target, from meansOrigin().
+// Lower left texel of the blur class in the target, from meansOrigin().
 layout(location = 4) uniform ivec2 origin;
 
 layout(location = 0) out vec4 meanOut;
 layout(location = 1) out float openOut;
 
-// Returns the sum of the samples at `place` that nearer classes don't hide.
+// Returns the sum of the samples at `place` that nearer blur classes don't hide.
 vec4 openTo(vec2 place) {
     if (nearestClass) return textureLod(blockSum, place, 0.0);
     return textureLod(cellSums, vec3(place, float(classIndex < cellsInFront ? classIndex + 1 : classIndex)), 0.0);
 }
-// Returns the part of openTo() that doesn't belong to the class.
+// Returns the part of openTo() that doesn't belong to the blur class.
 vec4 beyond(vec2 place) {
     if (nearestClass) return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
     int layer = classIndex < cellsInFront ? classIndex : classIndex + 1;

@@ -1,10 +1,10 @@
-// Places point sprites over the tiles in which means of a class of lens cells must be written, including neighbours of
-// tiles with non-zero means. Points over other tiles are moved outside the image.
+// Places point sprites over the tiles in which means of a blur class of lens cells must be written, including
+// neighbours of tiles with non-zero means. Points over other tiles are moved outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-// Side in px of the class's squares, each of which has one mean.
+// Side in px of the blur class's squares, each of which has one mean.
 layout(location = 1) uniform int side;
 // Number of tiles along the side of a point sprite; > 1 for classes with large squares.
 layout(location = 2) uniform int pointTiles;

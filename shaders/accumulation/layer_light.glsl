@@ -8,8 +8,8 @@
 layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    // xy: shift of the sky on the image plane at distance 1. With cocControls, xy is the shift for C/w = 1, and zw is
-    // the shift by the pixel jitter.
+    // xy: shift of the sky on the image plane at distance 1. With cocControls, xy is the shift for C/w = 1 (circle of
+    // confusion C, depth w), and zw is the shift by the pixel jitter.
     vec4 sampleShifts[blockSamples];
 };
 layout(location = 0) uniform int layerCount;
@@ -19,7 +19,7 @@ layout(location = 2) uniform ivec2 firstPixel;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: colour weights; w: change of b in C(w) by the wavelength.
+    // rgb: colour weights; w: change of b in the circle of confusion C(w) = a + b·w by the wavelength.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];

@@ -1,5 +1,5 @@
-// Draws one instance of an object per lens sample: the lens shear moves the vertices, and gl_Layer selects the sample's
-// layer.
+// Draws one instance of an object per lens sample: the lens shear (include/lens.glsl) moves the vertices, and gl_Layer
+// selects the sample's layer.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

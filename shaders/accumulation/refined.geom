@@ -1,6 +1,7 @@
-// Cuts a triangle at the near plane and along the kinks of C (abrupt changes of its slope), then shears the pieces.
-// Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| never exceeds its
-// values at the piece's vertices. From front to back, the pieces are separated by the kinks where
+// Cuts a triangle at the near plane and along the kinks of the circle of confusion C (abrupt changes of its slope),
+// then shears the pieces. Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and
+// |C/w| never exceeds its values at the piece's vertices. From front to back, the pieces are separated by the kinks
+// where
 //   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
 // Each cut position on a triangle's edge depends only on the edge's two ends, and not on their order. Neighbouring
 // triangles therefore cut their shared edge at the same position, and no gap opens.
@@ -80,7 +81,8 @@ void emit(Piece piece) {
 
 void main() {
     if (chromatic) bandShift = unsheared[0].bandShift;
-    // Values at the corners of the functions whose zeros are the kinks of C (from front to back) and the near plane.
+    // Values at the corners of the functions whose zeros are the kinks of the circle of confusion (from front to back)
+    // and the near plane.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;
@@ -95,7 +97,7 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a focus range, F = B, and C has one piece between its two limits.
+    // Without a focus range, F = B (src/lens/circle_of_confusion.h), and C has one piece between its two limits.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

@@ -1,6 +1,6 @@
-// Chooses tessellation levels for which C is linear in each part of a triangle, within the tolerance cocLimits.w. The
-// level of an edge depends only on the edge, so neighbouring triangles agree. OpenGL divides an edge into at most 64
-// parts; triangles that need more keep an error above the tolerance.
+// Chooses tessellation levels for which the circle of confusion C is linear in each part of a triangle, within the
+// tolerance cocLimits.w. The level of an edge depends only on the edge, so neighbouring triangles agree. OpenGL divides
+// an edge into at most 64 parts; triangles that need more keep an error above the tolerance.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -23,7 +23,7 @@ out Unsheared {
 #define SURFACE_OUT passedOn[gl_InvocationID]
 #include "include/surface_write.glsl"
 
-// Returns the two smooth pieces of C, in front of and behind the focus.
+// Returns the two smooth pieces of the circle of confusion C, in front of and behind the focus.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;

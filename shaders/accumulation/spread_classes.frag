@@ -1,13 +1,13 @@
-// Writes two bit masks of classes of lens cells for each tile. Bit k: class k may have non-zero means that are read in
-// the tile. Bit besideSpread + k: the means of class k must be written in the tile, even if 0, because interpolation in
-// the tile or its neighbours may read them.
+// Writes two bit masks of blur classes of lens cells for each tile. Bit k: class k may have non-zero means that are
+// read in the tile. Bit besideSpread + k: the means of class k must be written in the tile, even if 0, because
+// interpolation in the tile or its neighbours may read them.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform usampler2D heldClasses;
 
 layout(location = 0) out uint spreadOut;
 
-// Returns the bit mask of the classes in front of and behind the focus, for a bit mask `classes` of one side.
+// Returns the bit mask of the blur classes in front of and behind the focus, for a bit mask `classes` of one side.
 uint ofBothSides(uint classes) {
     return (classes & ((1u << cellsInFront) - 1u)) | (classes & ((1u << cellsBehind) - 1u)) << cellsInFront;
 }
@@ -21,7 +21,8 @@ void main() {
         for (int x = -6; x <= 6; ++x) {
             uint held = texelFetch(heldClasses, clamp(tile + ivec2(x, y), ivec2(0), last), 0).r;
             int away = max(abs(x), abs(y));
-            // Non-zero means lie up to 2 · 2^k px from the samples of class k, and their neighbours up to 3 · 2^k px.
+            // Non-zero means lie up to 2 · 2^k px from the samples of blur class k, and their neighbours up to 3 · 2^k
+            // px.
             spread |= held & ofBothSides(away <= 1 ? 0x1fu : away <= 2 ? 0x18u : away <= 4 ? 0x10u : 0u);
             beside |= held & ofBothSides(away <= 2 ? 0x1fu : away <= 3 ? 0x18u : 0x10u);
         }

@@ -5,7 +5,7 @@
 #include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 2) uniform sampler2D farBlurred;    // combinedFields: both fields
+layout(binding = 2) uniform sampler2D farBlurred;    // with combinedFields: near and far field in one
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus (px)

@@ -8,8 +8,9 @@ layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: the
 layout(location = 16) uniform vec4 brackets[components];   // offset, scale of the real part; then of the imaginary part
 layout(location = 15) uniform int firstComponent;
 
-// Per component, the real part and the imaginary part of the sum. If bracketed, per component the real rgb, the
-// imaginary rgb, and the weight's (real part, imaginary part, mean); the last output is then the mean rgb.
+// Per component, the real part and the imaginary part of the sum. If bracketed (sums mapped to [0, 1]; Bracket in
+// src/render/circular/complex_blur.h), per component the real rgb, the imaginary rgb, and the weight's (real part,
+// imaginary part, mean); the last output is then the mean rgb.
 layout(location = 0) out vec4 sums[bracketed ? 3 * components + 1 : 2 * components];
 
 vec4 pairAt(ivec2 pixel, int i, Taps taps) {

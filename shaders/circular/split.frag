@@ -10,7 +10,7 @@ layout(location = 0) uniform float largestRadius;   // image px
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
 
-layout(location = 0) out vec4 farField;             // combinedFields: both fields
+layout(location = 0) out vec4 farField;             // with combinedFields: near and far field in one
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
 layout(location = 3) out vec4 nearField;            // not for combinedFields

@@ -7,25 +7,26 @@
 // two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
-// Number of class sums that fit into a render target beside the sum of all samples.
+// Number of the blur classes whose sums fit into a render target beside the sum of all samples.
 const int drawnClasses = min(cellClasses, 7);
 
 // Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.
 const int cellTile = 8;
-const int besideSpread = 16;   // first bit of the second class mask that spread_classes.frag writes
+const int besideSpread = 16;   // bit at which the second class mask of spread_classes.frag begins
 
-// Returns the blur variance of class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class −1
-// is unblurred.
+// Returns the blur variance of blur class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class
+// −1 is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
-// Returns the fraction of a sample with blur variance `variance` that counts for class k or more blurred classes.
+// Returns the fraction of a sample with blur variance `variance` that counts for blur class k and the more blurred
+// classes.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
 
-// Returns the lower left texel of class k in the texture that holds the means of all classes. Class 0 is on the left;
-// the others are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip levels
-// are slower, because software drivers query their size for each pixel.
+// Returns the lower left texel of class k in the texture with the means of all blur classes. Class 0 is on the left;
+// the others are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip levels are
+// slower, because software drivers query their size for each pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

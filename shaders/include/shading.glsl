@@ -6,7 +6,7 @@
 // Both variations widen the specular lobe without changing its total energy.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights are therefore summed without F0 and albedo
-// (LightSums). This takes few operations per light, which matters on software rasterizers.
+// (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
     float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)
@@ -262,7 +262,7 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
     if (ownReflectance) {
-        // 1 − F = (1 − F90) + (F90 − F0)·(1 − g)
+        // With reflectance F90 at grazing angles, Fresnel gives 1 − F = (1 − F90) + (F90 − F0)·(1 − g).
         specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
         float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
         diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);

@@ -47,8 +47,8 @@ float sheenAlbedo(float nv, float roughness) {
     return clamp(exp(sum) - 0.001, 0.0, 1.0);
 }
 
-// Returns the fraction of light that the sheen leaves to the layers beneath. `share` is the fraction that a white sheen
-// reflects.
+// Returns the fraction of light that the sheen transmits to the layers beneath. `share` is the fraction that a white
+// sheen reflects.
 float sheenRemaining(SurfacePoint point, float share) {
     return 1.0 - share * max(point.sheen.r, max(point.sheen.g, point.sheen.b));
 }

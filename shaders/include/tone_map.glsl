@@ -1,5 +1,6 @@
-// Tone mapping from linear HDR to display values, like src/image/tone_map.cpp. It implements sRGB (IEC 61966-2-1), the
-// ACES fit by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin Wrensch's fit.
+// Tone mapping from linear HDR to display values, like src/image/tone_map.cpp. This file implements sRGB (IEC
+// 61966-2-1), the ACES fit by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin
+// Wrensch's fit.
 
 vec3 finiteColour(vec3 value) {
     const float brightest = 1e6;

@@ -1,5 +1,5 @@
 // Kernel 1 of the lens-space methods: poses the vertices of a level for transform feedback, and outputs their pinhole
-// position and C.
+// position and circle of confusion C.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -13,8 +13,8 @@ void main() {
     vec3 pinhole = vertexAt(moment, vec3(0.0)).pinhole;
     float c = frame.coc.x + frame.coc.y * pinhole.z;
     if (cocControls) {
-        // C is linear at and behind the near plane, because the lens-space methods reject objects on which C has kinks
-        // there. Only w = 0 must be avoided.
+        // The circle of confusion C is linear at and behind the near plane, because the lens-space methods reject
+        // objects on which C has kinks there. Only w = 0 must be avoided.
         float w = pinhole.z == 0.0 ? 1e-20 : pinhole.z;
         c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, vertexBlur(moment.z));
     }

@@ -6,9 +6,9 @@ struct Ray {
     // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the
     // pixel's centre.
     vec4 lensAndPixel;
-    // Point sample: x is the time in the part of the exposure, [0, 1]. Line sample: x is the line's extent on the other
-    // side of the lens centre, relative to the rim; y is the fraction of its light on the rim's side; z is the position
-    // of the shading point in a segment, [0, 1).
+    // Point sample: x is the time in the part of the exposure, [0, 1]. Line sample: x is the line's extent on the side
+    // opposite to the rim point, relative to the rim's distance from the lens centre; y is the fraction of its light on
+    // the rim's side; z is the position of the shading point in a segment, [0, 1).
     vec4 values;
 };
 

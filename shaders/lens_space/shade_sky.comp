@@ -1,4 +1,5 @@
-// Shades the records of rays that meet no surface with the sky, which lies at infinity, where C/w = b.
+// Shades the records of rays that meet no surface with the sky. The sky lies at infinity, where the relative circle of
+// confusion C/w is b.
 
 #include "lens_space/shade.glsl"
 

@@ -110,7 +110,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // one for this loop and three for the parts below
+        ownRounds += 4u;   // per piece: one of this loop, three of the loop over parts
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];
@@ -163,7 +163,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
 
-// Returns an upper bound on the loop iterations for writing the line's records at the end.
+// Returns an upper bound on the loop iterations for writing the line's records (ray hits) at the end.
 uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(maxShadingPoints)); }
 
 const uint stateSize = 2u + 4u * uint(segmentCapacity);

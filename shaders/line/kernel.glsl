@@ -26,9 +26,9 @@ layout(std430, binding = 1) buffer OutputBlock {
     uvec2 ranges[];
 };
 struct Bounds {
-    vec4 box;               // bounding box of all variants of the line: min (u, k·v), max (u, k·v)
-    // xy: unit vector in (u, v) perpendicular to the mean of the line's variants; z: max distance of a variant's points
-    // from that mean line.
+    vec4 box;               // bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v)
+    // xy: unit vector in (u, v) perpendicular to the mean of the line's variants (rays.glsl); z: max distance of a
+    // variant's points from that mean line.
     vec4 strip;
 };
 layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
@@ -46,12 +46,12 @@ layout(location = 7) uniform uvec4 jobs;
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans of the tile's list before the segments of the kept triangles are added. A scan covers one entry
-// per thread.
+// Max number of scans of the tile's list before the segments of the triangles in `kept` are added. A scan covers one
+// entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangle; 1 if double-sided, else 0
-shared uint keptHere[2];        // one bit for each thread whose candidate is kept
+shared uvec2 kept[maxKept];    // triangles that the tile's lines may see: number; 1 if double-sided, else 0
+shared uint keptHere[2];        // one bit per thread: its candidate is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
 shared uint open;               // 1 if some line may still see later triangles of the list, else 0
@@ -62,7 +62,7 @@ const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
 const uint jobGoesOn = 1u;      // continues with the triangles from the job's next entry on
-const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible ones are known and only remain to be added
+const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible triangles are known; adds their segments
 const uint jobIsDone = 3u;
 
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.

@@ -1,9 +1,9 @@
 // A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
 // Samples).
 //
-// The line has the direction d = (cos φ, k·sin φ). Seen from lens point p·d, a vertex (x, y, w, C) lies at
-// q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the edge
-// functions are linear in p:
+// The line has the direction d = (cos φ, k·sin φ), k = image width / height. Seen from lens point p·d, a vertex (x, y,
+// w, C) lies at q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel,
+// so the edge functions are linear in p:
 //   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
 // The line sees the triangle's front where all e_ij ≥ 0, the paper's C + u·A(y) − v·B(x) ≥ 0. The depth w there follows
 // from 1/w = E/D, with E = Σ e and the triangle's determinant D = Σ e·w. Both are linear in p. So is D − near·E, which

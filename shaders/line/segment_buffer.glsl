@@ -140,8 +140,8 @@ Part partFrom(float p, Interval whole) {
     return Part(last, triangle);
 }
 
-// Returns the piece of the line that begins at p with the given part. Consecutive parts with the same triangle form one
-// piece.
+// Returns the piece of the line that begins at p; `part` is the first part of the piece. Consecutive parts with the
+// same triangle form one piece.
 Piece pieceFrom(float p, Part part, Interval whole) {
     Piece piece = Piece(p, part.last, part.triangle, part.last, noTriangle);
     while (piece.last < whole.last) {
@@ -158,7 +158,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
 
-// Returns an upper bound on the loop iterations for writing the line's records at the end.
+// Returns an upper bound on the loop iterations for writing the line's records (ray hits) at the end.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
     return parts * (4u * segmentCount + 2u + uint(maxShadingPoints));

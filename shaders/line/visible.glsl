@@ -119,8 +119,8 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Returns bit masks of the kept triangles that this thread's line sees: xy their fronts, zw their backs. With complete
-// masks, all threads add a segment in each iteration of addSeen(), even if they see different triangles.
+// Returns bit masks of the triangles in `kept` that this thread's line sees: xy their fronts, zw their backs. addSeen()
+// then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely idle.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     uvec4 sides = uvec4(0u);
     for (uint i = 0u; i < keptCount; ++i) {
@@ -192,7 +192,7 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileMin, tileMax);
-        // The list is ordered front to back. The job is done once nearer surfaces cover the tile's lines completely.
+        // Triangles are sorted by min depth. The job is done once nearer surfaces cover all lines of the tile.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
         if (open == 0u) {

@@ -19,8 +19,8 @@ float lightUpTo(float p, vec2 sides) {
 
 float lightBetween(float p1, float p2, vec2 sides) { return lightUpTo(p2, sides) - lightUpTo(p1, sides); }
 
-// Returns the position p for which [p1, p] contains the fraction `share` of the light in [p1, p2], for a uniform disk:
-// the inverse of p|p|.
+// Returns the position p for which [p1, p] contains the fraction `share` of the light in [p1, p2], for a uniform disk.
+// The light up to p is proportional to p|p|, whose inverse is used.
 float placeOfShare(float p1, float p2, float share) {
     float q = mix(p1 * abs(p1), p2 * abs(p2), share);
     return clamp(sign(q) * sqrt(abs(q)), p1, p2);

@@ -1,6 +1,7 @@
 // Chooses the depth and blur modifiers with which each pixel of a bucket of alpha-blended objects is blurred. They are
-// those of the bucket's surface in the pixel, or the mean over the bucket's surfaces around the pixel if it has none. A
-// nearer opaque surface overrides both. Blur is linear in reversed depth, so the mean depth has the mean blur.
+// taken from the bucket's surface in the pixel; without such a surface, they are the mean over the bucket's surfaces
+// around the pixel. A nearer opaque surface overrides both. Blur is linear in reversed depth, so the mean depth has the
+// mean blur.
 
 layout(binding = 0) uniform sampler2D known;         // from bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;

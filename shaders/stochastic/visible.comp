@@ -1,7 +1,7 @@
 // Kernel 3 of the method "stochastic": finds the first hit of each ray of a tile's pixels. A workgroup processes one
-// tile and one ray of each of the tile's pixels. These rays pass through a small part of the lens. They are tested only
-// against the triangles that this part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests
-// with bounds of u and v).
+// tile and one ray of each of the tile's pixels. These rays pass through a small part of the lens. The rays are tested
+// only against the triangles that this part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile
+// tests with bounds of u and v).
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -26,7 +26,7 @@ layout(location = 3) uniform uvec2 part;
 const uint threads = uint(tileSize * tileSize);
 const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
-shared uvec2 kept[threads];   // triangle; 1 if double-sided, else 0
+shared uvec2 kept[threads];   // triangles that the tile's rays may hit: number; 1 if double-sided, else 0
 shared uint keptCount;
 shared uint open;             // 1 if some ray may still hit a later triangle of the list, else 0
 

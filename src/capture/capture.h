@@ -64,9 +64,9 @@ using FilmMetadata = std::function<Metadata(const FrameMoment&, const FramePlan&
 inline constexpr std::uint64_t filmPixelBytes = 3 * 16;
 
 // Renders the unfinished frames. `driver` must be constructed with `world`, whose pose and lights are set for each
-// frame. Calls `stop` before each frame; the run ends when it returns true. Frames in tiles are written row by row. If
-// memory is short, each frame is written before the next is drawn. Throws Error if a file can't be written or a frame
-// doesn't fit into memory; finished frames are kept.
+// frame. Calls `stop` before each frame; the run ends when `stop` returns true. Frames in tiles are written row by row.
+// If memory is short, each frame is written before the next is drawn. Throws Error if a file can't be written or a
+// frame doesn't fit into memory; finished frames are kept.
 FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress = {});

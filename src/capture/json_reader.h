@@ -39,7 +39,7 @@ public:
     [[nodiscard]] double number(double min, double max) const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] bool boolean() const;
-    [[nodiscard]] std::string text() const;  // throws Error unless it is a non-empty string
+    [[nodiscard]] std::string text() const;  // throws Error unless the value is a non-empty string
     // Returns the index of the value in `choices`. Throws Error if `choices` doesn't contain the value.
     [[nodiscard]] std::size_t choice(const std::vector<std::string>& choices) const;
     // Returns the value if it is an array of three finite numbers, else none.

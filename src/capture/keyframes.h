@@ -2,8 +2,9 @@
 // Interpolates numbers and points between the key frames of a shot.
 //
 // linear: straight lines between keys. smooth: a cubic through the keys with zero slope at the first and last key
-// (Steffen 1990). It stays within the values of the neighbouring keys, so that a focus pull doesn't overshoot; between
-// two keys it is 3t² − 2t³. Before the first key and after the last key, the value is constant.
+// (Steffen 1990). The cubic stays within the values of the neighbouring keys, so that a focus pull doesn't overshoot.
+// With only two keys, the value changes by the fraction 3t² − 2t³ at the fraction t of the time between the keys.
+// Before the first key and after the last key, the value is constant.
 
 #include <glm/vec3.hpp>
 #include <vector>

@@ -32,13 +32,13 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// What a shot focuses on. Evaluated for each frame, so that the focus follows moving objects. A pixel refers to an
-// image of the shot's size.
+// Target on which a shot focuses. Evaluated for each frame, so that the focus follows moving objects. A pixel refers to
+// an image of the shot's size.
 using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;
-    Easing easing = Easing::smooth;  // of 1/distance, like turning a focus ring
+    Easing easing = Easing::smooth;  // applies to 1/distance, like turning a focus ring
 };
 
 struct CameraKeys {

@@ -69,12 +69,12 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
-// Adds ffmpeg's prefix for files: it would read "12:30.mp4" as a protocol.
+// Adds ffmpeg's prefix for files; without the prefix, ffmpeg would read "12:30.mp4" as a protocol.
 std::string fileName(const fs::path& path) {
     return "file:" + path.string();
 }
 
-// Runs ffmpeg with a pipe to its standard input. Its output and messages go to files.
+// Runs ffmpeg with a pipe to its standard input. ffmpeg's output and messages go to files.
 class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {

@@ -1,5 +1,6 @@
 #pragma once
-// Errors of images that differ only in the seed of their lens samples. Their range shows the random part of the error.
+// Errors of images that differ only in the seed of their lens samples. The range of these errors shows the random part
+// of the error.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +19,7 @@ struct SeedError {
 // error.
 nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors);
 
-// CSV header and fields of the same values; without errors, the fields are empty.
+// CSV header and fields of the min and max over the seeds; without errors, the fields are empty.
 inline constexpr const char* seedErrorsColumns = "seeds,rmseLow,rmseHigh,flipLow,flipHigh";
 std::string seedErrorsCsv(std::span<const SeedError> errors);
 

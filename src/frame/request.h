@@ -32,7 +32,7 @@ GivenThresholds givenThresholds(const Request& request);
 ShutterSettings shutterSettings(const Request& request);
 
 // Returns the conditions that end a frame. The number of samples is automatic if the request gives neither a number,
-// nor a target error, nor a time limit. Exact motion and methods that cannot add blocks of samples take 64 samples
+// nor a target error, nor a time limit. With exact motion, and with methods that cannot add blocks of samples, it is 64
 // instead.
 StopSettings stopSettings(const Request& request);
 

@@ -23,7 +23,7 @@ public:
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
     // Starts a new frame. `stop` must pass checkStop. An automatic number of samples also needs a method that sums
-    // blocks, and no exact motion.
+    // blocks (Method::sumsBlocks), and motion must not need one pose per sample.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave of samples. Returns false once the frame is complete.
     bool advance();

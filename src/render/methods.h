@@ -51,7 +51,7 @@ struct Method {
     bool usesLensSamples = true;  // false: ignores the plan's lens samples (post-process methods)
     bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
-    bool blursCells = false;      // true: blurs lens cells if the frame permits (plan/lens_cells/lens_cells.h)
+    bool blursCells = false;      // true: blurs each sample's image by its lens cell (plan/lens_cells/)
     bool sumsBlocks = false;      // true: Renderer::continueWith adds to the sum, so the sample count may be open
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsShadows = true;     // false: no shadows

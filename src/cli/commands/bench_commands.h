@@ -25,7 +25,7 @@ void addAllowChanged(CLI::App& command, bool& allowed);
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
-// Returns the default request of a bench. Its unit is set to the metre, so that no result depends on a guessed unit.
+// Returns the default request of a bench. The unit is set to the metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
 // Describes what a bench measures: program, command, machine and the device of `context`; with `frame`, also its scene,

@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. Their shading differs, so the scene's light is then baked into
-// unlit colours.
+// Returns whether the program includes ray tracers. The shading of ray tracers differs, so if there are any, the
+// scene's light is baked into unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether the options request `published`, the published form of a method: published forms are requested, and
-// the method is measured with default settings.
+// Returns whether to measure `published`, the published form of a method: the options request published forms, and this
+// method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {

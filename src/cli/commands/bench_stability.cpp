@@ -39,7 +39,7 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
     return rows;
 }
 
-// Measures each method with default settings against the lens; prints a row per method and a summary.
+// Compares each method's blur, with default settings, with the blur of the lens. Prints a row per method and a summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\n"

@@ -121,8 +121,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     }
 }
 
-// Returns a function for the metadata of a frame: that of `render`, without values that differ from run to run.
-// `exposure`: EV of all frames; none: from each frame's lens.
+// Returns a function that gives a frame's metadata: the metadata that `defocus render` writes, without values that
+// differ from run to run. `exposure`: EV of all frames; none: from each frame's lens.
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
                         std::optional<double> exposure) {
     return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
@@ -287,7 +287,7 @@ void parseShard(const std::string& text, Shard& shard) {
 }
 
 // Adds the shot and the options that replace parts of the shot. CLI11 applies options in the order in which they were
-// added: --set, which the shot reads, must precede the shot, and the overriding options must follow it.
+// added: --set, which the shot reads, must precede the shot, and the overriding options must follow the shot.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
     advanced(command

@@ -97,8 +97,8 @@ std::string completionTable(const CLI::App& program) {
 }
 
 // Awk program that reads the table from standard input and prints the candidates for the last argument, each with a tab
-// and its description. Its arguments are the words of the command line after the program's name. The scripts contain
-// this text in single quotes, so it must contain neither a single quote nor a double backslash.
+// and its description. The awk program's arguments are the words of the command line after "defocus". The scripts
+// contain this text in single quotes, so it must contain neither a single quote nor a double backslash.
 constexpr std::string_view awkProgram = R"(
     BEGIN { FS = "\t"; words = ARGC - 1; ARGC = 1 }
     { rows[$1] = rows[$1] "\n" $2 "\t" $3 }

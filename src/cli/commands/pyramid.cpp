@@ -97,8 +97,8 @@ void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Loads a mesh's pyramid from the cache, or builds it and stores it there. Returns why it couldn't be stored; empty if
-// it was stored.
+// Loads a mesh's pyramid from the cache, or builds and stores the pyramid. Returns why the pyramid couldn't be stored;
+// otherwise empty.
 std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
                         MeshReport& report) {
     if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
@@ -118,7 +118,7 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
     return {};
 }
 
-// Builds or loads the pyramids of all meshes. Returns why one couldn't be stored; empty if all were stored.
+// Builds or loads the pyramids of all meshes. Returns why a pyramid couldn't be stored; empty if all were stored.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
     std::uint64_t all = 0;

@@ -28,7 +28,8 @@ struct TurntableSheet {
     std::vector<std::vector<TurntableCell>> cells;  // positions by level, then by view
 };
 
-// Camera and rotations of the views on a sheet. They are the same for all levels, so that levels can be compared.
+// Camera and rotations of the views on a sheet. Camera and rotations are the same for all levels, so that levels can be
+// compared.
 struct TurntableView {
     View view;                          // pinhole camera with the size of a cell
     std::vector<glm::dmat4> worldTurn;  // rotation about the object's vertical axis, by view

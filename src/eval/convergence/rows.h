@@ -61,7 +61,7 @@ struct BiasFloor {
     ImageError error;
 };
 
-// Returns one floor for each setting that draws levels.
+// Returns one BiasFloor for each setting that draws levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
 }  // namespace defocus::engine

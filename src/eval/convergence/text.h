@@ -19,13 +19,13 @@ namespace defocus::engine {
 
 std::string convergenceHeader();                         // two lines
 std::string convergenceLine(const ConvergenceRow& row);  // one line
-// Returns sentences about the reference, the rows on the Pareto front, the bias floors, and the times to reach equal
-// errors.
+// Returns sentences about the reference, the rows on the Pareto front, the bias floors (rows.h), and the times to reach
+// equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------
 
-// What the rows were measured with: program, machine, scene, crops to show and skipped cases.
+// Conditions of the measured rows: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;

@@ -35,7 +35,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of all modes. They use layers precise enough that rounding doesn't affect the results.
+// The renderers of all modes. The layers are precise enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;
@@ -74,11 +74,11 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or splits differ from before
+    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or samples per level differ
 };
 
-// Returns `plan` with the levels and splits of the previous frame, for objects that are in both frames. Returns none if
-// nothing differs.
+// Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both
+// frames. Returns none if nothing differs.
 std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before) {
     if (plan.samples.size() != before.samples.size()) return {};
     HeldPlan held{plan, {}};

@@ -9,8 +9,8 @@
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench measures its RMSE, and the FLIP between I_t and the expected
 //           frame I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. The change includes pops and all other errors of the
 //           levels that move with the camera.
-//   step:   I_t minus the same view and pose drawn with the levels and splits of the previous frame. The
-//           step is the pop alone.
+//   step:   I_t minus the same view and pose drawn with the previous frame's levels and its splits of the
+//           samples between two levels. The step is the pop alone.
 // Both are measured over the complete image and over the object pixels, which an object or its blur covers in frame t
 // or t − 1. For the step, only objects whose levels or splits differ count: unchanged objects don't dilute a pop, and
 // its error hardly depends on the number of objects that pop in a frame.
@@ -83,8 +83,8 @@ struct SampleStep {
     std::uint32_t level = 0;  // finer of the two levels
     double coc = 0;           // px, at the middle of the object's depth range
     double edgeError = 0;     // px, error of the coarser level
-    double expected = 0;      // √(coc/edgeError)/N if coc > edgeError, else 1/N
-    double measured = 0;      // RMS of all N steps, divided by the RMSE between the two levels
+    double expected = 0;      // for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
+    double measured = 0;      // RMS of the N steps, divided by the RMSE between the two levels
 };
 
 struct PoppingVisitor {

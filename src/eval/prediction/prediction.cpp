@@ -19,7 +19,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // per set; the noise of two sets cancels in a product
+constexpr std::uint32_t enoughSamples = 1024;  // lens samples per set; the noise of two sets cancels in a product
 
 // Scene for the measurement: a single static mesh without background, under the default lights, with the focus far
 // away.

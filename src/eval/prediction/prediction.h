@@ -28,7 +28,7 @@ struct PredictionOptions {
 struct PredictionRow {
     std::string mesh;
     double coc = 0;           // diameter at the mesh's centre, px
-    std::uint32_t level = 0;  // 0: sampling error of 64 samples at full detail
+    std::uint32_t level = 0;  // level of detail; 0: full detail with 64 samples, whose error is sampling noise
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;

@@ -25,8 +25,8 @@ ScalingWorld differentFish(int count, int triangles, const std::filesystem::path
                            const Progress& progress = {});
 
 // Returns `instances` instances of one fish of about `triangles` triangles, with the school's camera. The instances
-// form a cubic grid that always fills the same part of the view frustum. Each fish fills its cell: with more fish, each
-// covers fewer pixels, while a layer of the grid covers about the same area.
+// form a cubic grid that always fills the same part of the view frustum. Each fish fills its cell of the grid: with
+// more fish, each fish covers fewer pixels, while a layer of the grid covers about the same area.
 ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& cacheFolder);
 
 }  // namespace defocus::engine

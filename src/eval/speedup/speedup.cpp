@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default reference samples per max measured samples
+constexpr std::uint32_t referenceFactor = 8;  // default reference samples / largest measured sample count
 
 struct Setting {
     const char* sweep;

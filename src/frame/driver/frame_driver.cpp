@@ -88,8 +88,8 @@ public:
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
 private:
-    // Copies a finished tile into the kept image. If there is a row sink, copies the tile into its band instead and
-    // passes each complete band to the sink.
+    // Copies a finished tile into kept_. If there is a row sink, copies the tile into its band instead and passes each
+    // complete band to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
         const Band& band = bands_[band_];

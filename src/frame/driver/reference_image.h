@@ -21,7 +21,8 @@ namespace defocus::engine {
 
 // Index of a reference's first lens sample in its sequence, far beyond the samples of other images.
 inline constexpr std::uint32_t referenceOffset = 1u << 20;
-// Sequence of a reference's lens samples. It doesn't depend on the method, so one reference serves all methods.
+// Sequence of a reference's lens samples. The sequence doesn't depend on the method, so one reference serves all
+// methods.
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {

@@ -46,7 +46,7 @@ std::size_t pyramidKind(const Request& request) {
     return 1 + static_cast<std::size_t>(request.levelVertices);
 }
 
-// Returns a note that a frame in tiles may take more samples than an untiled frame; empty if the frame doesn't.
+// Returns a note if a frame in tiles may use more samples than an untiled frame; otherwise empty.
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (plan.samples.size() <= blockSamples) return {};
     return {

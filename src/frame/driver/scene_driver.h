@@ -86,7 +86,7 @@ private:
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
 
-    bool named_;  // whether the request that loaded the scene names it
+    bool named_;  // true: the scene was loaded from the request; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
     std::shared_ptr<Scene> scene_;                                  // may be shared with other owners; never modified

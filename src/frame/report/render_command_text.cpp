@@ -41,14 +41,14 @@ void addSetting(std::string& command, const Setting& setting, const Request& req
 }
 
 // Sets the request's camera to the camera of the view. Does nothing for a camera that moves during the exposure,
-// because options cannot describe it.
+// because options cannot describe such a movement.
 void placeCameraOf(const RenderCommandText& text, Request& request) {
     if (!text.view.shutterCameras.empty()) return;
     const glm::dmat4& camera = text.view.worldFromCamera;
     const glm::dvec3 position(camera[3]);
     request.cameraPosition = asArray(position);
     request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
-    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // or looking straight up or down
+    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // rolled, or looking straight up or down
     request.cameraUp.reset();
     if (rolled) request.cameraUp = asArray(camera[1]);
 }
@@ -81,7 +81,7 @@ Request requestOf(const RenderCommandText& text) {
     const double metresPerUnit = text.frame.scene->metresPerUnit;
     if (metresPerUnit != 1) request.units = metresPerUnit;  // else `render` may guess another unit
     request.toneMap = text.write.toneMap;
-    // The exposure options exclude each other: use the lens's exposure time, or an exposure value.
+    // Give either the lens's exposure time or an exposure value: the options exclude each other.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
     const bool meters = !text.frame.scene->school && !text.frame.scene->lights.empty();

@@ -1,5 +1,6 @@
-// The matrices follow OpenEXR, "Standard Attributes". They transform world space to a left-handed camera space that
-// looks along +z, and world space to NDC: (0, 0) is the upper left corner of the image, (1, 1) the lower right corner.
+// The matrices in the metadata follow OpenEXR, "Standard Attributes". The matrices transform world space to a
+// left-handed camera space that looks along +z, and world space to NDC: (0, 0) is the upper left corner of the image,
+// (1, 1) the lower right corner.
 
 #include "frame/report/render_report.h"
 

@@ -10,8 +10,8 @@
 namespace defocus::engine {
 
 std::span<const Preset> presets() {
-    // Jeong, Kim and Lee 2011 use fixed thresholds. These values are the thresholds that this program computes for 64
-    // samples.
+    // Jeong, Kim and Lee 2011 use fixed thresholds. The values below are the thresholds that this program computes for
+    // 64 samples.
     static const std::vector<Preset> all = {
         {"jeong2011",
          "accumulation with levels of detail by size (Jeong et al. 2011)",

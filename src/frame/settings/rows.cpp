@@ -317,8 +317,8 @@ Rows lensRows() {
 
 // ---- samples --------------------------------------------------------------------------------------------------------
 
-// Row of the setting "preset", which stores no value; see presets.h. It precedes the rows of all settings that a preset
-// sets, so that options given explicitly override the preset.
+// Row of the setting "preset", which stores no value; see presets.h. This row precedes the rows of all settings that a
+// preset sets, so that options given explicitly override the preset.
 Row presetRow() {
     std::vector<std::string> names;
     std::vector<std::string> lines;

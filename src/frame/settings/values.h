@@ -51,7 +51,7 @@ void addNodeBlur(Request& request, const std::string& text);
 std::vector<std::string> nodeBlurTexts(const Request& request);
 std::optional<std::string> nodeBlurText(const Request& request);
 
-// Sets the method. Its settings that the text doesn't give are reset to their defaults.
+// Sets the method. Settings of the method that the text doesn't give are reset to their defaults.
 void setMethod(Request& request, const std::string& text);
 std::optional<std::string> methodText(const Request& request);
 void clearMethod(Request& request);

@@ -10,14 +10,14 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered. The request can ask for that. It is also the default for a scene
-// with lights, which may be as bright as the sun, if the lens has no exposure time. The school of fish is not metered.
+// Returns whether the exposure is metered: if the request selects metering, or by default for a scene with lights
+// (which may be as bright as the sun) if the lens has no exposure time. The school of fish is not metered.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) that maps the log-average luminance of a linear image to middle grey, 18 % (Reinhard et al.
-// 2002, Photographic Tone Reproduction for Digital Images). Ignores pixels with alpha, the coverage by metered
-// surfaces, up to 0.5. The exposure is clamped so that the 98th percentile of the luminances lies between 40 % and 100
-// % of white. Returns 0 for an image without light.
+// 2002, Photographic Tone Reproduction for Digital Images). Ignores pixels whose alpha, the coverage by metered
+// surfaces, is at most 0.5. The exposure is clamped so that the 98th percentile of the luminances lies between 40 % and
+// 100 % of white. Returns 0 for an image without light.
 double meteredExposure(const ImageView& image);
 
 // Renders a small image of the view's surfaces, without blur and environment, and meters it. Returns the exposure (EV).

@@ -50,7 +50,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
         fail(
             "{}: the plane through the three points crosses the view axis at or behind the camera; choose other points",
             what);
-    // Plane equation: normal·(X, Y, −w) = normal·point. It is divided by −normal.z.
+    // Plane equation normal·(X, Y, −w) = normal·point, divided by −normal.z.
     lens.focusSwing = std::atan(-normal.x / normal.z);
     lens.focusTilt = std::atan(-normal.y / normal.z);
     lens.focusDistance = distance;

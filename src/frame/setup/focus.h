@@ -20,11 +20,11 @@ void chooseFocus(const Request& request, const Camera& camera, const Scene& scen
 
 // Sets focus distance, tilt and swing so that the plane of focus contains three points in view space (m; the camera
 // looks along −z). Four or more points also set the field curvature and minimise the sum of squared blurs. A direction
-// n has the focus distance s(n); a point at depth w has a blur proportional to |1/s(n) − 1/w|. 1/s(n) = (1 + κ·r² +
-// t·n)/s is linear in 1/s, κ/s and t/s. Lee, Eisemann and Seidel 2010 (Real-Time Lens Blur Effects and Focus Control)
-// also fit the focus to points that the user marks. If the points leave tilt or curvature undetermined, these are
-// minimal. Throws Error for collinear points, and if the surface of focus would meet the view axis behind the camera.
-// The message begins with `what`; the lens stays unchanged.
+// n has the focus distance s(n); a point at depth w has a blur proportional to |1/s(n) − 1/w|. With field curvature κ
+// and tilt t, 1/s(n) = (1 + κ·r² + t·n)/s is linear in 1/s, κ/s and t/s. Lee, Eisemann and Seidel 2010 (Real-Time Lens
+// Blur Effects and Focus Control) also fit the focus to points that the user marks. If the points leave tilt or
+// curvature undetermined, these are minimal. Throws Error for collinear points, and if the surface of focus would meet
+// the view axis behind the camera. The message begins with `what`; the lens stays unchanged.
 void focusThrough(std::span<const glm::dvec3> points, Lens& lens, const std::string& what);
 
 }  // namespace defocus::engine

@@ -39,7 +39,7 @@ Scene loadScene(const Request& request, const Progress& progress = {});
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
 // Places camera, lens and lights in a loaded scene. Leaves the scene unchanged, including the blur of its nodes and its
-// units. `environment`: environment map to reuse; null: the request's is loaded.
+// units. `environment`: environment map to reuse; null: load the request's map.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 

@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-// Returns the hash. `shaderFolder`: folder whose shaders replace the embedded ones; empty: none. Throws Error if that
-// folder can't be read.
+// Returns the hash of world, view and shaders. `shaderFolder`: folder whose shaders replace the embedded ones; empty:
+// none. Throws Error if that folder can't be read.
 std::uint64_t worldHash(const World& world, const View& view, const std::filesystem::path& shaderFolder = {});
 
 }  // namespace defocus::engine

@@ -21,8 +21,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the number of layers, which is the number of samples per wave. If `requested` is 0, a block is divided into
-// the fewest equal waves that fit into RendererOptions::waveBytes.
+// Returns the number of layers, which is the number of samples per wave. If `requested` is 0, a block of 64 samples is
+// divided into the fewest equal waves that fit into RendererOptions::waveBytes.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t requested,
                          LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
@@ -81,7 +81,7 @@ public:
         drawWave(first, count);
         clock_.endWave();
         if (first + count == total) {
-            sum_->makeMean();  // before endFrame(), so that its time counts
+            sum_->makeMean();  // before endFrame(), so that the frame's time includes it
             clock_.endFrame();
         }
         return first + count < total;
@@ -162,8 +162,8 @@ private:
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. It must be drawn if a transmitting surface shows it, or if alpha marks
-    // blended surfaces for the blur of lens cells.
+    // when the layers are added to the sum. The environment must be drawn if a transmitting surface shows the
+    // environment, or if alpha marks blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -205,7 +205,7 @@ private:
     bool usesLensCells_;
     GpuScene scene_;
     FramePlan plan_;
-    LensCells cells_;                  // lens cells of plan_; if it has no classes, images are not blurred
+    LensCells cells_;                  // lens cells of plan_; without blur classes, images are not blurred
     std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;

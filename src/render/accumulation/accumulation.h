@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Both functions return a renderer of the method. They need a current OpenGL 4.5 context, which must outlive the
+// Both functions return a renderer of the method. Both need a current OpenGL 4.5 context, which must outlive the
 // renderer.
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options);
 std::unique_ptr<Renderer> makeMultirateRenderer(const World& world, const RendererOptions& options);

@@ -15,19 +15,21 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // equals the max of drawnClasses in shaders/include/cells.glsl
+constexpr int maxDrawn = 7;  // max class sums per render target; equals the max of drawnClasses in cells.glsl
 
-// Side in px of the point sprites of the largest class, a multiple of the sides of all other classes.
+// Side in px of the point sprites of the blur class with the largest squares, a multiple of the sides of all other
+// classes.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
-// Returns the size of the grid of class 0, whose squares have the size of a pixel. Squares are centred on pixel
+// Returns the size of the grid of blur class 0, whose squares have the size of a pixel. Squares are centred on pixel
 // corners, so the grid has more columns and rows than the image.
 glm::ivec2 squaresOf(const TextureInfo& image) {
     const auto whole = [](int pixels) { return (pixels / largestPoint + 1) * largestPoint; };
     return {whole(image.width), whole(image.height)};
 }
 
-// Allocates a texture for the means of all classes, with the layout of meansOrigin in shaders/include/cells.glsl.
+// Allocates a texture for means over squares of pixels, for all blur classes; meansOrigin() gives each class's
+// position.
 GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
     GlTexture texture({.format = format,
                        .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,

@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// Shader programs for a given number of classes in front of and behind the focus plane.
+// Shader programs for a given number of blur classes in front of and behind the focus plane.
 struct CellPasses {
     explicit CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder);
 
@@ -28,10 +28,10 @@ struct CellPasses {
 class CellSums {
 public:
     // `blockSums` are the two textures between which the block's sum alternates from wave to wave. `cells` must have at
-    // least one class. `passes` must have been built for the same classes and must outlive this object.
+    // least one blur class. `passes` must have been built for the same classes and must outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // Returns the defines with which shaders/accumulation/add_layers_to_cells.frag fills the class sums.
+    // Returns the defines with which shaders/accumulation/add_layers_to_cells.frag fills the sums of the blur classes.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
     // Binds the targets and textures for program `addLayers`. `to` is the index in `blockSums` of the texture that is
     // written together with the class sums.
@@ -50,14 +50,14 @@ private:
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;           // one layer per class, in the order given in shaders/include/cells.glsl
+    GlTexture sums_;           // one layer per blur class, in the order given in shaders/include/cells.glsl
     Target addingTargets_[2];  // each with one of the block's sums and the first classes of sums_
-    GlTexture held_;           // per tile: bit mask of the classes in it
-    GlTexture spread_;         // per tile: bit mask of the classes whose means it needs
+    GlTexture held_;           // per tile: bit mask of the classes of its samples
+    GlTexture spread_;         // per tile: bit masks of the classes whose means are read and written in the tile
     Target spreadTarget_;
-    // Per class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of samples
-    // that no nearer class covers. Layer 0 holds the classes in front of the focus plane, layer 1 those behind, side by
-    // side.
+    // Per blur class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of
+    // samples that no nearer class covers. Layer 0 holds the classes in front of the focus plane, layer 1 those behind,
+    // side by side.
     glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];

@@ -63,8 +63,8 @@ public:
     void makeMean();
     // Returns the mean of all samples so far as RGBA. Needs at least one sample.
     [[nodiscard]] Image mean();
-    // Returns the same mean as a texture with row 0 at the bottom. The texture is valid until further samples are
-    // added.
+    // Returns the mean of all samples so far as a texture with row 0 at the bottom. The texture is valid until further
+    // samples are added.
     [[nodiscard]] const GlTexture& meanTexture();
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] const LayerSumInfo& info() const { return info_; }
@@ -99,9 +99,9 @@ private:
     GlTexture mean_;  // allocated on first use
     bool meanIsCurrent_ = false;
     Target meanTarget_;
-    // By features, which may change from frame to frame.
+    // Programs that add layers to the sum, by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of classes in front and behind
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of blur classes in front and behind
     // Kept after the latest block with lens cells, because the next frame often has the same classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;

@@ -24,10 +24,11 @@ class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object has the integer level nearest to
-    // λ.
+    // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object is drawn at the integer level
+    // nearest to its fractional level λ.
     void draw(const FramePlan& plan);
-    // Draws the visible edges of the triangles of the latest draw(), coloured by λ (viridis), in premultiplied RGBA.
+    // Draws the visible edges of the triangles of the latest draw(), coloured by level λ (viridis), in premultiplied
+    // RGBA.
     void drawWireframe();
 
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
@@ -51,7 +52,7 @@ private:
 // Returns the AOVs of one frame.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// Colour maps of levels saturate at this λ.
+// Level λ at which colour maps of levels saturate.
 inline constexpr float coarsestShownLevel = 8;
 
 // Maps levels λ to linear RGB by viridis: level 0 is dark violet, level 8 and above is yellow. Pixels without a surface

@@ -42,7 +42,7 @@ private:
 // are exact up to 16.7 million per pixel. Needs a current OpenGL context.
 Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// The colour map saturates at this number of triangles per pixel and lens sample.
+// Triangles per pixel and lens sample at which the colour map saturates.
 inline constexpr float maxShownWork = 15;
 
 // Maps the work over `samples` lens samples to linear RGB by magma, on a scale that is the same for all frames. 0

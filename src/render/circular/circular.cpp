@@ -202,8 +202,8 @@ private:
         nearRadiusTarget_ = Target({&nearRadius_});
     }
 
-    // Returns the rectangle of field pixels from which rectangle `part` of the image is interpolated; nullopt means
-    // all.
+    // Returns the rectangle of field pixels from which rectangle `part` of the image is interpolated; nullopt stands
+    // for all pixels.
     [[nodiscard]] std::optional<TexelRectangle> inField(const std::optional<TexelRectangle>& part) const {
         if (!part) return {};
         const TextureInfo& field = farField_.info();

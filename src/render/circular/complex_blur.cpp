@@ -19,7 +19,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr int maxTargets = 8;
-constexpr int reduction = 8;  // factor per axis of one step of the max reduction
+constexpr int reduction = 8;  // each reduction step writes the max of 8 x 8 texels
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
 constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
@@ -81,13 +81,13 @@ std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& valu
     return parts;
 }
 
-// Returns the bracket for taps that do not depend on the radius.
+// Returns the Bracket (mapping of sums to [0, 1]) for taps that do not depend on the radius.
 Bracket bracketOfSum(const std::vector<double>& taps) {
     const double offset = std::ranges::min(taps);
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Returns the bracket for arbitrary taps between the min and the max of `taps`.
+// Returns the Bracket for arbitrary taps between the min and the max of `taps`.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};

@@ -29,7 +29,7 @@ struct DisplaySettings {
     bool focusPlane = false;    // true: tints surfaces near the focus plane
     bool wireframe = false;
     double divider = 1;       // fraction of the width for the first image, 0 … 1; the second image fills the rest
-    bool difference = false;  // true: the rest shows differenceGain · |first − second|
+    bool difference = false;  // true: the second part shows differenceGain · |first − second|
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
@@ -42,7 +42,7 @@ struct DisplaySettings {
 struct DisplayInputs {
     const GlTexture* first = nullptr;  // linear RGBA, premultiplied
     const GlTexture* second = nullptr;
-    const GlTexture* coc = nullptr;  // from AovPass, as the next two
+    const GlTexture* coc = nullptr;  // `coc`, `level` and `wireframe` are from AovPass
     const GlTexture* level = nullptr;
     const GlTexture* wireframe = nullptr;
     const GlTexture* work = nullptr;  // from WorkPass

@@ -218,10 +218,10 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
     moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
-    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. At infinite depth w, the
-    // circle of confusion C(w) gives C/w = b, so lens point and jitter shift the sky by a fixed offset. With blur
-    // controls, C/w depends on the pixel, and the shader multiplies it with the lens point. The buffer is padded to
-    // complete blocks, which are bound one at a time.
+    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion is C
+    // = a + b·w at depth w, so C/w = b at infinity, and lens point and jitter shift the sky by a fixed offset. With
+    // blur controls, C/w depends on the pixel, and the shader multiplies it with the lens point. The buffer is padded
+    // to complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());
@@ -247,8 +247,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: colour weights and changes of
-// b by the wavelength, then lens points.
+// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: colour weights and the
+// changes of b (in the circle of confusion C = a + b·w) by the wavelength, then lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

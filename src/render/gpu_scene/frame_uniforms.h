@@ -42,9 +42,9 @@ public:
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
-    // Whether surfaces have blur modifiers.
+    // Returns whether surfaces have blur modifiers.
     [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // samples per wave K
     [[nodiscard]] std::size_t bytes() const;
 
 private:

@@ -324,8 +324,8 @@ GpuMaterial GpuScene::materialBlock(int index) const {
     const float ior = material.ior;
     const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
     block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
-    // transmission.w is the factor on the blur of the background by roughness: 0 for index 1 (air), 1 for 1.5 and
-    // above.
+    // transmission.w is the factor on the blur of the background by roughness: 0 for refractive index 1 (air), 1 for
+    // 1.5 and above.
     block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * world_->scene->metresPerUnit;

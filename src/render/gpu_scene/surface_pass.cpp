@@ -299,7 +299,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
     return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
 }
 
-// Draws the triangles that remain after the occlusion test. Returns their number, summed over samples.
+// Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
     std::uint64_t triangles = 0;

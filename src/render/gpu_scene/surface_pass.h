@@ -72,8 +72,8 @@ public:
 private:
     enum class ScreenDoor {
         open,         // all pixels show the same level
-        coarseShare,  // pixels in which a boundary sample shows the coarser level
-        fineShare,    // pixels in which a boundary sample shows the finer level
+        coarseShare,  // pixels with the coarser level in a boundary sample, which mixes two levels
+        fineShare,    // pixels with the finer level in a boundary sample
     };
 
     struct Draw {  // one primitive of an object at one level of detail

@@ -35,8 +35,8 @@ public:
     // Needs a current OpenGL context.
     DepthLayers(GpuScene& scene, const DepthLayersInfo& info);
 
-    // Prepares the passes for `pinholes`. `frame` must have been uploaded for `pinholes` with one layer, and must exist
-    // until the last peel().
+    // Prepares the passes for the plan `pinholes`, made by widened(). `frame` must have been uploaded for `pinholes`
+    // with one layer, and must exist until the last peel().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
     // Draws the layers of the plan's sample `index`, up to the first empty layer.
     void peel(std::uint32_t index);

@@ -25,8 +25,8 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// Returns the samples per wave K: `asked`, or if 0 as many as fit into RendererOptions::waveBytes, at most `run`. K is
-// a power of two, so that it divides `run`.
+// Returns the samples per wave K: `asked`, or if 0 as many as fit into RendererOptions::waveBytes, at most `run`, the
+// number of consecutive samples with the same pinhole. K is a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =

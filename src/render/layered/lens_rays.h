@@ -4,8 +4,8 @@
 //
 // Lee, Eisemann and Seidel 2010 bound the depths that a pixel's rays may hit by N-buffers: min and max depth in squares
 // around each pixel, for each power of two as side. This implementation uses mipmaps of min and max, which take a fifth
-// of the memory and give slightly wider bounds. The mipmaps store blurs instead of depths, so that the bounds hold for
-// all blur controls.
+// of the memory of N-buffers and give slightly wider bounds. The mipmaps store blurs instead of depths, so that the
+// bounds hold for all blur controls.
 
 #include "gl/buffer.h"
 #include "gl/program.h"

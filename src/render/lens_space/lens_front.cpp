@@ -331,7 +331,7 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
-    GLint rays = 0;  // buffer with the rays: its binding is used for the depths here
+    GLint rays = 0;  // the buffer with the rays, restored below: the depths use its binding point
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);

@@ -1,6 +1,6 @@
 #pragma once
-// Renderer of the lens-space methods. These process a frame's triangles once and find the hits of many lens rays for
-// each pixel, whereas method "accumulation" draws the triangles again for each lens sample.
+// Renderer of the lens-space methods. These methods process a frame's triangles once and find the hits of many lens
+// rays for each pixel, whereas method "accumulation" draws the triangles again for each lens sample.
 
 #include <memory>
 

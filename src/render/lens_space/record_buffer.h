@@ -19,7 +19,7 @@ class RecordBuffer {
 public:
     // Returns the max number of records that fit into a storage buffer.
     static std::uint64_t maxRecords();
-    // Ensures that the buffer has room for `count` records. Its content may be lost.
+    // Ensures that the buffer has room for `count` records. The buffer's content may be lost.
     void reserve(std::uint64_t count);
     void bind() const;
     [[nodiscard]] std::uint64_t capacity() const;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
-constexpr std::size_t jobRanges = 2;  // size of a job in ranges
+constexpr std::size_t jobRanges = 2;  // size of a deferred job, in elements of `ranges` in kernel.glsl
 // Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
@@ -35,7 +35,7 @@ struct GpuBounds {
     glm::vec4 strip;
 };
 
-// Counters at the start of the output buffer; the ranges follow.
+// Counters at the start of the output buffer; `ranges` of shaders/line/kernel.glsl follows.
 struct Counters {
     std::uint32_t records = 0;
     std::uint32_t droppedSegments = 0;
@@ -152,7 +152,7 @@ public:
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
 
 private:
-    struct Places {  // offsets in the output buffer, in ranges
+    struct Places {  // offsets in `ranges` of shaders/line/kernel.glsl
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
         std::uint64_t slots = 0;  // number of states
@@ -175,7 +175,7 @@ private:
         program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
     }
 
-    // Returns the size in ranges of an invocation's state between dispatches: 2 plus stateSize in
+    // Returns the size of an invocation's state between dispatches, in elements of `ranges`: 2 plus stateSize in
     // shaders/line/envelope.glsl (exact) or shaders/line/segment_buffer.glsl (published).
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
@@ -183,8 +183,8 @@ private:
 
     // Finds the visible intervals on the lines of `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
-        // Allocate the ranges. If jobs may be deferred, also allocate all jobs and the states of as many as fit into
-        // stateBytes.
+        // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate all jobs, and states for as
+        // many of them as fit into stateBytes.
         const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
                                    static_cast<std::uint32_t>(imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;

@@ -19,7 +19,7 @@ double areaAt(double radius) {
     return radius * radius;
 }
 
-// Returns a table of the fraction of the aperture's light on lines with angles from 0 up to i·π/angleSteps.
+// Returns a table whose entry i is the fraction of the aperture's light on lines with angles from 0 to i·π/angleSteps.
 std::vector<double> lightUpToAngles(const Aperture& aperture) {
     std::vector<double> sums(angleSteps + 1, 0.0);
     for (std::size_t i = 0; i < angleSteps; ++i) {
@@ -45,9 +45,9 @@ struct WheelPoint {
     double shading = 0;
 };
 
-// Returns one point per line of the wheel. Two coordinates of the low-discrepancy sequence are the positions in the
-// pixel. A third coordinate assigns positions to lines, so that they are well distributed over the wheel too. Shading
-// positions advance by the golden ratio from line to line.
+// Returns one point per line of the wagon wheel (line_sets.h). Two coordinates of the low-discrepancy sequence are the
+// positions in the pixel. A third coordinate assigns positions to lines, so that they are well distributed over the
+// wheel too. Shading positions advance by the golden ratio from line to line.
 std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_t variant, std::uint32_t lines) {
     std::vector<SequencePoint> points;
     for (std::uint32_t line = 0; line < lines; ++line)

@@ -38,7 +38,7 @@ struct RemainingDraw {
     std::uint32_t indexCount = 0;
 };
 
-// Draws without hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
+// Draws that omit hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
@@ -88,7 +88,7 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // By mesh, level and primitive.
+    // Pieces by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
     std::vector<Sorted> sorted_;  // empty if culling is off
     std::int64_t sortedBlock_ = -1;

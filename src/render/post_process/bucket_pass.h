@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 class BucketPass {
 public:
-    // `opaque` is the image of the opaque surfaces. It must have the format `format` and outlive this object.
+    // `opaque` is the image of the opaque surfaces. The image must have the format `format` and outlive this object.
     BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder);
 
     // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the opaque image must show

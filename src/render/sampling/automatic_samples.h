@@ -1,6 +1,6 @@
 #pragma once
-// Default number of lens samples of an image. It follows from the largest blur; for large blurs, it is the max, and
-// sampling ends earlier once the estimated error is small.
+// Default number of lens samples of an image. The number follows from the largest blur. For large blurs the number is
+// the max, and sampling ends earlier once the estimated error is small.
 
 #include <cstdint>
 

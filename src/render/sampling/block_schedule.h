@@ -1,7 +1,7 @@
 #pragma once
 // Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block, it decides
-// whether another block follows and with which settings. It holds no image and makes no OpenGL calls; still images and
-// the window both use it.
+// whether another block follows and with which settings. The schedule holds no image and makes no OpenGL calls; still
+// images and the window both use it.
 //
 // The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
 // it is measured before the first block (LevelError). Thresholds are chosen so that it is less than half the intended
@@ -21,8 +21,8 @@ namespace defocus::engine {
 const char* stopReasonText(StopReason reason);
 
 // RMSE due to levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for
-// the same few lens samples. It is modelled as a power law in the sample count whose default thresholds select the
-// levels, through two measurements.
+// the same few lens samples. The levels depend on a sample count through its default thresholds. The RMSE is modelled
+// as a power law in that count, through two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
     static constexpr std::uint32_t coarse = 128;  // sample count of the thresholds for `atCoarse`

@@ -23,8 +23,8 @@
 
 namespace defocus::engine {
 
-// Exponent a for lens samples. It is 0.5 for random points, and 0.75 for straight edges with well distributed points.
-// The mean measured over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
+// Exponent a for lens samples. The exponent is 0.5 for random points, and 0.75 for straight edges with well distributed
+// points. The mean measured over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
 // (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 

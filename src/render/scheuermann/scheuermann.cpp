@@ -187,9 +187,9 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    const double radius = largest / width;  // in units of C/w
+    const double radius = largest / width;  // in the unit of |C/w|, for circle of confusion C, depth w
     BlurrinessPlanes planes;
-    // At depth w, C(w)/w = a/w + b with a < 0. It is −radius at the near plane and +radius at the far plane.
+    // At depth w, C/w = a/w + b with a < 0. C/w is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);
     if (std::isinf(focusDistance)) {  // nothing is behind the focus plane
         planes.focus = 2 * planes.near;
@@ -203,7 +203,7 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    // The blurriness at twice the focus distance is half the cutoff.
+    // The blurriness at twice the focus distance is half the cutoff, which is the blurriness at infinity.
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }

@@ -23,8 +23,8 @@
 
 namespace defocus::engine {
 
-// Maps depth z to blurriness in [−1, cutoff]: (z − focus)/(focus − near) in front of the focus plane, (z − focus)/(far
-// − focus) behind.
+// Maps depth z to blurriness: (z − focus)/(focus − near) in front of the focus plane, (z − focus)/(far − focus) behind,
+// clamped to [−1, cutoff]. The cutoff is the max blurriness behind the focus plane.
 struct BlurrinessPlanes {
     double near = 0;   // m
     double focus = 0;  // m

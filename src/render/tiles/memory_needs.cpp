@@ -90,8 +90,8 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     return needs;
 }
 
-// Returns a tile of one row at the top of the plan's first cell. Drawing it allocates all memory that a tile needs
-// except for its pixels.
+// Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing it allocates all
+// memory that a tile needs except for its pixels.
 Tile trialTile(const FramePlan& plan) {
     const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
     const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();

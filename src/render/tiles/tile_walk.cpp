@@ -24,7 +24,7 @@ bool TileWalk::advance() {
     if (!std::exchange(drawing_, true)) renderer_->start(tileOf(*plan_, tile));
     if (renderer_->advance()) return true;
 
-    // The tile is complete.
+    // The current tile is complete.
     drawing_ = false;
     addTileStats(stats_, renderer_->stats());
     ++tiles_;

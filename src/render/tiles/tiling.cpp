@@ -60,7 +60,7 @@ int bandCount(int length, int max) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
     const std::uint64_t min = layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
-    // Adds 5 % for variations between runs.
+    // The suggested limit includes 5 % for variations between runs.
     const std::string enough = needs.shared && needs.elsewhere > 0
                                    ? fmt::format("; give --memory {:.0f}MiB or more",
                                                  static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
@@ -69,7 +69,7 @@ int bandCount(int length, int max) {
          needs.width, needs.height, bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
-// Returns the band for `rows`, which must be within one row of cells.
+// Returns the band for `rows`, which must be within one row of `cells` (plan/visible/tiles.h).
 Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
     Band band{rows, {}};
     for (const PixelRectangle& cell : cells)
@@ -103,8 +103,8 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // Divide each row of cells into bands of equal height, except for the last band, because a change of size
-    // reallocates layers and sums.
+    // Divide each row of cells (plan/visible/tiles.h) into bands of equal height, except for the last band, because a
+    // change of size reallocates layers and sums.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);

@@ -16,7 +16,7 @@ public:
     DesktopDialog(const DesktopDialog&) = delete;
     DesktopDialog& operator=(const DesktopDialog&) = delete;
 
-    // Opens the dialog in `folder`. Returns false if neither program can be started.
+    // Opens the dialog in `folder`. Returns false if neither zenity nor kdialog can be started.
     bool open(const std::filesystem::path& folder);
     [[nodiscard]] bool running() const { return process_ > 0; }
     struct Outcome {

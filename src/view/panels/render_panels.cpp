@@ -40,7 +40,6 @@ void environmentRows(ViewState& state) {
 
 // Returns whether the settings section lists a setting: it is in the group samples, method or developer, affects the
 // pixels and has a widget.
-// the pixels and has a widget.
 bool hasPlainRow(const Setting& setting) {
     const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                        setting.group == SettingGroup::developer;

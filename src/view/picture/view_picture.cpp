@@ -119,7 +119,7 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
 }
 
 double ViewPicture::growthTime(const FrameBudget& budget) const {
-    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // image and work overlay
+    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // image and work overlay share the time
     return std::max(budget.milliseconds, software_ ? softwareGrowthTime : 0.0) * (shares ? 0.5 : 1);
 }
 

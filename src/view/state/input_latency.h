@@ -17,8 +17,8 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Records that events were fetched which arrived after `since`. Their effect may appear some frames later; the
-    // earliest event without a visible effect is timed.
+    // Records that events were fetched which arrived after `since`. The effect of these events may appear some frames
+    // later; the earliest event without a visible effect is timed.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }

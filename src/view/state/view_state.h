@@ -39,7 +39,7 @@ std::optional<PickedSurface> pickedSurface(const PreparedFrame& frame, const Vie
 
 enum class Navigation { orbit, fly };
 
-// What the right side of the divider shows.
+// Image on the right side of the divider.
 enum class Comparison {
     none,
     fullDetail,  // full detail with the same lens samples
@@ -142,8 +142,8 @@ struct ViewState : ViewEdit, SceneState {
     std::string shotPath = "shot.json";
 };
 
-// Actions requested by panels and keys that need files, the GPU or the window. They are executed at the end of the
-// frame.
+// Actions requested by panels and keys that need files, the GPU or the window. The actions are executed at the end of
+// the frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // name of the camera; "auto" frames the scene
@@ -171,11 +171,11 @@ double shownExposure(const ViewState& state);
 // Returns the settings for encoding 8-bit images: exposure and tone map.
 WriteOptions writeOptions(const ViewState& state);
 
-// Show a message over the picture for some seconds.
+// Both functions show a message over the picture for some seconds; sayFault is for errors.
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Sets what the right side of the divider shows, and moves the divider into the picture.
+// Sets the image on the right side of the divider, and moves the divider into the picture.
 void compare(ViewState& state, Comparison comparison);
 
 // Starts a focus pull to `distance` m that takes `seconds`.
@@ -184,7 +184,8 @@ void pullFocus(ViewState& state, double distance, double seconds = FocusPull{}.d
 // Sets the plane of focus to contain the three focus points, then clears the points.
 void tiltFocus(ViewState& state);
 
-// Move the camera so that the selected object, or the scene, fills the image, and pull the focus to its centre.
+// Both functions move the camera so that the selected object, or the scene, fills the image, and pull the focus to the
+// centre of that object or scene.
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
@@ -193,7 +194,7 @@ void frameScene(const PreparedFrame& frame, ViewState& state);
 inline constexpr double poppingDuration = 8;  // s
 void togglePoppingTest(ViewState& state);
 
-// Advances focus pull and animation by `seconds`, and ends the popping test when its time is over.
+// Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
 // Returns the --clip value of a clip of the scene: its name, or its index if the name is ambiguous.

@@ -158,7 +158,7 @@ void stopRing(double& fStop, float scale) {
     for (std::size_t i = 0; i < stops.size(); ++i) {
         const float x = centre + (static_cast<float>(i) - position) * spacing;
         const double halfStops = 2 * std::log2(stops[i]);
-        const bool fullStop = std::abs(halfStops - std::round(halfStops)) < 0.08;  // whole stops are powers of √2
+        const bool fullStop = std::abs(halfStops - std::round(halfStops)) < 0.08;  // full stops are powers of √2
         const float fade = std::clamp(1 - std::abs(x - centre) / (0.5f * box.width()), 0.0f, 1.0f);
         box.list.AddLine({x, box.end.y - 4 * scale}, {x, box.end.y - (fullStop ? 14 : 9) * scale},
                          color(fullStop ? ImGuiCol_Text : ImGuiCol_TextDisabled, fade), scale);

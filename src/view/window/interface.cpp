@@ -33,7 +33,7 @@ ViewInterface::ViewInterface(Window& window) : window_(&window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    // Install no callbacks: they would pass events to ImGui before the frame that takes these events.
+    // Install no GLFW callbacks: they would pass events to ImGui before the frame that handles these events.
     ImGui_ImplGlfw_InitForOpenGL(window.native(), false);
     ImGui_ImplOpenGL3_Init("#version 450");
 }
