@@ -25,7 +25,7 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Return settings that all post-process methods share; `standard` is the default.
+// Return settings that several methods share; `standard` is the default.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* standard);
 
