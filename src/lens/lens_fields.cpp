@@ -76,8 +76,9 @@ const LensField fields[] = {
      "0.2", LensFeature::lensPoint},
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
-     "Astigmatism: length in mm on the sensor of the radial line that replaces a point in focus at the left and right "
-     "edges. Negative: the line appears on the other side of the focus",
+     "Astigmatism: points in focus become radial lines. Length of the line at the left and right edges, in mm on the "
+     "sensor. Above 0, points at a certain depth in front of the focus plane become lines in the perpendicular "
+     "direction; below 0, points behind it",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
      "Coma: length in mm on the sensor of the tail of a point at the left and right edges. Positive: the tail points "

@@ -354,7 +354,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
-    // Switch to a pinhole, if no blur is visible, before choosing levels, because levels depend on the blur.
+    // If no blur is visible, switch to a pinhole before the levels are chosen, because they depend on the blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());

@@ -52,8 +52,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
             command, "--aov", "depth,coc,level,work,swept-work",
             "Also write auxiliary images beside the first output. depth: m. coc: signed circle of confusion in px. "
             "level: level of detail. work: triangles per pixel, including hidden ones, summed over the lens samples of "
-            "method accumulation. swept-work: triangles per pixel whose bounds, swept over lens and exposure, cover "
-            "the pixel, as a stochastic rasterizer would test. depth and coc are EXR; the others EXR and PNG",
+            "method accumulation. swept-work: number of triangles whose bounds, swept over lens and exposure, cover "
+            "the pixel (the triangles that a stochastic rasterizer would test there). depth and coc are EXR; the "
+            "others EXR and PNG",
             [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
             ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",

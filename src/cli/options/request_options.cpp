@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "cli/options/option_text.h"
 #include "core/error.h"
@@ -51,6 +52,19 @@ std::string valuesOf(const MethodSetting& setting) {
     return setting.whole ? "N" : "R";
 }
 
+// Returns the default of a method setting for --help: one value, or a value for each method if the methods differ.
+std::string defaultOf(const std::string& name) {
+    std::set<std::string> values;
+    std::vector<std::string> texts;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings) {
+            if (setting.name != name) continue;
+            values.insert(setting.standard);
+            texts.push_back(fmt::format("{} for {}", setting.standard, method.name));
+        }
+    return values.size() == 1 ? *values.begin() : fmt::format("{}", fmt::join(texts, ", "));
+}
+
 }  // namespace
 
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names) {
@@ -92,7 +106,7 @@ void addMethodSettings(CLI::App& command, Request& request) {
                     [&request, name = setting.name](const std::string& text) { request.methodSettings[name] = text; },
                     setting.description)
                 ->type_name(valuesOf(setting))
-                ->default_str(setting.standard)
+                ->default_str(defaultOf(setting.name))
                 ->configurable(false)
                 ->group("Method " + owner.mapped());
         }

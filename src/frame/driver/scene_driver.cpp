@@ -179,7 +179,9 @@ Image SceneDriver::image() {
 
 AovImages SceneDriver::aovs() {
     if (driver().inTiles())
-        fail("AOVs need the whole image, but the image does not fit into memory and is drawn in tiles");
+        fail(
+            "AOVs need the whole image, but the image does not fit into memory and is drawn in tiles; raise --memory "
+            "or reduce --size");
     const InContext use(*context_);
     return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
 }

@@ -395,7 +395,8 @@ Rows sampleRows() {
         rows::choice<LodMode>(
             "lod", "--lod", modes, MEMBER(lod),
             "Levels of detail of blurred objects. fractional: two levels, between which the samples are split. "
-            "continuous: also split one sample over its pixels. nearest: one level. off: full detail")
+            "continuous: in addition, one sample draws the coarser level in a part of its pixels, so that no sample "
+            "switches at once. nearest: one level. off: full detail")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
                      "For --lod-metric size, error, halving and score: target edge length in px per px of blur. "
@@ -411,8 +412,9 @@ Rows sampleRows() {
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
         rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "For --lod-metric measured: allowed error of a level with edges of 1 px, relative to the standard "
-                     "deviation of the object's light within the blur. Default: depends on the number of samples")
+                     "For --lod-metric measured: maximum product, in px, of a level's edge length and its error. The "
+                     "error is relative to the standard deviation of the object's light within the blur. Default: "
+                     "depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
@@ -484,10 +486,11 @@ Rows developerRows() {
                                  {"measured", LodMetric::measured},
                                  {"score", LodMetric::score}},
                                 MEMBER(lodMetric),
-                                "Rule that chooses the levels of detail. measured: error of the light after the blur. "
-                                "size: projected edge length. error: projected deviation. halving: edge length if each "
-                                "level had half the triangles. score: edge length at the object's centre. automatic: "
-                                "size if --blur-threshold or --size-threshold is given, else measured")
+                                "Rule that chooses the levels of detail. measured: error of the blurred shading. size: "
+                                "projected edge length. error: projected deviation from full detail. halving: like "
+                                "size, but assumes that each level has half the triangles. score: ratio of blur to "
+                                "edge length (Tzeng et al.). automatic: size if --blur-threshold or --size-threshold "
+                                "is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(

@@ -39,7 +39,11 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, 
     const bool builtIn = isBuiltInEnvironment(path.string());
     Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
     for (const float value : map.pixels)
-        if (std::isinf(value)) fail("{} has infinite pixels and cannot be used as an environment map", path.string());
+        if (std::isinf(value))
+            fail(
+                "{}: some pixel values are infinite, so it cannot be used as an environment map; clamp them or choose "
+                "another file",
+                path.string());
     return std::make_shared<Image>(rotation == 0 ? std::move(map) : turnedEnvironment(map, glm::radians(rotation)));
 }
 

@@ -16,9 +16,10 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds that a request sets. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle
-// of confusion of c px. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
-// in standard deviations of the object's light within its blur. An unset threshold depends on the sample count, so that
-// long renders converge to full detail.
+// of confusion of c px. For `measured`, a level's error is at most light / edge for edges of `edge` px. The error is
+// dimensionless: in standard deviations of the object's light within its blur. `light`, the product of error and edge
+// length, is therefore in px. An unset threshold depends on the sample count, so that long renders converge to full
+// detail.
 struct GivenThresholds {
     std::optional<double> blur = {};   // px of target per px of CoC, ≥ 0
     std::optional<double> size = {};   // px, ≥ 0; ignored by LodMetric::score
@@ -31,8 +32,8 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 struct LodThresholds {
     double blur = 0;  // px of target per px of CoC
     double size = 0;  // min target in px
-    // Allowed error of a measured level with edges of 1 px, in standard deviations of the light within the blur; see
-    // measuredLimit.
+    // px: max product of a measured level's edge length in px and its error in standard deviations of the light within
+    // the blur; see measuredLimit.
     double light = 0;
 };
 

@@ -264,8 +264,8 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .standard = "fitted",
-         .description = "Kernel constants: fitted to the disk, or published by Niemitalo for up to five components, "
-                        "two of which Garcia's slides print",
+         .description = "Kernel constants: fitted to the disk, or published by Niemitalo for one to five components "
+                        "(Garcia's slides list those for one and two)",
          .choices = {"fitted", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",

@@ -215,10 +215,6 @@ private:
 }  // namespace
 
 Method layeredMethod() {
-    MethodSetting pinholes = pinholesSetting();
-    pinholes.description =
-        "Number of pinhole images, each with its own layers and its share of the lens samples, for antialiasing; 1 as "
-        "published";
     const std::vector<MethodSetting> settings = {
         {.name = "layers",
          .standard = "8",
@@ -226,7 +222,7 @@ Method layeredMethod() {
          .choices = {},
          .min = 1,
          .max = 16},
-        pinholes,
+        pinholesSetting(),
     };
     return {.name = "layered",
             .description = "lens rays through depth layers of pinhole images (Lee, Eisemann and Seidel 2010)",

@@ -289,8 +289,8 @@ Method lineMethod() {
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
-         .description = "Motion of a surface along a line, in px, that shares one shading point; 0: one point in the "
-                        "middle of each segment, as published",
+         .description = "One shading point per N px that the surface's image moves along a visible segment; 0: one "
+                        "point in the middle of each segment, as published",
          .choices = {},
          .min = 0,
          .max = 64},

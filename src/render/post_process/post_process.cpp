@@ -156,7 +156,10 @@ private:
 MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .standard = "4",
-            .description = "Number of pinhole images per frame, spread over the pixel for antialiasing",
+            .description =
+                "Number of pinhole images per frame, spread over the pixel for antialiasing; 1 as "
+                "published. For layered, each image has its own layers and an equal part of the lens "
+                "samples",
             .choices = {},
             .min = 1,
             .max = 64};

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Both functions return a setting that all post-process methods have; `standard` is its default.
+// Return settings that several methods share; `standard` is the default.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* standard);
 

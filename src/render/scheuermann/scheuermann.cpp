@@ -283,7 +283,8 @@ Method scheuermannMethod() {
         byHand("focal-plane-depth", "Depth in m that is in focus; 0: the focus distance", 1e9),
         byHand("far-blur-depth", "Depth in m beyond which the blur is at its maximum; 0: computed from the lens", 1e9),
         byHand("blurriness-cutoff",
-               "Blur behind the focus, as a fraction of the maximum blur; 0: computed from the lens", 1),
+               "Maximum blur behind the focus plane, as a fraction of the overall maximum; 0: computed from the lens",
+               1),
         transparencyBucketsSetting("0"),
         pinholesSetting(),
     };
