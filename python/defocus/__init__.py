@@ -255,10 +255,16 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
     return images()
 
 
+def _refuse_open_scene(function: str, scene: Any) -> None:
+    if isinstance(scene, Scene):
+        raise UsageError(f"{function}() takes the path of a scene; for an open scene, use Renderer(scene).plan()")
+
+
 @_takes_settings
 def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
     """Returns the plan of a frame as a dictionary with the keys of `defocus plan --json`: blur, levels and samples of
     each object, and omitted parts with the reason. Needs no GPU and renders nothing."""
+    _refuse_open_scene("plan", scene)
     return json.loads(_defocus.plan_json(_request_of(scene, settings), _listener(progress)))
 
 
@@ -266,6 +272,7 @@ def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, *
 def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
     """Returns the levels of detail of each mesh of a scene, each with its number of triangles, and its mean edge length
     and error in mesh units."""
+    _refuse_open_scene("pyramid", scene)
     return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
 
 

@@ -130,6 +130,7 @@ TEST_F(BadInput, wordsThatAreNotKnown) {
     expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
     expectFault(2, "depth, coc, level, work", {"--aov", "depth,normal"});
     expectFault(2, "another.gltf", {"another.gltf"});
+    expectOneLine(run({"render", ""}), 2);
     expectFault(2, "excludes", {"--fish", "3"});
     expectFault(2, "excludes", {"--focus-distance", "1", "--focus-node", "Near"});
 }

@@ -220,6 +220,13 @@ def test_names_of_files_may_hold_anything(meshes, small, tmp_path):
     assert numpy.array_equal(defocus.read_image(tmp_path / "❤.exr"), image)
 
 
+def test_plan_and_pyramid_refuse_an_open_scene(meshes):
+    scene = defocus.Scene(meshes / "fish.glb")
+    for function in (defocus.plan, defocus.pyramid):
+        with pytest.raises(defocus.UsageError, match="use Renderer"):
+            function(scene)
+
+
 def test_pyramid_halves_the_triangles(small):
     pyramid = defocus.pyramid(fish_count=1, triangles_per_fish=2000)
     counts = [[level["triangles"] for level in mesh["levels"]] for mesh in pyramid["meshes"]]

@@ -189,9 +189,9 @@ function _defocus
     for line in (_defocus_candidates $words[2..-1] "$current")
         switch $line
             case ':f*'
-                __fish_complete_path "$value"
+                complete -C "'' $value"
             case ':d*'
-                __fish_complete_directories "$value"
+                complete -C "'' $value" | string match -- '*/'
             case '*'  # fish would search the description, too
                 string match -i -- "*$value*"\t'*' $line
         end

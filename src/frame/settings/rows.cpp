@@ -75,10 +75,22 @@ Row hideRow() {
         .repeats([](const Request& request) { return request.hide; });
 }
 
+// Refuses an empty path, which may come from an unset variable of a script.
+void setScene(Request& request, const std::string& text) {
+    if (text.empty()) fail("the path is empty; leave it out to render the built-in school of fish");
+    request.scene = text;
+}
+
+std::optional<std::string> sceneText(const Request& request) {
+    if (request.scene.empty()) return std::nullopt;
+    return request.scene.string();
+}
+
 Rows sceneRows() {
     return {
         rows::words(SettingKind::path, "scene", "SCENE", "FILE", MEMBER(scene),
                     "glTF file (.gltf, .glb). Default: the built-in school of fish")
+            .values(setScene, sceneText)
             .everyday()
             .example("scene.glb")
             .inShot("/scene"),
