@@ -65,20 +65,20 @@ TEST_F(TileCommand, whatIsMissingOrForeignIsNamed) {
     expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different settings");
     expectRefused(merged({"0.exr", "quads.gltf", "2.exr"}), 1, "quads.gltf: ");
     ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
-    expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr: not a tile of a frame");
+    expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr is not a tile of a frame");
 }
 
 TEST_F(TileCommand, whatDoesNotGoWithTilesIsRefused) {
     expectOneLine(tile("3/3", "x.exr"), 2);
     expectOneLine(tile("1", "x.exr"), 2);
     expectOneLine(tile("0/0", "x.exr"), 2);
-    expectRefused(tile("0/49", "x.exr"), 1, "the image has 48 rows");
+    expectRefused(tile("0/49", "x.exr"), 1, "the image has only 48 rows");
     expectRefused(tile("0/2", "x.png"), 2, "EXR");
     for (const char* method : {"circular", "scheuermann", "multirate", "line", "stochastic"})
         expectRefused(tile("0/2", "x.exr", {"--method", method}), 2, std::string("'") + method + "'");
     expectRefused(tile("0/2", "x.exr", {"--target-error", "0.01"}), 2, "--target-error");
     expectRefused(tile("0/2", "x.exr", {"--aov", "depth"}), 2, "--aov");
-    expectRefused(run(line({"--resume"})), 2, "one piece");
+    expectRefused(run(line({"--resume"})), 2, "this frame fits into memory");
 }
 
 }  // namespace
