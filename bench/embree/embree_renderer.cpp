@@ -240,8 +240,8 @@ PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSe
     return points;
 }
 
-// Returns the point on the lights for each pixel: the same point, or with EmbreeSampling::perPixel the point shifted by
-// a different offset in each pixel (Cranley and Patterson 1976).
+// Returns the light sample point of each pixel of the packet, in [0, 1)². All pixels use the wave sample's point; with
+// EmbreeSampling::perPixel, each pixel shifts it by its own offset, modulo 1 (Cranley and Patterson 1976).
 std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile, int place,
                                                                 const WaveSample& sample) const {
     std::array<glm::vec2, packetSize> points;

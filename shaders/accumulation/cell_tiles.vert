@@ -1,5 +1,5 @@
-// Places point sprites over the tiles in which means of a blur class of lens cells must be written, including
-// neighbours of tiles with non-zero means. Points over other tiles are moved outside the image.
+// Covers the tiles where one blur class (include/cells.glsl) needs its means written: tiles with non-zero means and their
+// neighbours. Point sprites without such tiles are moved outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;

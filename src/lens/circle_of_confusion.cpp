@@ -170,7 +170,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
-    // Blur modifiers of the vertices that vary along an edge add to the error at a kink.
+    // Per-vertex blur modifiers that vary along an edge increase the interpolation error at a kink.
     const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
     const double gained = 1 + coc.gain * parts.radius2.max;
     const double factors = box.own.factorMax - box.own.factorMin;

@@ -110,7 +110,7 @@ const LensField fields[] = {
      "0.2"},
     {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
      &LensSettings::radialBlurGain,
-     "Increase R of the blur away from the image centre: a factor of 1 + R at the left and right edges", "1"},
+     "Growth of the blur away from the image centre: at the left and right edges, the blur is multiplied by 1 + R", "1"},
 };
 
 bool isAngle(const LensField& field) {

@@ -115,8 +115,8 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
     return cases;
 }
 
-// Returns the cases of one method: for a method with settings of its own, these settings; for default settings, all
-// requested forms of the method.
+// Returns the cases of one method. If `use` changes any of the method's settings, only these settings are measured;
+// otherwise all requested forms of the method are.
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;

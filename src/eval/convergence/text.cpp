@@ -91,7 +91,7 @@ ordered_json competitorJson(const Competitor& competitor) {
     return {{"name", competitor.name}, {"times", std::move(times)}};
 }
 
-// Returns a file name without spaces and signs, such as "accumulation-lod-off-64".
+// Returns a file name in which special characters are replaced by "-", such as "accumulation-lod-off-64".
 std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
     std::string name = fmt::format("{} {}", method, setting);
     if (asked > 0) name += fmt::format(" {}", asked);

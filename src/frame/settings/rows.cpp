@@ -407,8 +407,8 @@ Rows sampleRows() {
         rows::choice<LodMode>(
             "lod", "--lod", modes, MEMBER(lod),
             "Levels of detail of blurred objects. fractional: two levels, between which the samples are split. "
-            "continuous: in addition, one sample draws the coarser level in a part of its pixels, so that no sample "
-            "switches at once. nearest: one level. off: full detail")
+            "continuous: in addition, one sample draws the coarser level in only some of its pixels, so that its "
+            "pixels switch one after another. nearest: one level. off: full detail")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
                      "For --lod-metric size, error, halving and score: target edge length in px per px of blur. "
@@ -423,10 +423,11 @@ Rows sampleRows() {
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
-        rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "For --lod-metric measured: maximum product, in px, of a level's edge length and its error. The "
-                     "error is relative to the standard deviation of the object's light within the blur. Default: "
-                     "depends on the number of samples")
+        rows::number(
+            "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
+            "For --lod-metric measured: maximum of a level's projected edge length (px) times its relative error: "
+            "the RMS difference of the blurred shading from full detail, divided by the standard deviation of "
+            "the object's radiance within the blur disk. Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
@@ -457,7 +458,8 @@ Rows methodRows() {
                                    {"rgba16f", LayerFormat::rgba16f},
                                    {"rgba32f", LayerFormat::rgba32f}},
                                   MEMBER(layerFormat),
-                                  "Pixel format of a sample's layer; use rgba32f for reference images")
+                                  "Pixel format of the image rendered for each lens sample, before accumulation; use "
+                                  "rgba32f for reference images")
             .inShot("/layerFormat"),
     };
 }

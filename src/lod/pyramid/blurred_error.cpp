@@ -191,8 +191,8 @@ struct Sight {
     Eye eye;
     SparseCells reference;            // picture of level 0
     double covered = 0, sum = 0;      // Picture::covered and sum of level 0
-    SquareSums light{};               // squared light of level 0
-    std::vector<SquareSums> changes;  // squared differences from level 0, per level
+    SquareSums light{};               // sums of squared radiance of level 0, per patch size
+    std::vector<SquareSums> changes;  // sums of squared radiance differences from level 0, per level
 
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
         const LargeVector<glm::vec3> cells = reference.all();

@@ -289,8 +289,10 @@ Method lineMethod() {
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
-         .description = "One shading point per N px that the surface's image moves along a visible segment; 0: one "
-                        "point in the middle of each segment, as published",
+         .description =
+             "Distance in px between shading points: a visible segment gets one for every N px that the surface "
+             "shifts in the image between the lens points at its ends; 0: one point in the middle of each "
+             "segment, as published",
          .choices = {},
          .min = 0,
          .max = 64},

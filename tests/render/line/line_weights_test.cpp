@@ -60,8 +60,8 @@ TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);  // half the ring's area, on one side
 }
 
-// The spokes of a polygonal aperture share its area equally, so the light on them beyond a straight cut is the area
-// beyond that cut.
+// Each spoke of a polygonal aperture represents an equal fraction of its area. The mean light of the spokes' parts beyond a
+// straight cut is therefore the fraction of the area beyond that cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;
