@@ -85,6 +85,18 @@ inline void finish(SmallWorld& small) {
     small.world.pyramids = buildPyramids(small.scene.meshes);
 }
 
+// Adds a sun that shines from above, from the right and from behind the camera.
+inline void addSun(SmallWorld& small) {
+    PlacedLight sun;
+    sun.light.intensity = 2;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
+    small.world.lights.push_back(sun);
+}
+
+inline Environment gradientSky() {
+    return {EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+}
+
 // Returns five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient
 // sky. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
@@ -102,12 +114,8 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     place(*small, 0, glm::scale(at(-0.6, 0.5, -5, 0.8), glm::dvec3(-1, 1, 1)));
     place(*small, 0, at(1.2, -1, -9, 1));
     place(*small, 0, at(40, 0, -5, 0.5));
-    PlacedLight sun;
-    sun.light.intensity = 2;
-    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
-    small->world.lights.push_back(sun);
-    small->world.environment = {
-        EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    addSun(*small);
+    small->world.environment = gradientSky();
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 3;
     small->view.width = 160;

@@ -35,7 +35,7 @@ struct PlannedObject {
     double smallestCoc = 0;
     double largestCoc = 0;
     double projectedEdge = 0;        // px, mean edge length of level 0, projected at the nearest depth
-    double lambda = 0;               // fractional level of detail λ
+    double lambda = 0;               // fractional level of detail λ (Jeong, Kim and Lee 2011)
     double pixelRate = 1;            // render resolution per axis with blurred lens cells; 1: full
     bool blended = false;            // true if the object has alpha-blended materials
     bool transmits = false;          // true if the object has transmitting materials
@@ -77,14 +77,14 @@ struct Plan {
     double cocTolerance = 0;          // px
     std::uint64_t moments = 0;        // number of times at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
-    // Levels of detail. Thresholds are those of Request, or their defaults.
+    // Levels of detail: thresholds of Request, with defaults where the request has none.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
-    double blurThreshold = 0;
-    double sizeThreshold = 0;
-    double lightThreshold = 0;
+    double blurThreshold = 0;   // edge length relative to the blur diameter
+    double sizeThreshold = 0;   // px
+    double lightThreshold = 0;  // px
     // Shadows.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // px per side

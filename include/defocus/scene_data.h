@@ -38,7 +38,8 @@ DEFOCUS_API Matrix4 lookAt(const Vector3& position, const Vector3& target, const
 struct MeshData {
     std::string name = {};
     std::span<const std::array<float, 3>> positions = {};
-    std::span<const std::array<float, 3>> normals = {};  // any length > 0. Default: flat shading
+    // Any length > 0; a zero normal is replaced by the average of the adjacent faces. Default: flat shading.
+    std::span<const std::array<float, 3>> normals = {};
     std::span<const std::array<float, 2>> uvs = {};  // (0, 0) is the texture's top left corner, (1, 1) its bottom right
     std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiplies the base colour
     // Three indices into the arrays per triangle; front faces are counter-clockwise. Default: vertices 0, 1, 2, then 3,

@@ -55,7 +55,7 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     for (const char* name : {"shots/fish-pull.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
 }
 
-// Settings beside a preset override the preset's values, whatever their order: members of a JSON object are unordered.
+// Settings beside a preset override the preset's values in any order, because members of a JSON object are unordered.
 TEST(ShotJson, whatIsGivenBesideAPresetWins) {
     for (const char* text :
          {R"({"preset": "jeong2011", "sequence": "r2"})", R"({"sequence": "r2", "preset": "jeong2011"})"}) {

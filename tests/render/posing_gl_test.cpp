@@ -102,10 +102,7 @@ TEST_F(Posing, eightInfluencesAndMorphsTogether) {
             glm::rotate(glm::dmat4(1), 0.2 * j, glm::normalize(glm::dvec3(1, j, 2))));
     object.worldFromObject = object.worldFromJoint.front();
     object.morphWeights = {0.7, 0.8, -0.2};
-    PlacedLight sun;
-    sun.light.intensity = 2;
-    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
-    small.world.lights.push_back(sun);
+    addSun(small);
     small.world.environment = {EnvironmentType::uniform, {0.2f, 0.2f, 0.2f}, {}, {}, nullptr, true, 1};
     small.view.width = 128;
     small.view.height = 96;

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns the ratio of predicted and rendered error or its inverse, whichever is ≥ 1.
+// Returns the ratio of the larger to the smaller of the predicted and the rendered error, ≥ 1.
 double factorOff(const PredictionRow& row) {
     return std::max(row.predicted / row.rendered, row.rendered / row.predicted);
 }

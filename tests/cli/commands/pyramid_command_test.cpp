@@ -97,7 +97,7 @@ TEST(PyramidCommand, ExportedLevelsReadBackAsTheyAre) {
     }
 }
 
-// Exported files stay in the given folder, whatever the mesh's name, such as ../../evil.
+// Exported files stay in the given folder for any name of a mesh, such as ../../evil.
 TEST(PyramidCommand, NoNameLeavesTheFolder) {
     const ScratchFolder folder;
     for (const char* name : {"../../evil", "/etc/evil", "..", ".hidden", "a\nb", "\xc3\xa9t\xc3\xa9"}) {

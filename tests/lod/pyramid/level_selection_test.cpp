@@ -179,8 +179,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// Of N samples, the coarse ones and the boundary sample's share add up to f·N, where f is the fractional part of λ, for
-// every λ.
+// The coarse samples and the boundary sample's share add up to f·N for every λ. N is the number of samples, and f the
+// fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -52,12 +52,8 @@ inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) 
     small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.2, -0.1, -1.4}), glm::dvec3(0.2)));
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0.6, 0.4, -5}), glm::dvec3(-0.9, 0.9, 0.9)));
-    PlacedLight sun;
-    sun.light.intensity = 2;
-    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
-    small->world.lights.push_back(sun);
-    small->world.environment = {
-        EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    addSun(*small);
+    small->world.environment = gradientSky();
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 2.2;
     small->view.width = 72;

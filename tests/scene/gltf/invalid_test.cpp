@@ -1,4 +1,4 @@
-// Invalid and hostile files: whatever the content, the error is one line with the name of the file and the fault.
+// Invalid and hostile files give an error of one line with the name of the file and the fault.
 
 #include <gtest/gtest.h>
 
