@@ -28,8 +28,8 @@ vec2 uvOf(int slot, vec4 uvSets) {
     return vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0)));
 }
 
-// Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the pixel. Each including shader defines
-// this function.
+// Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the part of the pixel that the lens sample
+// represents. Each including shader defines this function.
 vec4 surfaceTexel(int unit, int slot);
 
 // Returns the value of a texture in this pixel, or white if the material has no such texture.

@@ -11,6 +11,12 @@
 layout(std140, binding = 6) uniform WaveBlock {
     float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)
     float firstOfBlock;   // number in the frame of the first lens sample of this block of blockSamples samples
+    // The next two members are the size of the area over which a texture lookup is filtered; the mean over the samples
+    // filters it over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples (all up to
+    // the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. It represents 1/N, but trilinear
+    // lookups average over more than their nominal area.
+    float footprint;      // side of that area, in px
+    float mipBias;        // log2(footprint): change of the mip level that is chosen for a whole pixel
 } wave;
 
 // Returns the number in the frame of the lens sample that is shaded. Each including shader defines this function.

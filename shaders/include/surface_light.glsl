@@ -21,14 +21,14 @@ vec4 surfaceColor() {
     return surface.color;
 }
 
-vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv)); }
+vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv), wave.mipBias); }
 
 float sampleNumber() { return wave.firstSample + float(gl_Layer); }
 
 bool showsFront() { return gl_FrontFacing; }
 
 float surfaceFootprint(vec3 normal) {
-    vec3 right = dFdx(normal);   // interpolated normal only: mip levels already average normal maps
+    vec3 right = dFdx(normal);   // interpolated normal only: mip levels average normal maps
     vec3 up = dFdy(normal);
     return dot(right, right) + dot(up, up);
 }

@@ -19,8 +19,8 @@ vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place) {
     Attributes r = attributes[vertices.z];
     surface.color = material.baseColor * (here.x * p.color + here.y * q.color + here.z * r.color);
     surface.uv = here.x * p.uv + here.y * q.uv + here.z * r.uv;
-    surface.uvRight = right.x * p.uv + right.y * q.uv + right.z * r.uv;
-    surface.uvUp = up.x * p.uv + up.y * q.uv + up.z * r.uv;
+    surface.uvRight = mix(surface.uv, right.x * p.uv + right.y * q.uv + right.z * r.uv, wave.footprint);
+    surface.uvUp = mix(surface.uv, up.x * p.uv + up.y * q.uv + up.z * r.uv, wave.footprint);
     surface.showsFront = edges.x + edges.y + edges.z > 0.0;
     vec4 normal = here.x * p.normal + here.y * q.normal + here.z * r.normal;
     surface.normal = normal.xyz;

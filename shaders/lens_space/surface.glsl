@@ -19,10 +19,11 @@ struct Surface {
     vec4 tangent;
     float agreement;
     bool showsFront;
-    vec4 uvRight;       // UV that the same lens point sees one pixel to the right
-    vec4 uvUp;          // UV that the same lens point sees one pixel up
-    vec3 normalRight;
-    vec3 normalUp;
+    // UV that the same lens point sees at the right and at the upper edge of the area over which textures are filtered.
+    vec4 uvRight;
+    vec4 uvUp;
+    vec3 normalRight;   // interpolated normal that the same lens point sees one pixel to the right
+    vec3 normalUp;      // the same one pixel up
 };
 // Initialised because drivers warn about uninitialised values: functions read this variable before the code that
 // assigns it.

@@ -231,6 +231,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
     plan.samples.resize(kept);
+    plan.frameSamples = plan.frameFirst + kept;
     for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);
     for (ObjectPlan& object : plan.objects) {
         object.coc = {};

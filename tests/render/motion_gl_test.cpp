@@ -10,6 +10,7 @@
 #include "lens/lens_samples.h"
 #include "likeness.h"
 #include "models.h"
+#include "plan/sample_range.h"
 #include "posed_world.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -166,9 +167,8 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
         View from = view;
         from.worldFromCamera = view.shutterCameras[i];
         from.shutterCameras.clear();
-        RenderSettings settings = fullDetailFor(1);
-        settings.firstSample = i;
-        const Image one = renderedInFloat(still, from, settings);
+        const FramePlan moment = planFrame(still, from, fullDetailFor(samples));
+        const Image one = imageInFloats(still, samplesOf(moment, i, 1));
         if (sum.empty()) sum = Image(one.width, one.height, one.channels);
         for (std::size_t p = 0; p < sum.pixels.size(); ++p)
             sum.pixels[p] += one.pixels[p] / static_cast<float>(samples);

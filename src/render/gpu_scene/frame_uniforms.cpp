@@ -241,8 +241,11 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (std::uint32_t i = 0; i < samples.size(); ++i)
         if (i % blockSamples % layerCount == 0) {
             const std::uint32_t number = plan.settings.firstSample + i;
+            const std::uint32_t block = number / blockSamples * blockSamples;
+            const double samples = std::min(block + blockSamples, plan.frameSamples);
+            const double footprint = std::sqrt(1 / (2 * samples - 1));
             waves[waveOf(i) * waveStride / sizeof(glm::vec4)] =
-                glm::vec4(number, number / blockSamples * blockSamples, 0, 0);
+                glm::vec4(number, block, footprint, std::log2(footprint));
         }
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }

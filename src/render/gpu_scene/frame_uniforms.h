@@ -60,7 +60,7 @@ private:
     Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
     Buffer samples_;        // one GpuSample per lens sample
     Buffer moments_;
-    Buffer waves_;         // per wave: index of its first sample, and of the first sample of its block
+    Buffer waves_;         // per wave: WaveBlock of shaders/include/shading.glsl
     Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
     Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl

@@ -22,6 +22,8 @@ void writeOwnBlur(bool on) {
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count) {
     FramePlan pinholes = plan;
     pinholes.samples.assign(count, LensSample{});
+    pinholes.settings.firstSample = pinholes.frameFirst = 0;
+    pinholes.frameSamples = count;
     for (std::uint32_t i = 0; i < count && count > 1; ++i)
         pinholes.samples[i].pixel = glm::vec2((i + 0.5) / count - 0.5, radicalInverse(2, i) + 0.5 / count - 0.5);
     pinholes.coc.chromatic = 0;
