@@ -1,6 +1,7 @@
 // glTF 2.0 metallic-roughness shading. The diffuse part is Lambert, the specular part GGX (Walter et al. 2007) with
-// Schlick's Fresnel. Masking is height-correlated Smith in Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith
-// Microsurfaces). The environment's specular part uses Karis's fit (2014, Physically Based Shading on Mobile).
+// Schlick's Fresnel and height-correlated Smith masking (Heitz 2014, Understanding the Masking-Shadowing Function in
+// Microfacet-Based BRDFs). The environment's specular part is split into the reflected radiance and the directional
+// albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
 // Both variations widen the specular lobe without changing its total energy.
@@ -18,6 +19,9 @@ layout(std140, binding = 6) uniform WaveBlock {
     float footprint;      // side of that area, in px
     float mipBias;        // log2(footprint): change of the mip level that is chosen for a whole pixel
 } wave;
+
+// Directional albedo of the specular part (src/scene/specular_albedo.h).
+layout(binding = 27) uniform sampler2D specularAlbedos;
 
 // Returns the number in the frame of the lens sample that is shaded. Each including shader defines this function.
 float sampleNumber();
@@ -118,16 +122,17 @@ float slopeSpread(SurfacePoint point) {
 // tail α²/(π tan⁴).
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
-// like microfacets. Masking therefore uses α. For the weight of Beckmann, both cosines are v·h, with the half vector h.
+// like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
+// of its cosines are v·h. GGX's part has the cosines n·l and n·v.
 //
 // Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h.
-// The cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are rough,
-// a fraction α of them reflects from the underlying normal, masked as usual.
+// Beckmann's cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are
+// rough, a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
     float spread;         // weight of Beckmann's distribution
-    float shown;          // cosine of the reflecting normals to the eye: shown + shownOfH · v·h
+    float shown;          // cosine to the eye of the normals of Beckmann's part: shown + shownOfH · v·h
     float shownOfH;       // coefficient of v·h in that cosine
 };
 
@@ -136,12 +141,21 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
     float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
     if (!coarseLevel) {
         float share = min(spread / alpha2, 1.0);
-        return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv, share);
+        return Lobe(width, sqrt(alpha2), share, 0.0, 1.0);
     }
     float coarse = min(coarseSpread(point) * (1.0 - width) / alpha2, 1.0);
     float share = min(coarse + (spread - coarseSpread(point)) / alpha2, 1.0);
+    float ofCoarse = share > 0.0 ? min(coarse / share, 1.0) : 0.0;
     float seen = meanCosine(point.agreement * nv, nv, point.spread);
-    return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv + coarse * seen, share - coarse);
+    return Lobe(width, sqrt(alpha2), share, ofCoarse * seen, 1.0 - ofCoarse);
+}
+
+// Returns 2·(n·l)·V for height-correlated Smith masking by GGX slopes of width α, for the cosines n·l to the light and
+// n·v to the eye. Normals that face away from either reflect nothing. `width2`: α².
+float unmasked(float nl, float nv, float width2) {
+    if (nl <= 0.0 || nv <= 0.0) return 0.0;
+    float masking = nl * sqrt(nv * nv * (1.0 - width2) + width2) + nv * sqrt(nl * nl * (1.0 - width2) + width2);
+    return nl / max(masking, 1e-4);
 }
 
 // Adds a light from the unit direction `toLight` to the sums; `illuminance` is divided by π. The half vector h occurs
@@ -157,11 +171,9 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float ggx = alpha2 / (base * base);
     float away = max(cosines2, 1e-4 * sum2);  // (n·h)²·|l + v|², bounded away from 0
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
-    float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.spread);
-    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // cosine of the reflecting normals to the light
-    float shownV = max(lobe.shown + lobe.shownOfH * vh, 0.0);   // back-facing normals reflect nothing
-    float masking = max(mix(2.0 * shownL * shownV, shownL + shownV, lobe.width), 1e-4);
-    float specular = shownV > 0.0 ? 0.5 * shownL * distribution / masking : 0.0;
+    float width2 = lobe.width * lobe.width;
+    float reflected = mix(ggx * unmasked(cosine, nv, width2), beckmann * unmasked(vh, lobe.shown + lobe.shownOfH * vh, width2), lobe.spread);
+    float specular = 0.5 * sum2 * sum2 * reflected;
     float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
@@ -194,14 +206,13 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // Returns the normal with which the environment's diffuse light is evaluated.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the fraction of a white environment that the specular part reflects. The fit is clamped, because it leaves
-// [0, 1] at grazing angles for rough surfaces without reflectance.
+// Returns the fraction of a white environment that the specular part reflects.
 vec3 specularAlbedo(SurfacePoint point, float nv) {
-    vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
-    vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
-    if (ownReflectance) fit.y *= point.grazing;
-    return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
+    vec2 size = vec2(textureSize(specularAlbedos, 0));
+    vec2 place = (vec2(sqrt(nv), point.roughness) * (size - 1.0) + 0.5) / size;
+    vec2 albedo = textureLod(specularAlbedos, place, 0.0).xy;
+    if (ownReflectance) albedo.y *= point.grazing;
+    return point.specular * albedo.x + albedo.y;
 }
 
 // Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured reflections

@@ -95,9 +95,8 @@ struct GltfSurface {
     double grazing = 1;           // reflectance of the dielectric part at grazing incidence
 };
 
-// Returns f(l, v)·(n·l)₊ by the equations of glTF 2.0, appendix B: Lambert, Schlick's Fresnel and GGX. Masking and
-// shadowing follow Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v),
-// n·l + n·v, α).
+// Returns f(l, v)·(n·l)₊ by the equations of glTF 2.0, appendix B: Lambert, Schlick's Fresnel, GGX and
+// height-correlated Smith masking.
 inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n, const glm::dvec3& v,
                                  const glm::dvec3& l) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
@@ -110,7 +109,10 @@ inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n
     const glm::dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
     const double spread = nh * nh * (alpha * alpha - 1) + 1;
     const double distribution = alpha * alpha / (std::numbers::pi * spread * spread);
-    const double visibility = 0.5 / glm::mix(2 * nl * nv, nl + nv, alpha);
+    const auto correlated = [&](double x, double y) {
+        return x * std::sqrt(alpha * alpha + (1 - alpha * alpha) * y * y);
+    };
+    const double visibility = 0.5 / (correlated(nl, nv) + correlated(nv, nl));
     const glm::dvec3 diffuse = surface.baseColor * (1 - surface.metallic) / std::numbers::pi;
     // KHR_materials_specular: the strongest channel of a coloured reflection reduces the diffuse part.
     const bool colored = surface.dielectric != glm::dvec3(surface.dielectric.r);

@@ -17,6 +17,7 @@
 #include "lod/pyramid/picture.h"
 #include "lod/simplify/light.h"
 #include "scene/defaults.h"
+#include "scene/specular_albedo.h"
 
 namespace defocus::engine {
 
@@ -101,37 +102,43 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
+// Returns 2·(n·l)·V, like unmasked() in shading.glsl.
+inline float unmasked(float nl, float nv, float width2) {
+    if (nl <= 0 || nv <= 0) return 0;
+    const float masking =
+        nl * std::sqrt(nv * nv * (1 - width2) + width2) + nv * std::sqrt(nl * nl * (1 - width2) + width2);
+    return nl / std::max(masking, 1e-4f);
+}
+
 // Terms of a glossy point that are independent of the light.
 struct Gloss {
     float nv = 0;
-    float width = 0, alpha2 = 0;
+    float width2 = 0, alpha2 = 0;
     float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shownV = 0;
+    float shown = 0;  // mean cosine to the eye of the normals of that fraction
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
-        : nv(glm::dot(point.normal, toEye)), width(point.roughness * point.roughness) {
+        : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
+        const float width = point.roughness * point.roughness;
         const float spread = 2 * (1 - point.agreement) / point.agreement;
-        alpha2 = std::clamp(width * width + spread, 1e-6f, 1.0f);
+        width2 = width * width;
+        alpha2 = std::clamp(width2 + spread, 1e-6f, 1.0f);
         share = std::min(spread * (1 - width) / alpha2, 1.0f);
-        shownV = std::max(glm::mix(nv, seen.shown, share), 0.0f);
     }
 
     // Returns the specular reflection of a light, divided by the reflectance. `cosine` is the cosine of incidence.
     [[nodiscard]] float reflected(const DistantLight& light, float cosine) const {
-        const float shownL = std::max(glm::mix(cosine, light.vh, share), 0.0f);
-        if (!(shownV > 0 && shownL > 0)) return 0;
         const float cosines = std::max(cosine + nv, 0.0f);
         const float cosines2 = cosines * cosines;
         const float sum2 = light.sum2;
         const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
-        float shape = alpha2 / (base * base);  // GGX
+        float result = alpha2 / (base * base) * unmasked(cosine, nv, width2);  // GGX
         if (share > 0) {
             const float away = std::max(cosines2, 1e-4f * sum2);
             const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
-            shape = glm::mix(shape, beckmann, share);
+            result = glm::mix(result, beckmann * unmasked(light.vh, shown, width2), share);
         }
-        const float masking = std::max(glm::mix(2 * shownL * shownV, shownL + shownV, width), 1e-4f);
-        return 0.5f * shownL * (sum2 * sum2 * shape) / masking;
+        return 0.5f * sum2 * sum2 * result;
     }
 };
 
@@ -146,10 +153,8 @@ inline glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point,
 
 // Returns the fraction of a uniform sky's light that the specular lobe reflects.
 inline glm::vec3 specularAlbedo(const SurfacePoint& point, float nv) {
-    const glm::vec4 r =
-        point.roughness * glm::vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + glm::vec4(1.0f, 0.0425f, 1.04f, -0.04f);
-    const float a = std::min(r.x * r.x, std::exp2(-9.28f * nv)) * r.x + r.y;
-    return glm::clamp(point.specular * (r.z - 1.04f * a) + (r.w + 1.04f * a), 0.0f, 1.0f);
+    const glm::vec2 albedo = specularAlbedo(nv, point.roughness);
+    return point.specular * albedo.x + albedo.y;
 }
 
 inline glm::vec3 skyLight(const SurfacePoint& point, const glm::vec3& toEye) {

@@ -10,6 +10,7 @@
 #include "lens/wavelengths.h"
 #include "render/gpu_scene/environment_light.h"
 #include "render/gpu_scene/layer_window.h"
+#include "scene/specular_albedo.h"
 
 namespace defocus::engine {
 
@@ -90,6 +91,14 @@ GlTexture environmentTexture(const Image& map) {
     return texture;
 }
 
+GlTexture specularAlbedoTexture() {
+    constexpr int side = SpecularAlbedoTable::side;
+    GlTexture texture({.format = TextureFormat::rg32f, .width = side, .height = side});
+    texture.upload(0, side, side, specularAlbedoTable().table.data());
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
 // Returns whether shaders may contain the lighting as constants: it is the same in every frame, and there are few
 // lights. Constants for many lights would make shaders too long.
 bool staysLitAlike(const World& world) {
@@ -162,6 +171,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     if (countsInAlpha_) defines_.emplace_back("catEye", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (countsInAlpha_ || plan.coc.chromatic > 0) defines_.emplace_back("WEIGHS_SAMPLES", "");
     layerCount_ = layerCount;
+    if (!specularAlbedos_) specularAlbedos_ = specularAlbedoTexture();
     uploadLighting(world);
     uploadSamples(plan, layerCount);
 
@@ -279,6 +289,7 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
                           static_cast<GLintptr>(firstSample / blockSamples * blockBytes * 2), blockBytes * 2);
     bindWave(firstSample);
     if (environmentMap_) environmentMap_.attach(5);
+    specularAlbedos_.attach(27);
 }
 
 void FrameUniforms::bindWave(std::uint32_t sample) const {
@@ -296,7 +307,8 @@ std::size_t FrameUniforms::waveOf(std::uint32_t sample) const {
 
 std::size_t FrameUniforms::bytes() const {
     return frameBlock_.bytes() + lightingBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() +
-           waves_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
+           waves_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes() +
+           specularAlbedos_.bytes();
 }
 
 }  // namespace defocus::engine

@@ -68,6 +68,7 @@ private:
     bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;
+    GlTexture specularAlbedos_;  // SpecularAlbedoTable
 };
 
 }  // namespace defocus::engine
