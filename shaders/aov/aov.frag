@@ -5,6 +5,7 @@
 #include "include/lens.glsl"
 #include "include/surface_fragment.glsl"
 #include "include/material_textures.glsl"
+#include "include/alpha_mask.glsl"
 
 layout(location = 0) out float depthOut;
 layout(location = 1) out float cocOut;
@@ -14,7 +15,8 @@ vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], u
 
 void main() {
     readSurface();
-    if (alphaTested && texturedColor(surface.color).a < material.emissiveCutoff.w) discard;
+    uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
+    if (alphaTested && maskHides(texturedColor(surface.color).a, surface.color.a, pixel, 0.0)) discard;
     float w = 1.0 / gl_FragCoord.w;
     depthOut = w;
     vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);

@@ -4,6 +4,7 @@
 #include "include/environment.glsl"
 #include "include/surface_fragment.glsl"
 #include "include/material_textures.glsl"
+#include "include/alpha_mask.glsl"
 
 #include "include/shading.glsl"
 #include "include/surface_shading.glsl"
@@ -33,22 +34,18 @@ float surfaceFootprint(vec3 normal) {
     return dot(right, right) + dot(up, up);
 }
 
-// Returns true if this pixel shows the coarser level in a boundary sample, the lens sample that mixes two levels. The
-// ordered dither is the R2 sequence x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1 (Roberts 2018, The Unreasonable Effectiveness
-// of Quasirandom Sequences). Integer arithmetic in units of 2⁻³² gives identical results on all devices. The chosen
-// pixels are evenly spread, with a different offset for each object.
-bool drawsCoarser() {
-    uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
-    uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
-    return float(place >> 8) < object.values.y * 16777216.0;
-}
+uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }
+
+// Returns true if this pixel shows the coarser level in a boundary sample, the lens sample that mixes two levels.
+bool drawsCoarser() { return ditherThreshold(pixelOfImage(), 0.0) < object.values.y; }
 
 // Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.
 vec4 surfaceLight() {
     if (coarseShare && !drawsCoarser()) discard;
     if (fineShare && drawsCoarser()) discard;
-    vec4 baseColor = texturedColor(surfaceColor());
-    if (alphaTested && baseColor.a < material.emissiveCutoff.w) discard;
+    vec4 plainColor = surfaceColor();
+    vec4 baseColor = texturedColor(plainColor);
+    if (alphaTested && maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)) discard;
     vec4 light = vec4(surfaceRadiance(baseColor.rgb), surfaceCoverage);
 #ifdef TRANSMISSIVE
     if (alphaBlended) light = mix(texelFetch(backdrop, ivec3(gl_FragCoord.xy, gl_Layer), 0), light, baseColor.a);

@@ -1,5 +1,5 @@
-// Tests of the sharpness of textures on slanted surfaces. A sample represents a part of the pixel, so that the mean over
-// many samples is as sharp as the pixel allows, also where a mip level for the whole pixel would be much coarser.
+// Tests of the sharpness of textures on slanted surfaces. A sample represents a part of the pixel, so that the mean
+// over many samples is as sharp as the pixel allows, also where a mip level for the whole pixel would be much coarser.
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,9 @@ std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
     Material material;
     material.unlit = true;
     auto small = litWall(material);
-    small->scene.materials[0].baseColor.texture = addTexture(
-        small->scene, 1024, [](int, int row) { return row < 512 ? Texel{0, 0, 0, 255} : Texel{255, 255, 255, 255}; });
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, 1024, [](int, int row) {
+        return row < 512 ? Texel{0, 0, 0, 255} : Texel{255, 255, 255, 255};
+    });
     small->scene.textures[0].minification = small->scene.textures[0].magnification = Filter::linear;
     small->scene.textures[0].mipmaps = true;
     small->world.pose.objects[0].worldFromObject =

@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
+#include "render/gpu_scene/cut_out.h"
 
 namespace defocus::engine {
 
@@ -243,9 +244,9 @@ void GpuScene::uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& tar
         TexelBuffer({texels.empty() ? nullptr : &texels.front().x, texels.size() * 3}, GL_RGB32F, 3, "morph targets");
 }
 
-const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb) {
+const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb, float cutoff) {
     if (!use.used()) return nullptr;
-    const auto [entry, isNew] = textures_.try_emplace({use.texture, srgb});
+    const auto [entry, isNew] = textures_.try_emplace({use.texture, srgb, cutoff});
     if (!isNew) return &entry->second;
     const Texture& source = world_->scene->textures[static_cast<std::size_t>(use.texture)];
     const TextureImage& image = world_->scene->images[static_cast<std::size_t>(source.image)];
@@ -254,8 +255,11 @@ const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb) {
                         .width = image.width,
                         .height = image.height,
                         .levels = source.mipmaps ? mipmapLevels(image.width, image.height) : 1});
-    result.upload(0, image.width, image.height, image.rgba.data());
-    if (source.mipmaps) result.generateMipmaps();
+    if (source.mipmaps) {
+        result.upload(0, image.width, image.height, cutoff > 0 ? cutOut(image, cutoff).data() : image.rgba.data());
+        result.generateMipmaps();
+    }
+    if (!source.mipmaps || cutoff > 0) result.upload(0, image.width, image.height, image.rgba.data());
     result.sampling(minificationFilter(source), source.magnification == Filter::linear ? GL_LINEAR : GL_NEAREST,
                     wrapMode(source.wrapS), wrapMode(source.wrapT));
     return &result;
@@ -265,7 +269,8 @@ void GpuScene::prepareMaterial(int index) {
     if (materialTextures_.contains(index)) return;
     const Material& m = material(index);
     GpuMaterialTextures& slots = materialTextures_[index];
-    slots.slots[0] = texture(m.baseColor, true);
+    const float cutoff = m.alphaMode == AlphaMode::mask ? m.alphaCutoff / std::max(m.baseColorFactor.a, 1e-3f) : 0;
+    slots.slots[0] = texture(m.baseColor, true, cutoff);
     if (m.unlit) return;
     slots.slots[1] = texture(m.metallicRoughness, false);
     slots.slots[2] = texture(m.normal, false);

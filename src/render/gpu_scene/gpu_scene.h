@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/bounds.h"
@@ -121,12 +122,14 @@ private:
     void prepareObjects(const FramePlan& plan, const std::vector<ObjectPlan>& objects);
     void uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target);
     void uploadMesh(int mesh, const std::vector<bool>& levels);
-    const GlTexture* texture(const TextureUse& use, bool srgb);
+    // Returns a texture, or nullptr if it is not used. With a cutoff > 0, mip levels ≥ 1 hold in alpha the fraction of
+    // their full-size texels whose alpha is at least the cutoff (shaders/include/alpha_mask.glsl).
+    const GlTexture* texture(const TextureUse& use, bool srgb, float cutoff = 0);
     void prepareMaterial(int material);
 
     const World* world_;
     std::map<int, GpuMesh> meshes_;
-    std::map<std::pair<int, bool>, GlTexture> textures_;  // by texture index and whether it is sRGB
+    std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // by the arguments of texture()
     std::map<int, GpuMaterialTextures> materialTextures_;
 };
 

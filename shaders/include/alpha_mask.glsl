@@ -1,0 +1,30 @@
+// Cut-outs of glTF's alphaMode MASK. A texel is shown if its alpha reaches the cutoff. Mip levels ≥ 1 of the base
+// colour hold, in alpha, the fraction of their full-size texels that reach it (src/render/gpu_scene/gpu_scene.cpp). Where
+// such a level is read, a lens sample shows the fragment if this coverage exceeds its dither threshold, so that the mean
+// over the samples is the coverage (Enderton et al. 2010, Stochastic Transparency). Magnified edges stay sharp.
+
+// Returns a dither threshold in [0, 1) that is evenly distributed over neighbouring pixels, with a different offset for
+// each object, and over the lens samples in each pixel. The pattern is the R2 sequence x/ρ + y/ρ² modulo 1 with
+// ρ³ = ρ + 1 (Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences). Integer arithmetic in units of
+// 2⁻³² gives identical results on all devices.
+float ditherThreshold(uvec2 pixel, float sampleOffset) {
+    uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
+    return fract(float(place >> 8) / 16777216.0 + sampleOffset);
+}
+
+// Returns how far a texture is read from mip level 1 rather than 0, in [0, 1].
+float minification(int unit, int slot, float mipBias) {
+    vec2 levels = textureQueryLod(materialTextures[unit], uvOf(slot, surface.uv));   // x: level read without the bias
+    return clamp(min(levels.y + mipBias, levels.x), 0.0, 1.0);
+}
+
+// Returns whether the mask hides the fragment. `alpha`: of the textured colour; `plainAlpha`: without the texture;
+// `mipBias`: bias with which the texture was read.
+bool maskHides(float alpha, float plainAlpha, uvec2 pixel, float mipBias) {
+    float cutoff = material.emissiveCutoff.w;
+    if (baseColorTexture.x >= 0) {
+        float threshold = max(plainAlpha, 1e-3) * ditherThreshold(pixel, surface.ditherOffset);
+        cutoff = mix(cutoff, threshold, minification(baseColorTexture.x, baseColorTexture.y, mipBias));
+    }
+    return alpha < cutoff;
+}

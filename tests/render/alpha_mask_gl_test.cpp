@@ -1,0 +1,89 @@
+// Tests of cut-outs (alphaMode MASK): a picture of any size shows the fraction of the texture that reaches the cutoff,
+// in the colour of what is shown.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gl_conduct.h"
+#include "render/textured_wall.h"
+
+namespace defocus::engine {
+namespace {
+
+class AlphaMask : public LitWall {
+protected:
+    void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
+};
+
+constexpr int cutTexels = 160;
+constexpr double shownShare = 0.3;
+
+// Three of ten squares of 8 × 8 texels are shown, in green; the others are red and transparent.
+Texel cutTexel(int column, int row) {
+    return (7 * (column / 8) + 3 * (row / 8)) % 10 < 3 ? Texel{0, 255, 0, 255} : Texel{255, 0, 0, 0};
+}
+
+// Returns an unlit wall of 2 m on a transparent background, at the distance where it is about `pixels` px wide.
+std::unique_ptr<SmallWorld> cutWall(double pixels) {
+    Material material;
+    material.unlit = true;
+    material.alphaMode = AlphaMode::mask;
+    auto small = litWall(material);
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, cutTexels, cutTexel);
+    small->scene.textures[0].minification = small->scene.textures[0].magnification = Filter::linear;
+    small->scene.textures[0].mipmaps = true;
+    small->world.environment.type = EnvironmentType::none;
+    small->view.width = small->view.height = 64;
+    const double distance = 2 * 64 / (2 * 0.36 * pixels);  // the default lens shows 0.72 m of width at 1 m
+    small->world.pose.objects[0].worldFromObject =
+        glm::translate(small->view.worldFromCamera, glm::dvec3(0.013, 0.007, -distance));
+    return small;
+}
+
+Image cutImage(const SmallWorld& small, std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;
+    return imageInFloats(small.world, planFrame(small.world, small.view, settings));
+}
+
+glm::dvec4 sumOf(const Image& image) {
+    glm::dvec4 sum(0);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 4; ++c) sum[c] += double{image.at(x, y)[c]};
+    return sum;
+}
+
+TEST_F(AlphaMask, keepsItsCoverageAndColorAtEverySize) {
+    for (const double pixels : {50.0, 23.0, 10.0, 4.0})
+        for (const std::uint32_t samples : {4u, 64u}) {
+            const glm::dvec4 sum = sumOf(cutImage(*cutWall(pixels), samples));
+            const double places = samples * pixels * pixels;
+            const double error = std::max(0.02, 3 * std::sqrt(shownShare / places));  // 3 σ if places were random
+            EXPECT_NEAR(sum.a / (pixels * pixels), shownShare, error) << pixels << " px, " << samples << " samples";
+            // At the edges of what is shown, full-size texels are interpolated with the red of hidden ones.
+            EXPECT_NEAR(sum.g / sum.a, 1, 0.07) << pixels << " px, " << samples << " samples";
+        }
+}
+
+// Where texels are larger than pixels, a pixel's single sample is either shown or hidden, by its interpolated alpha.
+TEST_F(AlphaMask, magnifiedEdgesAreSharp) {
+    const auto small = cutWall(1000);
+    const Image image = cutImage(*small, 1);
+    int shown = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float alpha = image.at(x, y)[3];
+            EXPECT_TRUE(alpha == 0 || alpha == 1) << x << ' ' << y;
+            shown += alpha == 1 ? 1 : 0;
+        }
+    EXPECT_GT(shown, 300);
+    EXPECT_LT(shown, 3000);
+    EXPECT_TRUE(image.pixels == cutImage(*small, 1).pixels);
+}
+
+}  // namespace
+}  // namespace defocus::engine
