@@ -53,6 +53,24 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
 }
 INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0.5));
 
+// The box fits for every focal length, with the angle of view of that focal length.
+TEST_P(Framing, boxFitsForTheAngleOfView) {
+    const double aspect = GetParam();
+    const Scene scene = boxScene({7, -2, 3}, {8, 0, 3.5});
+    const Pose pose = poseAt(scene, 0);
+    for (const double tanX : {18.0 / 200, 18.0 / 85, 18.0 / 24}) {
+        const PlacedCamera placed = chooseCamera(scene, pose, FramingCamera{}, aspect, tanX);
+        EXPECT_NEAR(std::tan(placed.camera.yfov / 2) * aspect, tanX, 1e-12);
+        const glm::dmat4 cameraFromWorld = glm::inverse(placed.worldFromCamera);
+        for (const glm::dvec3& corner : pose.bounds.corners()) {
+            const glm::dvec3 c(cameraFromWorld * glm::dvec4(corner, 1));
+            ASSERT_GT(-c.z, placed.camera.znear);
+            EXPECT_LE(std::abs(c.x / (-c.z * tanX)), 0.95);
+            EXPECT_LE(std::abs(c.y / (-c.z * tanX / aspect)), 0.95);
+        }
+    }
+}
+
 TEST(FramingCamera, copesWithNothingAndWithAPoint) {
     Scene empty;
     EXPECT_TRUE(std::isfinite(chooseCamera(empty, poseAt(empty, 0), {}, 1.5).worldFromCamera[3].z));

@@ -107,10 +107,20 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
+// Returns the tangent of half the horizontal angle of view that the request's focal length gives; none without one.
+std::optional<double> requestedTanHalfHorizontal(const LensSettings& given) {
+    if (!given.focalLength) return {};
+    Lens lens;
+    lens.focalLength = *given.focalLength;
+    lens.horizontalAperture = given.horizontalAperture.value_or(lens.horizontalAperture);
+    return tanHalfHorizontalFov(lens);
+}
+
 // Places the camera and its lens. The focus is chosen last, because it may depend on all other values.
 PlacedCamera place(PreparedFrame& frame, const Request& request) {
     const double aspect = static_cast<double>(request.size.width) / request.size.height;
-    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
+    PlacedCamera placed =
+        chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect, requestedTanHalfHorizontal(request.lens));
     frame.cameraName = placed.camera.name;
     frame.view.worldFromCamera = placed.worldFromCamera;
     frame.view.nearPlane = placed.camera.znear;
