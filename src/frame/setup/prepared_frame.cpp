@@ -1,6 +1,7 @@
 #include "frame/setup/prepared_frame.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,15 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/suggestion.h"
 #include "frame/setup/focus.h"
 #include "frame/setup/moment.h"
 #include "frame/setup/scene_scale.h"
@@ -35,8 +39,16 @@ namespace {
 
 // ---- environment ----------------------------------------------------------------------------------------------------
 
+[[noreturn]] void failForEnvironment(const std::string& name) {
+    const std::vector<std::string> names(builtInEnvironments().begin(), builtInEnvironments().end());
+    const std::string nearest = nearestWord(name, names);
+    fail("--environment: there is no file '{}' and no built-in environment of this name; the built-in ones are {}{}",
+         name, fmt::join(names, ", "), nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
 std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, double rotation) {
     const bool builtIn = isBuiltInEnvironment(path.string());
+    if (!builtIn && !std::filesystem::exists(path)) failForEnvironment(path.string());
     Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
     for (const float value : map.pixels)
         if (std::isinf(value))
