@@ -206,7 +206,7 @@ std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, c
 }
 
 double skyScale(const Pose& pose) {
-    constexpr double skyIlluminance = 1.8;  // lux on an upward-facing surface under the sky of environmentOrDefault
+    constexpr double skyIlluminance = 1.36;  // lux on an upward-facing surface under the sky of environmentOrDefault
     constexpr double share = 1.0 / 7;
     const glm::dvec3 middle = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
     const double radius = pose.bounds.empty() ? 0 : 0.5 * glm::length(pose.bounds.size());
@@ -223,14 +223,14 @@ double skyScale(const Pose& pose) {
 
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
-    // Neutral grey-blue studio. `lighting` > 1 makes the sky light the scene more strongly than its background
-    // brightness suggests.
+    // Light neutral studio: a bright wall around a dark floor and ceiling, which smooth metals reflect as bands.
+    // `lighting` > 1 makes the sky light the scene more strongly than its background brightness suggests.
     Environment sky;
     sky.type = EnvironmentType::gradient;
-    sky.zenith = {0.21f, 0.26f, 0.33f};
-    sky.horizon = {0.40f, 0.43f, 0.47f};
-    sky.nadir = {0.15f, 0.15f, 0.15f};
-    sky.lighting = 1.6f;
+    sky.zenith = {0.12f, 0.13f, 0.15f};
+    sky.horizon = {0.59f, 0.605f, 0.63f};
+    sky.nadir = {0.04f, 0.04f, 0.04f};
+    sky.lighting = 1.5f;
     return sky;
 }
 

@@ -191,5 +191,24 @@ TEST(DefaultLights, greyBallLooksMidGrey) {
     EXPECT_LT(std::abs(mean.r - mean.b), 0.02) << "neutral";
 }
 
+// A smooth metal shows nothing but its surroundings; without contrast in them it looks like glass.
+TEST(DefaultSky, hasContrastForMetalsToReflect) {
+    const Environment sky = environmentOrDefault(Scene{});
+    EXPECT_GT(sky.horizon.g, 4 * sky.zenith.g);
+    EXPECT_GT(sky.horizon.g, 10 * sky.nadir.g);
+}
+
+// skyScale balances the sky with a sun of any illuminance: the sky gives a seventh.
+TEST(DefaultSky, givesASeventhOfTheSun) {
+    Pose pose;
+    PlacedLight sun;
+    sun.light.type = LightType::directional;
+    sun.light.intensity = 100'000;
+    pose.lights = {sun};
+    const glm::dvec3 up = skyLight(environmentOrDefault(Scene{}), {0, 1, 0});
+    const double lux = std::numbers::pi * glm::dot(up, glm::dvec3(0.2126, 0.7152, 0.0722)) * skyScale(pose);
+    EXPECT_NEAR(lux, 100'000 / 7.0, 100);
+}
+
 }  // namespace
 }  // namespace defocus::engine
