@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -31,21 +32,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ffmpeg's encoder options by file extension.
+// ffmpeg's encoder options by file extension. CRF 18 of H.264 is visually lossless.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() {
-    // H.264 with 4:2:0 chroma plays everywhere, but needs an even width and height. CRF 18 is visually lossless.
-    static const std::string evenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
-    static const std::vector<std::string> h264 = {"-vf", evenSides,  "-c:v",    "libx264",   "-crf",
-                                                  "18",  "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
     static const std::vector<std::pair<std::string, std::vector<std::string>>> table = {
-        {".mp4", h264},
-        {".mov", h264},
-        {".mkv", {"-vf", evenSides, "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p"}},
-        {".webm", {"-vf", evenSides, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p"}},
+        {".mp4", {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"}},
+        {".mov", {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"}},
+        {".mkv", {"-c:v", "libx264", "-crf", "18"}},
+        {".webm", {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0"}},
         // One palette for the complete video, and ordered dithering, which doesn't flicker.
         {".gif", {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"}},
     };
     return table;
+}
+
+// Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, converted and tagged so. Without tags,
+// players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs even sides: the last column and row
+// of odd sides are repeated.
+std::vector<std::string> bt709(int width, int height) {
+    const std::string filters = fmt::format(
+        "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={},"
+        "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int",
+        width % 2, height % 2);
+    return {"-vf",   filters,       "-pix_fmt", "yuv420p",      "-color_primaries", "bt709", "-color_trc",
+            "bt709", "-colorspace", "bt709",    "-color_range", "tv"};
 }
 
 const std::vector<std::string>& encoderOf(const fs::path& path) {
@@ -221,6 +230,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
                                           "-video_size", fmt::format("{}x{}", first.width, first.height),
                                           "-framerate",  fmt::format("{}", frameRate),
                                           "-i",          "-"};
+    if (path.extension() != ".gif") std::ranges::copy(bt709(first.width, first.height), std::back_inserter(arguments));
     const std::vector<std::string>& encoder = encoderOf(path);
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
     arguments.push_back(fileName(film.temporaryPath()));

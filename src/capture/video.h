@@ -1,5 +1,6 @@
 #pragma once
-// Encodes image files of frames as a video with the ffmpeg program. The file extension selects the format.
+// Encodes image files of frames as a video with the ffmpeg program. The file extension selects the format. Videos other
+// than GIF have BT.709 colours; a side with an odd number of pixels grows by one.
 
 #include <filesystem>
 #include <vector>

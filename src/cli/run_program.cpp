@@ -13,11 +13,14 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/options/help_format.h"
 #include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
 #include "core/error.h"
 #include "core/message.h"
 #include "core/suggestion.h"
@@ -84,6 +87,21 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
+// Returns the option of the command that does what an option of other programs does; empty if there is none.
+std::string knownForForeign(const CLI::App& command, std::string_view word) {
+    static constexpr std::pair<std::string_view, const char*> table[] = {
+        {"--aperture", "--fstop"},       {"--f-number", "--fstop"},
+        {"--fov", "--focal-length"},     {"--sensor-width", "--horizontal-aperture"},
+        {"--focus", "--focus-distance"}, {"--width", "--size"},
+        {"--height", "--size"},          {"--resolution", "--size"},
+        {"--spp", "--samples"},          {"--hdri", "--environment"},
+        {"--fps", "--frame-rate"},       {"--frames", "--range"},
+    };
+    for (const auto& [foreign, own] : table)
+        if (foreign == word && command.get_option_no_throw(own) != nullptr) return own;
+    return "";
+}
+
 // Returns an error message for unexpected words: an unknown option, an unknown command, or an extra argument.
 std::string unexpected(const CLI::App& program, const std::vector<std::string>& words) {
     const CLI::App& command = chosenCommand(program);
@@ -100,7 +118,9 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
     } else if (known.empty()) {
         return fmt::format("unexpected argument '{}'; {}", word, helpHint(program));
     }
-    const std::string nearest = nearestWord(word.substr(0, word.find('=')), known);
+    const std::string name = word.substr(0, word.find('='));
+    std::string nearest = knownForForeign(command, name);
+    if (nearest.empty()) nearest = nearestWord(name, known);
     if (!nearest.empty()) return fmt::format("there is no {} '{}'; did you mean '{}'?", what, word, nearest);
     if (what == "command")
         return fmt::format("there is no command '{}'; the commands are: {}", word, fmt::join(known, ", "));
@@ -141,7 +161,9 @@ int run(int argc, char** argv) {
     global.words.assign(argv, argv + argc);
     addCommands(program, global);
     try {
-        program.parse(argc, argv);
+        std::vector<std::string> words = withoutBooleanValues({argv + 1, argv + argc});
+        std::ranges::reverse(words);  // the order that CLI11 expects
+        program.parse(std::move(words));
     } catch (const CLI::Success& shown) {  // thrown for --help and --version
         return program.exit(shown);
     } catch (const CLI::ParseError& error) {

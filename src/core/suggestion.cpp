@@ -46,6 +46,12 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& k
             nearest = candidate;
         }
     }
+    constexpr std::size_t shortestPart = 3;
+    if (!nearest.empty() || word.size() < shortestPart) return nearest;
+    for (const std::string& candidate : known)
+        if (inSmallLetters(candidate).find(small) != std::string::npos &&
+            (nearest.empty() || candidate.size() < nearest.size()))
+            nearest = candidate;
     return nearest;
 }
 

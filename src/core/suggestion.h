@@ -11,7 +11,8 @@ namespace defocus::engine {
 
 // Returns the closest known word, or an empty string if none is close. Close means at most one edit, or edits up to a
 // third of the word's length. Edits are insertions, deletions, substitutions and swaps of neighbours (optimal string
-// alignment; Damerau 1964). ASCII case is ignored.
+// alignment; Damerau 1964). If no word is close, returns the shortest that contains `word`, which must then have at
+// least three letters. ASCII case is ignored.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
 
 // Returns the index of the name in `known`. Exact matches come first; otherwise ASCII case is ignored. Returns nullopt

@@ -20,10 +20,10 @@ const LensField fields[] = {
      "Focal length in mm, which sets the field of view. Default: from the camera's field of view", "50",
      LensFeature::camera, true},
     {"fStop", "--fstop", LensSection::lens, "N", 1e-3, 1e6, &Lens::fStop, &LensSettings::fStop,
-     "f-number of the lens. Default: from the camera, else 2.8", "1.4", LensFeature::fStop, true},
+     "f-number of the lens, such as 1.4 or f/1.4. Default: from the camera, else 2.8", "1.4", LensFeature::fStop, true},
     {"focusDistance", "--focus-distance", LensSection::focus, "M", 1e-6, 1e12, &Lens::focusDistance, std::monostate(),
-     "Distance of the focus plane along the view axis in m. Default: from the camera, else the median depth of the "
-     "surfaces in the middle of the image",
+     "Distance of the focus plane along the view axis in m. All lengths accept a suffix mm, cm or m, such as 50cm. "
+     "Default: from the camera, else the median depth of the surfaces in the middle of the image",
      "2.5", LensFeature::blur, true},
     {"horizontalAperture", "--horizontal-aperture", LensSection::lens, "MM", 1e-2, 1e6, &Lens::horizontalAperture,
      &LensSettings::horizontalAperture, "Width of the sensor in mm. Default: from the camera, else 36", "36",
@@ -110,7 +110,8 @@ const LensField fields[] = {
      "0.2"},
     {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
      &LensSettings::radialBlurGain,
-     "Growth of the blur away from the image centre: at the left and right edges, the blur is multiplied by 1 + R", "1"},
+     "Growth of the blur away from the image centre: at the left and right edges, the blur is multiplied by 1 + R",
+     "1"},
 };
 
 bool isAngle(const LensField& field) {

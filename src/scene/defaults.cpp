@@ -54,7 +54,7 @@ glm::dmat4 withoutScale(const glm::dmat4& world) {
     return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
 }
 
-PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
+PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect, std::optional<double> tanHalfHorizontal) {
     Bounds bounds = sceneBounds;
     if (bounds.empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
     const double largest = std::max({bounds.size().x, bounds.size().y, bounds.size().z});
@@ -64,7 +64,7 @@ PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
                        std::cos(framingAzimuth) * std::cos(framingElevation));
     const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z));
     const glm::dvec3 y = glm::cross(z, x);
-    const double tangentX = framingTangent * std::min(aspect, 1.0);
+    const double tangentX = tanHalfHorizontal.value_or(framingTangent * std::min(aspect, 1.0));
     const double tangentY = tangentX / aspect;
 
     // Coordinates are in camera axes, relative to the bounding box's centre. The right plane of a camera at p, with
@@ -154,10 +154,11 @@ PlacedLight placedAt(const StudioLight& studio, const PlacedCamera& camera, cons
 
 }  // namespace
 
-PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect) {
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect,
+                          std::optional<double> tanHalfHorizontal) {
     const bool posed = pose.cameras.size() == scene.cameras.size();
     const std::vector<CameraNode> places = cameraNodes(scene, posed ? pose.cameras : scene.cameras);
-    if (std::holds_alternative<FramingCamera>(choice)) return framingCamera(pose.bounds, aspect);
+    if (std::holds_alternative<FramingCamera>(choice)) return framingCamera(pose.bounds, aspect, tanHalfHorizontal);
 
     const CameraNode* chosen = nullptr;
     if (const auto* const named = std::get_if<NamedCamera>(&choice)) {
@@ -168,7 +169,7 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoi
             std::ranges::find_if(places, [](const CameraNode& place) { return !place.camera->orthographic; });
         chosen = usable == places.end() ? &places.front() : &*usable;
     }
-    if (chosen == nullptr) return framingCamera(pose.bounds, aspect);
+    if (chosen == nullptr) return framingCamera(pose.bounds, aspect, tanHalfHorizontal);
     if (chosen->camera->orthographic)
         fail("camera '{}' cannot be used: {}; choose another camera, or '{}' to frame the scene", labelOf(*chosen),
              *chosen->camera->orthographic, framingName);
@@ -205,7 +206,7 @@ std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, c
 }
 
 double skyScale(const Pose& pose) {
-    constexpr double skyIlluminance = 1.8;  // lux on an upward-facing surface under the sky of environmentOrDefault
+    constexpr double skyIlluminance = 1.36;  // lux on an upward-facing surface under the sky of environmentOrDefault
     constexpr double share = 1.0 / 7;
     const glm::dvec3 middle = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
     const double radius = pose.bounds.empty() ? 0 : 0.5 * glm::length(pose.bounds.size());
@@ -222,14 +223,14 @@ double skyScale(const Pose& pose) {
 
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
-    // Neutral grey-blue studio. `lighting` > 1 makes the sky light the scene more strongly than its background
-    // brightness suggests.
+    // Light neutral studio: a bright wall around a dark floor and ceiling, which smooth metals reflect as bands.
+    // `lighting` > 1 makes the sky light the scene more strongly than its background brightness suggests.
     Environment sky;
     sky.type = EnvironmentType::gradient;
-    sky.zenith = {0.21f, 0.26f, 0.33f};
-    sky.horizon = {0.40f, 0.43f, 0.47f};
-    sky.nadir = {0.15f, 0.15f, 0.15f};
-    sky.lighting = 1.6f;
+    sky.zenith = {0.12f, 0.13f, 0.15f};
+    sky.horizon = {0.59f, 0.605f, 0.63f};
+    sky.nadir = {0.04f, 0.04f, 0.04f};
+    sky.lighting = 1.5f;
     return sky;
 }
 

@@ -3,6 +3,7 @@
 // sky.
 
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <span>
 
 #include "defocus/camera.h"
@@ -18,9 +19,11 @@ struct PlacedCamera {
 
 // Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node; FirstCamera skips
 // orthographic cameras. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` =
-// width / height, with matching focusDistance and znear. Throws Error if the camera is orthographic or the name is
-// unknown; the message lists the known names.
-PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect);
+// width / height, with matching focusDistance and znear. `tanHalfHorizontal`: tangent of half the default camera's
+// horizontal angle of view; none: as a 50 mm lens sees the longer side of the image. Throws Error if the camera is
+// orthographic or the name is unknown; the message lists the known names.
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect,
+                          std::optional<double> tanHalfHorizontal = {});
 
 // Returns the camera's matrix in another pose of the same scene; the default framing camera does not move.
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose);

@@ -1,5 +1,6 @@
 #pragma once
-// Length units of scenes. glTF prescribes metres, but many files use centimetres, millimetres or arbitrary units.
+// Length units of scenes and of values that users type. glTF prescribes metres, but many files use centimetres,
+// millimetres or arbitrary units.
 
 #include <string>
 
@@ -11,6 +12,10 @@ double metresOfUnit(const std::string& text);
 
 // Inverse of metresOfUnit: returns "m", "cm" or "mm" if `metres` is that unit, else the number.
 std::string unitOfMetres(double metres);
+
+// Converts lengths with a suffix mm, cm or m to numbers of `unit`, which is "mm" or "m": "50cm" is "0.5" in m. Each
+// part of a text with commas is converted on its own. Parts that are not a number with a suffix stay as they are.
+std::string lengthsIn(const std::string& unit, const std::string& text);
 
 // Guesses the metres per unit of a scene from the size `extent` of the framed objects in scene units. Returns 1 for
 // 0.05 to 30, from a thumb to a building in metres. Otherwise returns the power of ten that brings the extent closest

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -311,6 +312,19 @@ TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
     expectOneLine(run({"merge", "other.exr", "-o", "other.exr"}), 1);
     EXPECT_EQ(textOf(folder() / "quads.gltf"), scene);
     EXPECT_FALSE(fs::exists(folder() / "a.png") || fs::exists(folder() / "a.exr"));
+}
+
+// Options of other programs lead to the option that does the same here, and parts of names to the full name.
+TEST_F(BadInput, foreignOptionsAndPartsOfNamesAreUnderstood) {
+    const std::map<std::string, std::string> known = {{"--aperture", "--fstop"}, {"--focus", "--focus-distance"},
+                                                      {"--width", "--size"},     {"--height=3", "--size"},
+                                                      {"--out", "--output"},     {"--focal", "--focal-length"}};
+    for (const auto& [foreign, own] : known) expectFault(2, "did you mean '" + own + "'?", {foreign, "4"});
+    expectFault(1, "the built-in ones are studio, overcast, sunset", {"--environment", "park"});
+    expectFault(1, "did you mean 'studio'?", {"--environment", "stdio"});
+    expectFault(1, "did you mean 'Near'?", {"--focus-node", "ear"});
+    expectFault(2, "0cm is 0 mm: '0' is not a number", {"--focal-length", "0cm"});
+    expectFault(2, "'50 cm' is not a number", {"--focus-distance", "50 cm"});
 }
 
 TEST_F(BadInput, switchesTakeNoValue) {

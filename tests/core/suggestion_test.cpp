@@ -20,6 +20,11 @@ TEST(NearestWord, prefersTheNearer) {
     EXPECT_EQ(nearestWord("--fsto", {"--fish", "--fstop"}), "--fstop");
 }
 
+TEST(NearestWord, findsThePartOfAName) {
+    EXPECT_EQ(nearestWord("eye", {"Right eye lid", "Left eye"}), "Left eye");
+    EXPECT_EQ(nearestWord("ey", {"Left eye"}), "") << "too short to be meant";
+}
+
 TEST(NearestWord, ignoresCapitals) {
     EXPECT_EQ(nearestWord("FIS 1", {"Fish 1", "Camera"}), "Fish 1");
 }

@@ -12,28 +12,31 @@ namespace {
 
 class MeteredRender : public OwnContextTest {
 protected:
-    // The scene is a matt grey wall in front of the camera, with light at normal incidence.
     void SetUp() override {
         OwnContextTest::SetUp();
-        GltfBuilder builder;
-        const int positions = builder.positions({-9, -9, -5, 9, -9, -5, 9, 9, -5, -9, 9, -5});
-        const int indices = builder.indices({0, 1, 2, 0, 2, 3});
-        builder.json["materials"] = {
-            {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}}}}};
-        builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 0}}});
-        builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
-        builder.add("nodes", {{"camera", 0}});
-        builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
-        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-            {{"type", "directional"}, {"intensity", 100'000}}};
-        builder.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-        GltfBuilder::save(folder_ / "sunny.glb", builder.glb());
+        saveWall(0.5, 100'000);
         request_.scene = folder_ / "sunny.glb";
         request_.size.width = 32;
         request_.size.height = 24;
         request_.samples = 4;
         request_.noCache = true;
         request_.toneMap = ToneMap::none;
+    }
+
+    // The scene is a matt grey wall in front of the camera, with light of `lux` at normal incidence.
+    void saveWall(double grey, double lux) const {
+        GltfBuilder builder;
+        const int positions = builder.positions({-9, -9, -5, 9, -9, -5, 9, 9, -5, -9, 9, -5});
+        const int indices = builder.indices({0, 1, 2, 0, 2, 3});
+        builder.json["materials"] = {
+            {{"pbrMetallicRoughness", {{"baseColorFactor", {grey, grey, grey, 1}}, {"metallicFactor", 0}}}}};
+        builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 0}}});
+        builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+        builder.add("nodes", {{"camera", 0}});
+        builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", lux}}};
+        builder.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        GltfBuilder::save(folder_ / "sunny.glb", builder.glb());
     }
 
     // Renders and writes the image. Returns the linear value of its middle pixel.
@@ -52,6 +55,17 @@ TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
     request_.exposure = ExposureValue{0};
     EXPECT_EQ(written(), 1);
+}
+
+// A nearly black wall before a light sky is not raised to middle grey, because the sky would be white.
+TEST_F(MeteredRender, keepsALightSkyBelowWhite) {
+    saveWall(0.002, 0.1);
+    request_.cameraPosition = Vector3{0, 0, 40};
+    EXPECT_LT(written(), 0.1f);
+    EXPECT_NEAR(readImage(folder_ / "a.png").at(0, 12)[1], 0.5f, 0.15f);
+    const float before = written();
+    request_.background = TransparentBackground{};
+    EXPECT_NEAR(written(), before, 0.01f) << "the exposure doesn't depend on whether the sky is shown";
 }
 
 // The first written image sets the exposure of all images, so that the brightness of a film does not fluctuate.

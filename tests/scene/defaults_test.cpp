@@ -53,6 +53,24 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
 }
 INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0.5));
 
+// The box fits for every focal length, with the angle of view of that focal length.
+TEST_P(Framing, boxFitsForTheAngleOfView) {
+    const double aspect = GetParam();
+    const Scene scene = boxScene({7, -2, 3}, {8, 0, 3.5});
+    const Pose pose = poseAt(scene, 0);
+    for (const double tanX : {18.0 / 200, 18.0 / 85, 18.0 / 24}) {
+        const PlacedCamera placed = chooseCamera(scene, pose, FramingCamera{}, aspect, tanX);
+        EXPECT_NEAR(std::tan(placed.camera.yfov / 2) * aspect, tanX, 1e-12);
+        const glm::dmat4 cameraFromWorld = glm::inverse(placed.worldFromCamera);
+        for (const glm::dvec3& corner : pose.bounds.corners()) {
+            const glm::dvec3 c(cameraFromWorld * glm::dvec4(corner, 1));
+            ASSERT_GT(-c.z, placed.camera.znear);
+            EXPECT_LE(std::abs(c.x / (-c.z * tanX)), 0.95);
+            EXPECT_LE(std::abs(c.y / (-c.z * tanX / aspect)), 0.95);
+        }
+    }
+}
+
 TEST(FramingCamera, copesWithNothingAndWithAPoint) {
     Scene empty;
     EXPECT_TRUE(std::isfinite(chooseCamera(empty, poseAt(empty, 0), {}, 1.5).worldFromCamera[3].z));
@@ -171,6 +189,25 @@ TEST(DefaultLights, greyBallLooksMidGrey) {
     const glm::dvec3 mean = sum / static_cast<double>(count);
     EXPECT_NEAR((mean.r + mean.g + mean.b) / 3, 0.18, 0.02);
     EXPECT_LT(std::abs(mean.r - mean.b), 0.02) << "neutral";
+}
+
+// A smooth metal shows nothing but its surroundings; without contrast in them it looks like glass.
+TEST(DefaultSky, hasContrastForMetalsToReflect) {
+    const Environment sky = environmentOrDefault(Scene{});
+    EXPECT_GT(sky.horizon.g, 4 * sky.zenith.g);
+    EXPECT_GT(sky.horizon.g, 10 * sky.nadir.g);
+}
+
+// skyScale balances the sky with a sun of any illuminance: the sky gives a seventh.
+TEST(DefaultSky, givesASeventhOfTheSun) {
+    Pose pose;
+    PlacedLight sun;
+    sun.light.type = LightType::directional;
+    sun.light.intensity = 100'000;
+    pose.lights = {sun};
+    const glm::dvec3 up = skyLight(environmentOrDefault(Scene{}), {0, 1, 0});
+    const double lux = std::numbers::pi * glm::dot(up, glm::dvec3(0.2126, 0.7152, 0.0722)) * skyScale(pose);
+    EXPECT_NEAR(lux, 100'000 / 7.0, 100);
 }
 
 }  // namespace

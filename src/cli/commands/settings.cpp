@@ -111,6 +111,9 @@ std::string markdown() {
         "- **Shot**: the place of the setting in a shot file, and whether it can have keyframes. The extras of a "
         "camera in a\n"
         "  glTF file can set lens values by the last part of this place.\n"
+        "- **Range**: lengths in mm or m also accept a suffix mm, cm or m, such as 50cm. A boolean option needs no "
+        "value: `--dof`\n"
+        "  is `--dof true`, and `--no-dof` is `--dof false`.\n"
         "- **Default**: empty if the scene, its camera or the number of samples decides.\n";
     SettingGroup group = SettingGroup::developer;
     bool first = true;

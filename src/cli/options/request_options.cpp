@@ -11,13 +11,17 @@ namespace defocus::engine {
 
 namespace {
 
+// Returns the option that turns a boolean setting off: "--no-dof" for "--dof", "--cache" for "--no-cache".
+std::string negationOf(const std::string& option) {
+    constexpr std::string_view no = "--no-";
+    return option.starts_with(no) ? "--" + option.substr(no.size()) : std::string(no) + option.substr(2);
+}
+
 CLI::Option* addBoolean(CLI::App& command, Request& request, const Setting& setting) {
-    // The file's camera may turn a lens flag on or off, so the command line needs options for both.
-    std::string names = setting.option;
-    if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
     return command
         .add_flag_function(
-            names, [&request, &setting](std::int64_t count) { setting.set(request, count > 0 ? "true" : "false"); },
+            setting.option + ",!" + negationOf(setting.option),
+            [&request, &setting](std::int64_t count) { setting.set(request, count > 0 ? "true" : "false"); },
             setting.help)
         ->disable_flag_override();
 }
@@ -66,6 +70,23 @@ std::string defaultOf(const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> withoutBooleanValues(const std::vector<std::string>& words) {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::size_t equals = words[i].find('=');
+        const std::string option = words[i].substr(0, equals);
+        const auto setting = std::ranges::find(settings(), option, &Setting::option);
+        const bool boolean = setting != settings().end() && setting->kind == SettingKind::boolean;
+        const bool separate = equals == std::string::npos;
+        const std::string next = i + 1 < words.size() ? words[i + 1] : "";
+        const std::string value = separate ? next : words[i].substr(equals + 1);
+        const bool given = boolean && (value == "true" || value == "false");
+        result.push_back(!given ? words[i] : value == "true" ? option : negationOf(option));
+        if (given && separate) ++i;
+    }
+    return result;
+}
 
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names) {
     std::map<std::string, CLI::Option*> added;

@@ -550,12 +550,27 @@ Rows developerRows() {
 
 #undef MEMBER
 
+// Lets a setting that is a length accept the suffixes mm, cm and m.
+void acceptSuffixes(Setting& setting) {
+    if (setting.unit != "m" && setting.unit != "mm") return;
+    setting.set = [set = setting.set, unit = setting.unit](Request& request, const std::string& text) {
+        const std::string number = lengthsIn(unit, text);
+        try {
+            set(request, number);
+        } catch (const Error& error) {
+            if (number == text) throw;
+            fail("{} is {} {}: {}", text, number, unit, error.what());
+        }
+    };
+}
+
 std::vector<Setting>& table() {
     static std::vector<Setting> all = [] {
         Rows rows;
         const auto add = [&](SettingGroup group, Rows more) {
             for (Setting& setting : more) {
                 setting.group = group;
+                acceptSuffixes(setting);
                 rows.push_back(std::move(setting));
             }
         };

@@ -102,6 +102,8 @@ double parseLensValue(const LensField& field, const std::string& text) {
         return static_cast<double>(
             parseInteger(text, static_cast<std::uint64_t>(field.min), static_cast<std::uint64_t>(field.max)));
     if (std::string_view(field.unit) == "S") return parseSeconds(text);
+    if (std::string_view(field.name) == "fStop" && text.starts_with("f/"))
+        return parseNumber(text.substr(2), {field.min, field.max});
     return parseNumber(text, {field.min, field.max});
 }
 

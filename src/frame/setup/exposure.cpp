@@ -17,18 +17,34 @@ constexpr double middleGrey = 0.18;
 constexpr double brightestAtMost = 1;
 constexpr double brightestAtLeast = 0.4;
 constexpr double brightestShare = 0.02;
+constexpr double backgroundAtMost = 0.5;
 constexpr int meterWidth = 160;  // width of the metered image, px
 constexpr std::uint32_t meterSamples = 4;
 
-struct HiddenSurroundings {
-    explicit HiddenSurroundings(World& hidden)
-        : world(hidden), visible(std::exchange(hidden.environment.visible, false)) {}
-    ~HiddenSurroundings() { world.environment.visible = visible; }
-    HiddenSurroundings(const HiddenSurroundings&) = delete;
-    HiddenSurroundings& operator=(const HiddenSurroundings&) = delete;
+// Shows or hides the environment for the lifetime of this object.
+struct ShownEnvironment {
+    ShownEnvironment(World& changed, bool shown)
+        : world(changed), visible(std::exchange(changed.environment.visible, shown)) {}
+    ~ShownEnvironment() { world.environment.visible = visible; }
+    ShownEnvironment(const ShownEnvironment&) = delete;
+    ShownEnvironment& operator=(const ShownEnvironment&) = delete;
     World& world;
     bool visible;
 };
+
+double logAverage(const std::vector<double>& luminances) {
+    double logarithms = 0;
+    for (const double luminance : luminances) logarithms += std::log2(luminance);
+    return logarithms / static_cast<double>(luminances.size());
+}
+
+// Copies the colours of the pixels that show the background from an image with the environment to one without.
+void addBackground(Image& image, const Image& withEnvironment) {
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (float* const pixel = image.at(x, y); !(pixel[3] > 0.5f))
+                std::copy_n(withEnvironment.at(x, y), 3, pixel);
+}
 
 }  // namespace
 
@@ -39,25 +55,23 @@ bool metersExposure(const Request& request, const Scene& scene, const Lens& lens
 }
 
 double meteredExposure(const ImageView& image) {
-    std::vector<double> luminances;
-    double logarithms = 0;
+    std::vector<double> surfaces, background;  // luminances
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const float* pixel = image.at(x, y);
-            if (!(pixel[3] > 0.5f)) continue;
-            const double luminance = (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]) / pixel[3];
-            if (!(luminance > 0) || !std::isfinite(luminance)) continue;
-            luminances.push_back(luminance);
-            logarithms += std::log2(luminance);
+            const bool surface = pixel[3] > 0.5f;
+            const double luminance =
+                (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]) / (surface ? pixel[3] : 1);
+            if (luminance > 0 && std::isfinite(luminance)) (surface ? surfaces : background).push_back(luminance);
         }
-    if (luminances.empty()) return 0;
-    const auto brightest = luminances.begin() + static_cast<std::ptrdiff_t>((1 - brightestShare) *
-                                                                            static_cast<double>(luminances.size() - 1));
-    std::nth_element(luminances.begin(), brightest, luminances.end());
-    const double average = logarithms / static_cast<double>(luminances.size());
+    if (surfaces.empty()) return 0;
+    const auto brightest =
+        surfaces.begin() + static_cast<std::ptrdiff_t>((1 - brightestShare) * static_cast<double>(surfaces.size() - 1));
+    std::nth_element(surfaces.begin(), brightest, surfaces.end());
     const double highlight = std::log2(*brightest);
-    return std::clamp(std::log2(middleGrey) - average, std::log2(brightestAtLeast) - highlight,
-                      std::log2(brightestAtMost) - highlight);
+    const double exposure = std::clamp(std::log2(middleGrey) - logAverage(surfaces),
+                                       std::log2(brightestAtLeast) - highlight, std::log2(brightestAtMost) - highlight);
+    return background.empty() ? exposure : std::min(exposure, std::log2(backgroundAtMost) - logAverage(background));
 }
 
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
@@ -68,15 +82,20 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     small.lens.dofEnabled = false;
     RenderSettings few = settings;
     few.sampleCount = meterSamples;
-    const HiddenSurroundings hidden(world);
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
     options.shaderFolder = shaderFolder;
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
-    renderer->start(planFrame(world, small, few));
-    while (renderer->advance()) {
-    }
-    return meteredExposure(renderer->image());
+    const auto rendered = [&](bool withEnvironment) {
+        const ShownEnvironment shown(world, withEnvironment);
+        renderer->start(planFrame(world, small, few));
+        while (renderer->advance()) {
+        }
+        return renderer->image();
+    };
+    Image image = rendered(false);
+    if (world.environment.type != EnvironmentType::uniform) addBackground(image, rendered(true));
+    return meteredExposure(image);
 }
 
 std::optional<double> exposureOf(const Request& request) {

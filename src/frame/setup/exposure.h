@@ -14,14 +14,16 @@ namespace defocus::engine {
 // (which may be as bright as the sun) if the lens has no exposure time. The school of fish is not metered.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
-// Returns the exposure (EV) that maps the log-average luminance of a linear image to middle grey, 18 % (Reinhard et al.
-// 2002, Photographic Tone Reproduction for Digital Images). Ignores pixels whose alpha, the coverage by metered
-// surfaces, is at most 0.5. The exposure is clamped so that the 98th percentile of the luminances lies between 40 % and
-// 100 % of white. Returns 0 for an image without light.
+// Returns the exposure (EV) that maps the log-average luminance of the surfaces in a linear image to middle grey, 18 %
+// (Reinhard et al. 2002, Photographic Tone Reproduction for Digital Images). Alpha is the coverage by surfaces: above
+// 0.5, a pixel shows a surface, else the background. The exposure is clamped so that the 98th percentile of the
+// surfaces' luminances lies between 40 % and 100 % of white, and then lowered until the background's log average is at
+// most 50 % of white: a dark object before a light background stays dark. Returns 0 for an image without lit surfaces.
 double meteredExposure(const ImageView& image);
 
-// Renders a small image of the view's surfaces, without blur and environment, and meters it. Returns the exposure (EV).
-// Needs a current GL context and pyramids. Hides the world's environment during the call.
+// Renders a small image of the view without blur and meters it. Returns the exposure (EV). A background of one colour
+// is not metered, because the user chose it. A transparent background is metered as if it showed the environment. Needs
+// a current GL context and pyramids. Changes the environment's visibility during the call.
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
                        const std::filesystem::path& shaderFolder = {});
 

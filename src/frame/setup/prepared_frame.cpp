@@ -1,6 +1,7 @@
 #include "frame/setup/prepared_frame.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,15 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/suggestion.h"
 #include "frame/setup/focus.h"
 #include "frame/setup/moment.h"
 #include "frame/setup/scene_scale.h"
@@ -35,8 +39,16 @@ namespace {
 
 // ---- environment ----------------------------------------------------------------------------------------------------
 
+[[noreturn]] void failForEnvironment(const std::string& name) {
+    const std::vector<std::string> names(builtInEnvironments().begin(), builtInEnvironments().end());
+    const std::string nearest = nearestWord(name, names);
+    fail("--environment: there is no file '{}' and no built-in environment of this name; the built-in ones are {}{}",
+         name, fmt::join(names, ", "), nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
 std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, double rotation) {
     const bool builtIn = isBuiltInEnvironment(path.string());
+    if (!builtIn && !std::filesystem::exists(path)) failForEnvironment(path.string());
     Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
     for (const float value : map.pixels)
         if (std::isinf(value))
@@ -107,10 +119,20 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
+// Returns the tangent of half the horizontal angle of view that the request's focal length gives; none without one.
+std::optional<double> requestedTanHalfHorizontal(const LensSettings& given) {
+    if (!given.focalLength) return {};
+    Lens lens;
+    lens.focalLength = *given.focalLength;
+    lens.horizontalAperture = given.horizontalAperture.value_or(lens.horizontalAperture);
+    return tanHalfHorizontalFov(lens);
+}
+
 // Places the camera and its lens. The focus is chosen last, because it may depend on all other values.
 PlacedCamera place(PreparedFrame& frame, const Request& request) {
     const double aspect = static_cast<double>(request.size.width) / request.size.height;
-    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
+    PlacedCamera placed =
+        chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect, requestedTanHalfHorizontal(request.lens));
     frame.cameraName = placed.camera.name;
     frame.view.worldFromCamera = placed.worldFromCamera;
     frame.view.nearPlane = placed.camera.znear;

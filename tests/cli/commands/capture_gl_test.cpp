@@ -1,11 +1,13 @@
 // defocus capture, end to end: frames, their order, resuming, sharing, and errors.
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "capture/frame_files.h"
 #include "cli/shots.h"
 #include "image/image_io.h"
+#include "image/tone_map.h"
 
 namespace defocus::engine {
 namespace {
@@ -272,6 +274,54 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     EXPECT_EQ(textOf(facts), "66,8/1,6\n");
     expectOneLine(capture({"--video", "film.avi"}), 1);
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
+}
+
+// Colours of films follow ITU-R BT.709 and say so. The column and row that fill odd sides have
+// the same colour as all others.
+TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
+    if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+    const auto outputOf = [&](const std::string& command) {
+        const fs::path file = folder() / "output";
+        EXPECT_EQ(std::system((command + " > '" + file.string() + "'").c_str()), 0) << command;
+        return textOf(file);
+    };
+    json still = shot();
+    still.erase("camera");
+    still.erase("focus");
+    writeShot(still);
+    constexpr std::size_t width = 34, height = 26;
+    const std::array<std::array<double, 3>, 3> colours = {{{0, 255, 0}, {255, 0, 0}, {20, 60, 200}}};
+    const std::array<const char*, 3> films = {"film.mp4", "film.mkv", "film.webm"};
+    for (std::size_t i = 0; i < films.size(); ++i) {
+        // Each film shows a uniform background of one colour, which PNG stores without loss.
+        std::string background;
+        for (const double value : colours[i])
+            background += (background.empty() ? "" : ",") + std::to_string(srgbDecode(static_cast<float>(value / 255)));
+        const Outcome outcome =
+            capture({"--video", films[i], "--range", "0", "--size", "33x25", "--background", background,
+                     "--camera-target", "0,0,90", "--tonemap", "none", "--exposure", "0", "--no-dof", "-o",
+                     std::to_string(i) + "#.png"});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const std::string film = "'" + (folder() / films[i]).string() + "'";
+        EXPECT_EQ(outputOf("ffprobe -v error -show_entries stream=width,height,color_range,color_space,color_transfer,"
+                           "color_primaries -of csv=p=0 " +
+                           film),
+                  "34,26,tv,bt709,bt709,bt709\n");
+        const std::string planes = outputOf("ffmpeg -v error -i " + film + " -f rawvideo -pix_fmt yuv420p -");
+        ASSERT_EQ(planes.size(), width * height * 3 / 2);
+        const auto sample = [&](std::size_t at) { return static_cast<double>(static_cast<unsigned char>(planes[at])); };
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t x = 0; x < width; ++x) {
+                const std::size_t chroma = width * height + y / 2 * (width / 2) + x / 2;
+                const double luma = 255 * (sample(y * width + x) - 16) / 219;
+                const double blue = 255 * (sample(chroma) - 128) / 224;
+                const double red = 255 * (sample(chroma + width * height / 4) - 128) / 224;
+                const std::array<double, 3> shown = {luma + 1.5748 * red, luma - 0.187324 * blue - 0.468124 * red,
+                                                     luma + 1.8556 * blue};
+                for (std::size_t c = 0; c < 3; ++c)
+                    ASSERT_NEAR(shown[c], colours[i][c], 2) << films[i] << " at " << x << ", " << y;
+            }
+    }
 }
 
 // A target error gives each frame the number of samples that its own error requires: the same number when the frame is

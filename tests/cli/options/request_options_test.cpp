@@ -1,5 +1,8 @@
 // Options that set the camera and the lens, on the command line: defocus plan --json.
 
+#include "cli/options/request_options.h"
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -46,6 +49,36 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2"}), 0.025, 1e-9);
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2", "--blur-scale", "3"}), 0.075, 1e-9);
     EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
+}
+
+TEST_F(SceneOptionsTest, valuesMayHaveTheNotationOfPhotographers) {
+    EXPECT_EQ(lens("fStop", {"--fstop", "f/1.4"}), 1.4);
+    EXPECT_EQ(lens("focalLength", {"--focal-length", "85mm"}), 85);
+    EXPECT_EQ(lens("focalLength", {"--focal-length", "3.5cm"}), 35);
+    EXPECT_EQ(lens("focusDistance", {"--focus-distance", "50cm"}), 0.5);
+    EXPECT_EQ(lens("focusDistance", {"--focus-distance", "2m"}), 2);
+    EXPECT_NEAR(lens("focusDistance", {"--camera-position", "0,0,100cm", "--focus-node", "Near"}), 3, 1e-6);
+}
+
+TEST_F(SceneOptionsTest, booleanSettingsTakeAValueOrANegation) {
+    EXPECT_EQ(lens("apertureDiameter", {"--dof", "false"}), 0);
+    EXPECT_EQ(lens("apertureDiameter", {"--dof=false"}), 0);
+    EXPECT_GT(lens("apertureDiameter", {"--dof", "true"}), 0);
+    for (const Setting& setting : settings()) {
+        if (setting.kind != SettingKind::boolean) continue;
+        const bool negated = setting.option.starts_with("--no-");
+        const std::string off = negated ? "--" + setting.option.substr(5) : "--no-" + setting.option.substr(2);
+        for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+                 {setting.option, "false"}, {setting.option + "=false"}, {off}, {setting.option, "true"}}) {
+            Request request;
+            CLI::App command;
+            addSettings(command, request, {setting.name});
+            std::vector<std::string> rewritten = withoutBooleanValues(words);
+            std::ranges::reverse(rewritten);
+            command.parse(rewritten);
+            EXPECT_EQ(setting.text(request), words.back() == "true" ? "true" : "false") << words.front();
+        }
+    }
 }
 
 TEST_F(SceneOptionsTest, focusDefaultsToWhatTheMiddleShows) {

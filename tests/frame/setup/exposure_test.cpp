@@ -46,8 +46,14 @@ TEST(Meter, aSingleFireflyCountsForNothing) {
     EXPECT_NEAR(meteredExposure(image), before, 0.03);
 }
 
-TEST(Meter, surroundingsAndDarknessDoNotCount) {
-    EXPECT_NEAR(meteredExposure(stripes({100, 0.09f, 0.36f, 1.44f}, 1)), -1, 1e-6);
+TEST(Meter, darkObjectBeforeALightBackgroundStaysDark) {
+    // On its own, the object of 2 % would become middle grey. The background of 80 % then would be far above white.
+    EXPECT_NEAR(meteredExposure(stripes({0.8f, 0.8f, 0.02f, 0.02f}, 2)), std::log2(0.5 / 0.8), 1e-6);
+    EXPECT_NEAR(meteredExposure(stripes({0.1f, 1, 0.09f, 0.36f, 1.44f}, 2)), -1, 1e-6) << "a dark background";
+}
+
+TEST(Meter, darknessDoesNotCount) {
+    EXPECT_NEAR(meteredExposure(stripes({0, 0.09f, 0.36f, 1.44f}, 1)), -1, 1e-6);
     EXPECT_EQ(meteredExposure(stripes({0, 0})), 0);
     EXPECT_EQ(meteredExposure(stripes({1, 1}, 2)), 0);
 }
