@@ -211,10 +211,12 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
     std::vector<double> cocScales(scene.nodes.size(), 1.0);  // product over a node and its ancestors
+    std::vector<bool> visible(scene.nodes.size());           // whether a node and its ancestors are visible
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
         cocScales[index] = scene.nodes[index].cocScale * (parent < 0 ? 1 : cocScales[static_cast<std::size_t>(parent)]);
+        visible[index] = scene.nodes[index].visible && (parent < 0 || visible[static_cast<std::size_t>(parent)]);
         const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
         pose.worldFromNode[index] =
             parent < 0 ? metresFromUnits * local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
@@ -227,7 +229,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     // Add objects and lights in node order.
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (!drawn[i]) continue;
+        if (!drawn[i] || !visible[i]) continue;
         placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);
         placeLight(scene, state, static_cast<int>(i), pose);
     }

@@ -163,6 +163,7 @@ struct Node {
     std::vector<float> morphWeights;
     double cocScale = 1;  // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
     bool ground = false;  // true if addGround added this node
+    bool visible = true;  // KHR_node_visibility; false: meshes and lights of the node's subtree are not drawn
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
 };
 

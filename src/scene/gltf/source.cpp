@@ -15,7 +15,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> supportedExtensions = {
+constexpr std::array<std::string_view, 18> supportedExtensions = {
     "EXT_camera_physical",        "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",    "KHR_animation_pointer",
     "KHR_draco_mesh_compression", "KHR_lights_punctual",
@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 17> supportedExtensions = {
     "KHR_materials_sheen",        "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",
     "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "KHR_node_visibility",        "KHR_texture_transform",
 };
 
 // How files with an unsupported extension are drawn.
