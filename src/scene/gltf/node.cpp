@@ -291,7 +291,7 @@ std::vector<Camera> readCameras(Source& source) {
         camera.apertureImage = apertureImageOf(json);
         if (from.type == "orthographic") {
             camera.orthographic = "orthographic cameras are not supported";
-            ignore(source, label, *camera.orthographic);
+            ignore(source, label, *camera.orthographic + "; a scene without another camera is framed automatically");
         } else {
             camera.yfov = from.perspective.yfov;
             camera.znear = from.perspective.znear;
