@@ -27,6 +27,7 @@
 #include "scene/built_in_environment.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
+#include "scene/hidden_nodes.h"
 #include "school/fish_school.h"
 
 namespace defocus::engine {
@@ -197,7 +198,7 @@ void setGround(const Request& request, Scene& scene) {
 
 void setNodeBlur(const Request& request, Scene& scene) {
     for (const auto& [name, scale] : request.nodeBlur)
-        scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
+        scene.nodes[static_cast<std::size_t>(nodeCalled(scene, name))].cocScale = scale;
 }
 
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose) {
