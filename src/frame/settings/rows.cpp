@@ -94,6 +94,9 @@ Rows sceneRows() {
             .everyday()
             .example("scene.glb")
             .inShot("/scene"),
+        rows::boolean("strict", "--strict", MEMBER(strict),
+                      "Refuse a scene with missing or damaged parts, such as textures, instead of drawing the rest")
+            .effect(SettingEffect::run),
         rows::integer("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school")
             .excludes({"scene"})
             .inShot("/fish/count"),

@@ -137,7 +137,12 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
 }  // namespace
 
 Scene loadScene(const Request& request, const Progress& progress) {
-    if (!request.scene.empty()) return loadGltf(request.scene, progress);
+    if (!request.scene.empty()) {
+        Scene scene = loadGltf(request.scene, progress);
+        if (const std::vector<std::string> damage = damageWarnings(scene); request.strict && !damage.empty())
+            fail("{}: {}; leave out --strict to draw the rest", request.scene.string(), damage.front());
+        return scene;
+    }
     FishSchoolOptions school;
     school.fishCount = request.fishCount;
     school.trianglesPerFish = request.trianglesPerFish;
@@ -264,11 +269,19 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
     return frame;
 }
 
+constexpr std::size_t maxDamage = 20;  // maximum number of lines in damageWarnings
+
 std::vector<std::string> damageWarnings(const Scene& scene) {
     std::vector<std::string> lines;
-    for (const Ignored& ignored : scene.ignored)
-        if (ignored.damage)
+    std::uint64_t more = 0;
+    for (const Ignored& ignored : scene.ignored) {
+        if (!ignored.damage) continue;
+        if (lines.size() == maxDamage)
+            more += ignored.count;
+        else
             lines.push_back(fmt::format("{} {} left out: {}", grouped(ignored.count), ignored.what, ignored.reason));
+    }
+    if (more > 0) lines.push_back(fmt::format("{} more damaged parts left out", grouped(more)));
     return lines;
 }
 

@@ -31,7 +31,8 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
 
-// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read.
+// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read,
+// or if Request::strict is set and damageWarnings isn't empty.
 Scene loadScene(const Request& request, const Progress& progress = {});
 
 // Loads the scene and places camera, lens and lights. The world has no pyramids yet. Throws Error if the request names
@@ -76,7 +77,8 @@ void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 // Calls placeFrame, then addPyramids.
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
-// Returns a line for each kind of damage in the scene's file.
+// Returns a line for each missing or damaged part of the scene's file, up to 20 lines, and a line with the number of
+// further parts.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
 // Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens

@@ -155,6 +155,9 @@ void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes,
 void grantFile(Source& source, const std::string& uri, const std::string& what) {
     const std::optional<std::filesystem::path> file = uriFile(source.document, uri, what);
     if (!file) return;
+    const std::string name = file->lexically_relative(source.document.folder).string();
+    if (uri.find('\\') != std::string::npos && name.find('\\') == std::string::npos)
+        ignore(source, "backslash in a URI", fmt::format("{}: read as '{}'", what, name));
     std::error_code status;
     if (!source.files.insert(std::filesystem::canonical(*file, status)).second) return;
     const std::uintmax_t bytes = std::filesystem::file_size(*file, status);
