@@ -309,6 +309,9 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
                             "m, may be drawn incorrectly",
                             farthest, largestScene, smallestScene));
     }
+    if (const Pose& pose = frame.world.pose; pose.faintLights > 0)
+        lines.push_back(fmt::format("the scene has {} lights; the {} of the largest intensity are drawn",
+                                    pose.lights.size() + pose.faintLights, pose.lights.size()));
     if (!frame.cacheFailure.empty())
         lines.push_back(fmt::format("simplified meshes are not cached: {}", frame.cacheFailure));
     return lines;

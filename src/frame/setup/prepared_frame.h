@@ -82,7 +82,7 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress = {}
 std::vector<std::string> damageWarnings(const Scene& scene);
 
 // Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
-// values in the camera's extras, a focus that no real lens can have, and pyramids that couldn't be stored.
+// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine
