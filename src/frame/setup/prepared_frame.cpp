@@ -28,6 +28,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
 #include "scene/hidden_nodes.h"
+#include "scene/strokes.h"
 #include "school/fish_school.h"
 
 namespace defocus::engine {
@@ -191,10 +192,24 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const auto scene = std::make_shared<Scene>(loadScene(request, progress));
     setNodeBlur(request, *scene);
     setScale(request, *scene);
+    setStrokes(request, *scene);
     setGround(request, *scene);
     PreparedFrame frame = placeFrame(scene, request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
+}
+
+void setStrokes(const Request& request, Scene& scene) {
+    if (!hasStrokes(scene)) return;
+    PreparedFrame frame;
+    frame.scene = std::make_shared<Scene>(scene);
+    frame.world.pose = exposedPose(request, scene);
+    place(frame, request);
+    const View& view = frame.view;
+    const double pixel = 2 * tanHalfHorizontalFov(view.lens) / view.width;
+    Request shown = request;
+    shown.hide.clear();  // a later request may show the nodes
+    scene = withStrokes(scene, exposedPose(shown, scene), {view.worldFromCamera, pixel, view.nearPlane});
 }
 
 void setGround(const Request& request, Scene& scene) {

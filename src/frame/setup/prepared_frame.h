@@ -47,6 +47,10 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
 // Scales the blur of the nodes that the request lists. Throws Error for a node that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 
+// Draws the scene's points and lines as triangles, one pixel wide in the request's view; see scene/strokes.h. The
+// scene's units must already be set.
+void setStrokes(const Request& request, Scene& scene);
+
 // Adds the ground that the request asks for, unless the scene has a ground. The ground lies beneath the scene's pose at
 // the start of the animation, so that all frames of a film share it. The scene's units must already be set.
 void setGround(const Request& request, Scene& scene);
@@ -82,7 +86,8 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress = {}
 std::vector<std::string> damageWarnings(const Scene& scene);
 
 // Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
-// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be stored.
+// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be
+// stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine
