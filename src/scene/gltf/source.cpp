@@ -27,6 +27,9 @@ constexpr std::array<std::string_view, 18> supportedExtensions = {
     "KHR_node_visibility",        "KHR_texture_transform",
 };
 
+// Extensions that do not change the picture: metadata about the file.
+constexpr std::array<std::string_view, 2> metadataExtensions = {"KHR_xmp", "KHR_xmp_json_ld"};
+
 // How files with an unsupported extension are drawn.
 struct Fallback {
     std::string_view extension;
@@ -54,7 +57,8 @@ std::vector<std::string> stringsOf(const nlohmann::json& json, const char* name)
 
 void checkExtensions(Source& source) {
     const auto supported = [](const std::string& name) {
-        return std::find(supportedExtensions.begin(), supportedExtensions.end(), name) != supportedExtensions.end();
+        return std::ranges::find(supportedExtensions, name) != supportedExtensions.end() ||
+               std::ranges::find(metadataExtensions, name) != metadataExtensions.end();
     };
     for (const std::string& name : stringsOf(source.document.json, "extensionsRequired")) {
         const Fallback* fallback = fallbackOf(name);

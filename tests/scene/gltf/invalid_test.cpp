@@ -83,6 +83,12 @@ TEST(InvalidGltf, requiredExtensionIsNamed) {
     expectFault(errorOf(builder), "built.glb", "EXT_unheard_of");
 }
 
+TEST(InvalidGltf, metadataExtensionsAreNoFault) {
+    GltfBuilder builder = triangle();
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) builder.json[list] = {"KHR_xmp_json_ld"};
+    EXPECT_TRUE(builder.load().ignored.empty());
+}
+
 TEST(InvalidGltf, wrongTypesAreNamedByPlace) {
     GltfBuilder builder = triangle();
     builder.json["accessors"][0]["count"] = "three";
