@@ -44,6 +44,7 @@ using Background = std::variant<EnvironmentBackground, TransparentBackground, Co
 struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
+    bool strict = false;            // true: missing or damaged parts of the file, such as textures, are an Error
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
@@ -72,7 +73,7 @@ struct Request {
     // Lens.
     LensSettings lens;
     Focus focus;
-    std::map<std::string, double> nodeBlur;  // node name → factor ≥ 0 on the blur of the node and its descendants
+    std::map<std::string, double> nodeBlur;  // node name or index → factor ≥ 0 on the blur of the node and its descendants
 
     // Samples and levels of detail.
     std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, from the blur

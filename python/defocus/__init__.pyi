@@ -20,6 +20,7 @@ __all__: List[str]
 # ---- keywords, from the settings table ----
 
 class Keywords(TypedDict, total=False):
+    strict: Optional[bool]
     fish_count: Optional[int]
     triangles_per_fish: Optional[int]
     units: Optional[Union[float, Literal["auto", "m", "cm", "mm"]]]

@@ -26,7 +26,7 @@ namespace {
 
 glm::dvec3 pointOf(const Place& place, const Scene& scene, const Pose& pose) {
     if (const auto* point = std::get_if<glm::dvec3>(&place)) return *point;
-    return nodeCentre(scene, pose, nodeNamed(scene, std::get<std::string>(place)));
+    return nodeCentre(scene, pose, nodeCalled(scene, std::get<std::string>(place)));
 }
 
 std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const Scene& scene, const Pose& pose) {

@@ -323,8 +323,18 @@ void collectNames(const JsonReader& reader, Shot& shot) {
     }
 }
 
+// Throws Error if a string contains a NUL character, because the system would cut a path short there.
+void refuseNul(const JsonReader& reader) {
+    const json& value = reader.value();
+    if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
+        reader.failWith("contains a NUL character; remove it");
+    if (!value.is_structured()) return;
+    for (const auto& [key, member] : reader.members()) refuseNul(member);
+}
+
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
+    refuseNul(reader);
     reader.requireObject(keysAt("", {"$schema", "frameRate", "range", "camera", "focus", "lens", "methodKeys",
                                      "animateSeed", "output", "video"}));
     Shot shot;

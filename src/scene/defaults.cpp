@@ -164,10 +164,10 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoi
     if (const auto* const named = std::get_if<NamedCamera>(&choice)) {
         chosen = cameraNamed(places, named->name);
         if (chosen == nullptr) failForCamera(places, named->name);
-    } else if (!places.empty()) {
+    } else {
         const auto usable =
             std::ranges::find_if(places, [](const CameraNode& place) { return !place.camera->orthographic; });
-        chosen = usable == places.end() ? &places.front() : &*usable;
+        if (usable != places.end()) chosen = &*usable;
     }
     if (chosen == nullptr) return framingCamera(pose.bounds, aspect, tanHalfHorizontal);
     if (chosen->camera->orthographic)

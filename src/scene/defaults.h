@@ -18,10 +18,11 @@ struct PlacedCamera {
 };
 
 // Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node; FirstCamera skips
-// orthographic cameras. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` =
-// width / height, with matching focusDistance and znear. `tanHalfHorizontal`: tangent of half the default camera's
-// horizontal angle of view; none: as a 50 mm lens sees the longer side of the image. Throws Error if the camera is
-// orthographic or the name is unknown; the message lists the known names.
+// orthographic cameras, and is the default camera if the scene has no other. The default camera shows `pose.bounds`
+// from a three-quarter view in an image of `aspect` = width / height, with matching focusDistance and znear.
+// `tanHalfHorizontal`: tangent of half the default camera's horizontal angle of view; none: as a 50 mm lens sees the
+// longer side of the image. Throws Error if the named camera is orthographic or the name is unknown; the message lists
+// the known names.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect,
                           std::optional<double> tanHalfHorizontal = {});
 

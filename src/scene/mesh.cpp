@@ -58,11 +58,14 @@ Bounds Mesh::bounds() const {
     // Single precision is exact, because min and max only select coordinates.
     glm::vec3 minimum(std::numeric_limits<float>::infinity());
     glm::vec3 maximum(-std::numeric_limits<float>::infinity());
-    for (const Primitive& primitive : primitives)
-        for (const std::uint32_t index : primitive.indices) {
-            minimum = glm::min(minimum, vertices.positions[index]);
-            maximum = glm::max(maximum, vertices.positions[index]);
+    const auto extend = [&](const std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& positions) {
+        for (const std::uint32_t index : indices) {
+            minimum = glm::min(minimum, positions[index]);
+            maximum = glm::max(maximum, positions[index]);
         }
+    };
+    for (const Primitive& primitive : primitives) extend(primitive.indices, vertices.positions);
+    for (const Strokes& stroke : strokes) extend(stroke.indices, stroke.vertices.positions);
     Bounds result;
     result.minimum = minimum;
     result.maximum = maximum;

@@ -62,6 +62,14 @@ struct Primitive {
     std::vector<std::uint32_t> indices;  // triangle list into Mesh::vertices; front faces are counter-clockwise
 };
 
+// Points or line segments, which withStrokes (scene/strokes.h) turns into triangles.
+struct Strokes {
+    int material = -1;  // index into Scene::materials; -1: glTF's default material
+    bool points = false;
+    std::vector<std::uint32_t> indices;  // into `vertices`: one per point, two per line segment
+    Vertices vertices;                   // without normals, the strokes are not lit
+};
+
 struct Mesh {
     std::string name;
     Vertices vertices;
@@ -69,9 +77,10 @@ struct Mesh {
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;  // default weights, one per morph target
     VertexBlurBounds blurBounds;      // of vertices.blurs
+    std::vector<Strokes> strokes;     // not yet drawn
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles
+    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles and strokes use; empty without them
 };
 
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/suggestion.h"
@@ -200,6 +202,26 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
     pose.lights.push_back(placed);
 }
 
+// Keeps the maxLights lights of the largest intensity, in their order. Directional lights come first.
+void leaveOutFaintLights(Pose& pose) {
+    if (pose.lights.size() <= maxLights) return;
+    const auto brightness = [&](std::size_t light) {
+        const Light& from = pose.lights[light].light;
+        if (from.type == LightType::directional) return std::numeric_limits<double>::infinity();
+        const double candela = from.intensity * glm::dot(glm::dvec3(from.color), glm::dvec3(0.2126, 0.7152, 0.0722));
+        return std::max(0.0, candela);  // 0 for NaN
+    };
+    std::vector<std::size_t> order(pose.lights.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater<>(), brightness);
+    pose.faintLights = order.size() - maxLights;
+    order.resize(maxLights);
+    std::ranges::sort(order);
+    std::vector<PlacedLight> kept;
+    for (const std::size_t light : order) kept.push_back(pose.lights[light]);
+    pose.lights = std::move(kept);
+}
+
 }  // namespace
 
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
@@ -211,10 +233,12 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
     std::vector<double> cocScales(scene.nodes.size(), 1.0);  // product over a node and its ancestors
+    std::vector<bool> visible(scene.nodes.size());           // whether a node and its ancestors are visible
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
         cocScales[index] = scene.nodes[index].cocScale * (parent < 0 ? 1 : cocScales[static_cast<std::size_t>(parent)]);
+        visible[index] = scene.nodes[index].visible && (parent < 0 || visible[static_cast<std::size_t>(parent)]);
         const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
         pose.worldFromNode[index] =
             parent < 0 ? metresFromUnits * local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
@@ -227,10 +251,11 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     // Add objects and lights in node order.
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (!drawn[i]) continue;
+        if (!drawn[i] || !visible[i]) continue;
         placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);
         placeLight(scene, state, static_cast<int>(i), pose);
     }
+    leaveOutFaintLights(pose);
     pose.cameras = std::move(state.cameras);
     return pose;
 }

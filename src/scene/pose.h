@@ -33,12 +33,15 @@ struct PlacedLight {
     glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector in which the light shines
 };
 
+inline constexpr std::size_t maxLights = 336;  // that fit into a uniform block of every OpenGL driver
+
 struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
     std::vector<Object> objects;
-    std::vector<PlacedLight> lights;
-    std::vector<Camera> cameras;  // one per entry of Scene::cameras, with animated values
-    Bounds bounds;                // world space, of all objects except the ground
+    std::vector<PlacedLight> lights;  // at most maxLights
+    std::size_t faintLights = 0;      // number of further lights, which are left out because they are fainter
+    std::vector<Camera> cameras;      // one per entry of Scene::cameras, with animated values
+    Bounds bounds;                    // world space, of all objects except the ground
 };
 
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give

@@ -105,8 +105,9 @@ struct Material {
 
 inline constexpr std::size_t materialTextureCount = 14;
 
-// Returns all textures of a material in the order of the texture slots in shaders/include/material_textures.glsl.
-inline std::array<const TextureUse*, materialTextureCount> textureUses(const Material& m) {
+// Returns pointers to all textures of a material (const or not) in the order of the texture slots in
+// shaders/include/material_textures.glsl.
+auto textureUses(auto& m) -> std::array<decltype(&m.baseColor), materialTextureCount> {
     return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
             &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,
             &m.clearcoatRoughness, &m.clearcoatNormal,   &m.sheenColor,   &m.sheenRoughness};
@@ -162,6 +163,7 @@ struct Node {
     int light = -1;
     std::vector<float> morphWeights;
     double cocScale = 1;  // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
+    bool visible = true;  // KHR_node_visibility; false: meshes and lights of the node's subtree are not drawn
     bool ground = false;  // true if addGround added this node
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
 };
@@ -216,7 +218,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;
-    std::vector<TextureImage> images;
+    std::vector<TextureImage> images;     // images that materials use
     std::vector<std::string> imageNames;  // one per entry of `images`
     std::vector<Light> lights;
     std::vector<Camera> cameras;

@@ -119,6 +119,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
         {"scene", {{"ball.glb"}, {}, true}},
+        {"strict", {{"--strict"}, {}, true}},
         {"fishCount", {{"--fish", "3"}, {}, true}},
         {"trianglesPerFish", {{"--fish-triangles", "1500"}, {}, true}},
         {"units", {{"--units", "cm"}, {"--fstop", "0.5"}}},

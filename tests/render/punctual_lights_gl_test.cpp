@@ -147,6 +147,10 @@ TEST_F(PunctualLights, severalAddUp) {
         small->world.lights.push_back(lamp);
     }
     expectClosedForm(surface, small->world.lights, *small);
+    for (PlacedLight& placed : small->world.lights) placed.light.intensity /= 50;
+    const std::vector<PlacedLight> some = small->world.lights;
+    for (std::size_t i = some.size(); i < maxLights; ++i) small->world.lights.push_back(some[i % some.size()]);
+    expectClosedForm(surface, small->world.lights, *small);
 }
 
 }  // namespace

@@ -107,6 +107,12 @@ TEST(ChooseCamera, byCameraOrNodeNameElseTheFirstThatWorks) {
     EXPECT_EQ(chooseCamera(scene, pose, FramingCamera{}, 1).camera.name, "auto");
 }
 
+TEST(ChooseCamera, framesTheSceneIfAllCamerasAreOrthographic) {
+    Scene scene = withCameras();
+    for (Camera& camera : scene.cameras) camera.orthographic = "orthographic cameras are not supported";
+    EXPECT_EQ(chooseCamera(scene, poseAt(scene, 0), {}, 1).camera.name, "auto");
+}
+
 TEST(ChooseCamera, matricesAreRigidWhateverTheNodesScale) {
     const Scene scene = withCameras();
     const glm::dmat4 m = chooseCamera(scene, poseAt(scene, 0), NamedCamera{"shot"}, 1).worldFromCamera;

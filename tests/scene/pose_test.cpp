@@ -210,5 +210,26 @@ TEST(Animation, clipsMoveTheirNodes) {
     EXPECT_THROW((void)poseAt(scene, 1, 1), Error);
 }
 
+TEST(Pose, keepsTheLightsOfTheLargestIntensity) {
+    Scene scene;
+    constexpr std::size_t count = maxLights + 3;
+    for (std::size_t i = 0; i < count; ++i) {
+        Light light;
+        light.type = i == 1 ? LightType::directional : LightType::point;
+        light.intensity = static_cast<float>(i + 1);
+        scene.lights.push_back(light);
+        Node node;
+        node.light = static_cast<int>(i);
+        scene.nodes.push_back(node);
+        scene.roots.push_back(static_cast<int>(i));
+    }
+    const Pose pose = poseAt(scene, 0);
+    ASSERT_EQ(pose.lights.size(), maxLights);
+    EXPECT_EQ(pose.faintLights, 3u);
+    EXPECT_EQ(pose.lights[0].light.type, LightType::directional);
+    EXPECT_EQ(pose.lights[1].light.intensity, 5);
+    EXPECT_EQ(pose.lights.back().light.intensity, static_cast<float>(count));
+}
+
 }  // namespace
 }  // namespace defocus::engine

@@ -74,6 +74,8 @@ struct Totals {
     std::uint64_t triangles = 0;         // sum over all meshes
     std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
     std::uint64_t vertices = 0;
+    std::uint64_t points = 0;
+    std::uint64_t lines = 0;  // segments
 };
 
 Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
@@ -82,6 +84,8 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
         totals.triangles += scene.meshes[i].triangleCount();
         totals.trianglesInScene += objects[i] * scene.meshes[i].triangleCount();
         totals.vertices += scene.meshes[i].vertices.count();
+        for (const Strokes& strokes : scene.meshes[i].strokes)
+            (strokes.points ? totals.points : totals.lines) += strokes.indices.size() / (strokes.points ? 1 : 2);
     }
     return totals;
 }
@@ -128,9 +132,14 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
     const std::vector<Repairs> repairs = allRepairs(scene);
-    Json json = {{"file", options.seen.scene.string()}, {"name", scene.name},
-                 {"triangles", totals.triangles},       {"trianglesInScene", totals.trianglesInScene},
-                 {"vertices", totals.vertices},         {"objects", pose.objects.size()},
+    Json json = {{"file", options.seen.scene.string()},
+                 {"name", scene.name},
+                 {"triangles", totals.triangles},
+                 {"trianglesInScene", totals.trianglesInScene},
+                 {"vertices", totals.vertices},
+                 {"objects", pose.objects.size()},
+                 {"points", totals.points},
+                 {"lines", totals.lines},
                  {"nodes", scene.nodes.size()}};
     if (!pose.bounds.empty()) {
         const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
@@ -274,6 +283,8 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));
+    if (totals.points + totals.lines > 0)
+        line("strokes", fmt::format("{} points, {} lines", grouped(totals.points), grouped(totals.lines)));
     line("meshes", fmt::format("{}, drawn as {} object{}", grouped(scene.meshes.size()), grouped(pose.objects.size()),
                                pose.objects.size() == 1 ? "" : "s"));
     line("materials", materialSummary(scene));

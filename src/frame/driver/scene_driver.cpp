@@ -13,6 +13,7 @@
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "scene/ground.h"
+#include "scene/strokes.h"
 
 namespace defocus::engine {
 
@@ -65,6 +66,10 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
     scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
                     : std::const_pointer_cast<Scene>(std::move(scene));
     if (named_) setScale(request, *scene_);
+    if (hasStrokes(*scene_)) {
+        scene_ = std::make_shared<Scene>(*scene_);  // the caller may share the scene
+        setStrokes(request, *scene_);
+    }
     frame_ = placeFrame(scaledScene(request), request);
     loadMilliseconds_ = millisecondsSince(begin);
     {

@@ -1,6 +1,7 @@
 #include "frame/report/plan_warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,14 @@
 #include "lens/lens_fields.h"
 #include "plan/lens_cells/lens_cells.h"
 #include "render/sampling/automatic_samples.h"
+#include "scene/hidden_nodes.h"
 
 namespace defocus::engine {
 
 namespace {
 
 constexpr double visibleShare = 0.02;   // blur that is easy to see, as a fraction of the image width
+constexpr std::size_t maxSharing = 8;   // maximum number of nodes in a warning about their common name
 constexpr std::size_t maxIgnored = 20;  // maximum number of lines in ignoredWarnings
 
 // Rounds `value` > 0 to 1, 2 or 5 times a power of ten.
@@ -105,10 +108,40 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
     return lines;
 }
 
+namespace {
+
+// Returns the nodes that the request names, as texts.
+std::vector<std::string> namedNodes(const Request& request) {
+    std::vector<std::string> names = request.hide;
+    for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);
+    if (const auto* focus = std::get_if<FocusNode>(&request.focus)) names.push_back(focus->name);
+    return names;
+}
+
+// Returns a warning that lists the nodes with this name and says which is used; empty if at most one node has the name.
+std::vector<std::string> sharedName(const std::string& name, const PreparedFrame& frame) {
+    const std::vector<Node>& nodes = frame.scene->nodes;
+    std::vector<std::string> sharing;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].name != name) continue;
+        const glm::dvec4& origin = frame.world.pose.worldFromNode[i][3];
+        sharing.push_back(fmt::format("#{} at ({:.3g}, {:.3g}, {:.3g})", i, origin.x, origin.y, origin.z));
+    }
+    if (sharing.size() < 2) return {};
+    const int used = nodeCalled(*frame.scene, name);
+    const std::size_t listed = std::min(sharing.size(), maxSharing);
+    return {fmt::format("{} nodes are named '{}': {}{}; #{} is used; give the number of another node instead",
+                        sharing.size(), name, fmt::join(sharing.begin(), sharing.begin() + listed, ", "),
+                        listed < sharing.size() ? ", …" : "", used)};
+}
+
+}  // namespace
+
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame) {
     std::vector<std::string> lines = frameWarnings(frame);
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame.scene));
+    for (const std::string& name : namedNodes(request)) add(sharedName(name, frame));
     add(unusedSettings(request, *frame.scene, frame.view.lens));
     return lines;
 }

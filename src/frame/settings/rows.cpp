@@ -94,6 +94,9 @@ Rows sceneRows() {
             .everyday()
             .example("scene.glb")
             .inShot("/scene"),
+        rows::boolean("strict", "--strict", MEMBER(strict),
+                      "Refuse a scene with missing or damaged parts, such as textures, instead of drawing the rest")
+            .effect(SettingEffect::run),
         rows::integer("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school")
             .excludes({"scene"})
             .inShot("/fish/count"),
@@ -282,7 +285,7 @@ Row lensRow(const LensField& field) {
 Rows focusRows() {
     return {
         rows::other("focusNode", "--focus-node", "NAME", setFocusNode, focusNodeText,
-                    "Focus on a node: on the centre of its mesh's bounding box, or on its origin if it has no mesh")
+                    "Focus on a node, given by name or number: on the centre of its mesh's bounding box, or on its origin if it has no mesh")
             .clears(clearFocus<FocusNode>)
             .everyday()
             .excludes({"focusDistance"})
@@ -320,7 +323,7 @@ Rows lensRows() {
                        .unused(unusedLensField(LensFeature::shape)));
     rows.push_back(
         rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
-                    "Scale the blur of a node and its children; 0 keeps them sharp. Can be given several times")
+                    "Scale the blur of a node, given by name or number, and its children; 0 keeps them sharp. Can be given several times")
             .clears(MEMBER(nodeBlur))
             .repeats(nodeBlurTexts)
             .unused(withoutBlur));

@@ -31,6 +31,8 @@
 #include "scene/built_in_environment.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
+#include "scene/hidden_nodes.h"
+#include "scene/strokes.h"
 #include "school/fish_school.h"
 
 namespace defocus::engine {
@@ -158,7 +160,12 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
 }  // namespace
 
 Scene loadScene(const Request& request, const Progress& progress) {
-    if (!request.scene.empty()) return loadGltf(request.scene, progress);
+    if (!request.scene.empty()) {
+        Scene scene = loadGltf(request.scene, progress);
+        if (const std::vector<std::string> damage = damageWarnings(scene); request.strict && !damage.empty())
+            fail("{}: {}; leave out --strict to draw the rest", request.scene.string(), damage.front());
+        return scene;
+    }
     FishSchoolOptions school;
     school.fishCount = request.fishCount;
     school.trianglesPerFish = request.trianglesPerFish;
@@ -207,10 +214,24 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const auto scene = std::make_shared<Scene>(loadScene(request, progress));
     setNodeBlur(request, *scene);
     setScale(request, *scene);
+    setStrokes(request, *scene);
     setGround(request, *scene);
     PreparedFrame frame = placeFrame(scene, request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
+}
+
+void setStrokes(const Request& request, Scene& scene) {
+    if (!hasStrokes(scene)) return;
+    PreparedFrame frame;
+    frame.scene = std::make_shared<Scene>(scene);
+    frame.world.pose = exposedPose(request, scene);
+    place(frame, request);
+    const View& view = frame.view;
+    const double pixel = 2 * tanHalfHorizontalFov(view.lens) / view.width;
+    Request shown = request;
+    shown.hide.clear();  // a later request may show the nodes
+    scene = withStrokes(scene, exposedPose(shown, scene), {view.worldFromCamera, pixel, view.nearPlane});
 }
 
 void setGround(const Request& request, Scene& scene) {
@@ -219,7 +240,7 @@ void setGround(const Request& request, Scene& scene) {
 
 void setNodeBlur(const Request& request, Scene& scene) {
     for (const auto& [name, scale] : request.nodeBlur)
-        scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
+        scene.nodes[static_cast<std::size_t>(nodeCalled(scene, name))].cocScale = scale;
 }
 
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose) {
@@ -285,11 +306,19 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
     return frame;
 }
 
+constexpr std::size_t maxDamage = 20;  // maximum number of lines in damageWarnings
+
 std::vector<std::string> damageWarnings(const Scene& scene) {
     std::vector<std::string> lines;
-    for (const Ignored& ignored : scene.ignored)
-        if (ignored.damage)
+    std::uint64_t more = 0;
+    for (const Ignored& ignored : scene.ignored) {
+        if (!ignored.damage) continue;
+        if (lines.size() == maxDamage)
+            more += ignored.count;
+        else
             lines.push_back(fmt::format("{} {} left out: {}", grouped(ignored.count), ignored.what, ignored.reason));
+    }
+    if (more > 0) lines.push_back(fmt::format("{} more damaged parts left out", grouped(more)));
     return lines;
 }
 
@@ -317,6 +346,9 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
                             "m, may be drawn incorrectly",
                             farthest, largestScene, smallestScene));
     }
+    if (const Pose& pose = frame.world.pose; pose.faintLights > 0)
+        lines.push_back(fmt::format("the scene has {} lights; the {} of the largest intensity are drawn",
+                                    pose.lights.size() + pose.faintLights, pose.lights.size()));
     if (!frame.cacheFailure.empty())
         lines.push_back(fmt::format("simplified meshes are not cached: {}", frame.cacheFailure));
     return lines;

@@ -31,7 +31,8 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
 
-// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read.
+// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read,
+// or if Request::strict is set and damageWarnings isn't empty.
 Scene loadScene(const Request& request, const Progress& progress = {});
 
 // Loads the scene and places camera, lens and lights. The world has no pyramids yet. Throws Error if the request names
@@ -45,6 +46,10 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
 
 // Scales the blur of the nodes that the request lists. Throws Error for a node that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
+
+// Draws the scene's points and lines as triangles, one pixel wide in the request's view; see scene/strokes.h. The
+// scene's units must already be set.
+void setStrokes(const Request& request, Scene& scene);
 
 // Adds the ground that the request asks for, unless the scene has a ground. The ground lies beneath the scene's pose at
 // the start of the animation, so that all frames of a film share it. The scene's units must already be set.
@@ -76,11 +81,13 @@ void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 // Calls placeFrame, then addPyramids.
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
-// Returns a line for each kind of damage in the scene's file.
+// Returns a line for each missing or damaged part of the scene's file, up to 20 lines, and a line with the number of
+// further parts.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
 // Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
-// values in the camera's extras, a focus that no real lens can have, and pyramids that couldn't be stored.
+// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be
+// stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine

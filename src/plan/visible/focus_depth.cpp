@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "scene/hidden_nodes.h"
 #include "scene/pick.h"
 
 namespace defocus::engine {
@@ -24,7 +25,7 @@ Lens unfocused(const Lens& lens) {
 }  // namespace
 
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who) {
-    const glm::dvec3 centre = nodeCentre(scene, pose, nodeNamed(scene, name));
+    const glm::dvec3 centre = nodeCentre(scene, pose, nodeCalled(scene, std::string(name)));
     const double depth = -(glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1)).z;
     if (!(depth > 0)) fail("{}: the centre of '{}' is behind the camera", who, name);
     return depth;

@@ -21,7 +21,6 @@ constexpr std::size_t maxConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
 // Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
-constexpr int maxLights = 64;
 constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes; all drivers have GL_MAX_UNIFORM_BLOCK_SIZE ≥ 16 KiB
 
 struct GpuLight {

@@ -24,6 +24,8 @@ constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
 
+constexpr std::string_view spaces = " \t\r\n";
+
 using Bytes = std::span<const std::byte>;
 
 std::uint32_t littleEndian32(Bytes bytes, std::size_t offset) {
@@ -141,7 +143,6 @@ std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
             table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
         return table;
     }();
-    constexpr std::string_view spaces = " \t\r\n";
     text = text.substr(0, text.find_last_not_of("= \t\r\n") + 1);
     std::vector<std::byte> result;
     result.reserve(text.size() / 4 * 3 + 2);
@@ -174,6 +175,11 @@ std::vector<std::byte> readDataUri(const Document& document, const std::string& 
     return {bytes.begin(), bytes.end()};
 }
 
+std::string slashed(std::string text) {
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
 // Returns whether the URI has a scheme: two or more letters, digits, '+', '-' or '.' before the first colon. A single
 // letter is a drive or part of a file name.
 bool hasScheme(std::string_view uri) {
@@ -190,8 +196,14 @@ std::size_t entryCount(const Document& document, std::string_view name) {
     return found != document.json.end() && found->is_array() ? found->size() : 0;
 }
 
+std::string withoutFile(const Document& document, const std::string& message) {
+    const std::string prefix = document.file + ": ";
+    return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
 bool isDataUri(const std::string& uri) {
-    return endsWithIgnoringCase(uri.substr(0, 5), "data:");
+    const std::size_t begin = uri.find_first_not_of(spaces);
+    return begin != std::string::npos && endsWithIgnoringCase(uri.substr(begin, 5), "data:");
 }
 
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri,
@@ -201,13 +213,13 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
 
     // glTF requires percent-encoded URIs, so try the decoded path first. Some exporters write file names without
     // encoding.
-    const std::filesystem::path asWritten = document.folder / uri;
-    const std::filesystem::path decoded = document.folder / percentDecoded(uri);
-    if (uri.empty() || uri.find('\0') != std::string::npos || std::filesystem::path(percentDecoded(uri)).is_absolute())
+    const std::filesystem::path decoded = percentDecoded(uri);
+    const std::filesystem::path withSlashes = slashed(decoded.string());
+    if (uri.empty() || uri.find('\0') != std::string::npos || decoded.is_absolute() || withSlashes.is_absolute())
         fault(document, "{}: '{}' is not a relative path", what, uri);
     std::error_code status;
-    for (const std::filesystem::path& path : {decoded, asWritten})
-        if (std::filesystem::is_regular_file(path, status)) return path;
+    for (const std::filesystem::path& path : {decoded, std::filesystem::path(uri), withSlashes})
+        if (std::filesystem::is_regular_file(document.folder / path, status)) return document.folder / path;
     fault(document, "{}: '{}' does not exist in the file's folder", what, uri);
 }
 

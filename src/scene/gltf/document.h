@@ -31,11 +31,12 @@ Document readDocument(const std::filesystem::path& path);
 // Returns the number of entries in the JSON's top-level array `name`; 0 if it does not exist.
 std::size_t entryCount(const Document& document, std::string_view name);
 
-// Returns whether the URI contains its data ("data:…").
+// Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and follow white space.
 bool isDataUri(const std::string& uri);
 
-// Returns the path of the file that a URI refers to, relative to the document's folder; nullopt for data URIs. Throws
-// Error if there is no such regular file. `what` describes the object with the URI in error messages.
+// Returns the path of the file that a URI refers to, relative to the document's folder; nullopt for data URIs. A
+// backslash, which some exporters write on Windows, counts as a slash if there is no file with a backslash in its name.
+// Throws Error if there is no such regular file. `what` describes the object with the URI in error messages.
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
 
 // Returns the bytes of a data URI or of the file that a URI refers to. Data URIs may have any media type, and base64
@@ -47,5 +48,8 @@ template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
     throw Error(document.file + ": " + shortLine(fmt::format(format, std::forward<Args>(args)...)));
 }
+
+// Returns an error's message without the "FILE: " that fault() puts in front.
+std::string withoutFile(const Document& document, const std::string& message);
 
 }  // namespace defocus::engine::gltf

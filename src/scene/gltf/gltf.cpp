@@ -10,6 +10,7 @@
 #include "scene/gltf/mesh.h"
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
+#include "scene/gltf/texture.h"
 #include "scene/units.h"
 
 namespace defocus::engine {
@@ -68,10 +69,10 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     // Read materials before meshes: meshes with normal maps need tangents.
     scene.materials = gltf::readMaterials(source);
-    scene.textures = gltf::readTextures(source);
-    gltf::Images images = gltf::readImages(source, progress);
-    scene.images = std::move(images.images);
-    scene.imageNames = std::move(images.names);
+    gltf::Textures textures = gltf::readTextures(source, scene.materials, progress);
+    scene.textures = std::move(textures.textures);
+    scene.images = std::move(textures.images);
+    scene.imageNames = std::move(textures.names);
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 

@@ -1,16 +1,13 @@
-// Sources: glTF 2.0 specification, textures (3.8) and materials (3.9). Extensions: KHR_texture_transform,
-// KHR_materials_unlit, _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _clearcoat
-// and _sheen.
+// Sources: glTF 2.0 specification, materials (3.9). Extensions: KHR_texture_transform, KHR_materials_unlit,
+// _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _clearcoat and _sheen.
 #include "scene/gltf/material.h"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <mutex>
-
-#include "core/parallel.h"
-#include "image/image_io.h"
 
 namespace defocus::engine::gltf {
 
@@ -37,6 +34,15 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
+// Returns why the texture is not drawn. Its extensions are those that name an image in another format.
+std::string withoutImage(const nlohmann::json& texture) {
+    std::vector<std::string> formats;
+    if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())
+        for (const auto& [name, extension] : extensions->items()) formats.push_back(name);
+    if (formats.empty()) return "it has no image";
+    return fmt::format("it has only an image of {}, which is not supported", fmt::join(formats, " and "));
+}
+
 // Returns the texture reference `name` of the JSON object `owner`. A texture that cannot be drawn is omitted and listed
 // in Source::ignored.
 TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* name) {
@@ -54,7 +60,7 @@ TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* n
         return use;
     }
     if (source.model.textures[static_cast<std::size_t>(texture)].source < 0) {
-        ignore(source, "texture", "it has no image in a supported format");
+        ignore(source, "texture", withoutImage(source.document.json["textures"][static_cast<std::size_t>(texture)]));
         return use;
     }
     use.texture = texture;
@@ -216,47 +222,6 @@ Material readMaterial(Source& source, std::size_t index) {
     return material;
 }
 
-// ---- textures -----------------------------------------------------------------------------------
-
-Wrap wrapOf(int mode) {
-    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clampToEdge;
-    if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirroredRepeat;
-    return Wrap::repeat;
-}
-
-Texture readTexture(const tinygltf::Model& model, const tinygltf::Texture& from) {
-    Texture texture;
-    texture.image = from.source;
-    if (from.sampler < 0) return texture;
-    const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(from.sampler)];
-    const int minification = sampler.minFilter;
-    texture.wrapS = wrapOf(sampler.wrapS);
-    texture.wrapT = wrapOf(sampler.wrapT);
-    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) texture.magnification = Filter::nearest;
-    const bool nearest = minification == TINYGLTF_TEXTURE_FILTER_NEAREST ||
-                         minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
-                         minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
-    if (nearest) texture.minification = Filter::nearest;
-    texture.mipmaps = minification != TINYGLTF_TEXTURE_FILTER_NEAREST && minification != TINYGLTF_TEXTURE_FILTER_LINEAR;
-    return texture;
-}
-
-// ---- images -------------------------------------------------------------------------------------
-
-std::string imageName(const nlohmann::json& json, std::size_t index) {
-    std::string name = json.value("name", std::string());
-    if (!name.empty()) return name;
-    std::string uri = json.value("uri", std::string());
-    return uri.empty() || isDataUri(uri) ? fmt::format("image {}", index) : uri;
-}
-
-std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& json, const std::string& label) {
-    if (json.contains("uri")) return readUri(source.document, json["uri"].get<std::string>(), label);
-    if (!json.contains("bufferView")) fault(source.document, "{}: it has neither uri nor bufferView", label);
-    const std::span<const std::byte> bytes = viewBytes(source, json["bufferView"].get<int>());
-    return {bytes.begin(), bytes.end()};
-}
-
 }  // namespace
 
 std::vector<Material> readMaterials(Source& source) {
@@ -264,40 +229,6 @@ std::vector<Material> readMaterials(Source& source) {
     const std::size_t count = entryCount(source.document, "materials");
     for (std::size_t i = 0; i < count; ++i) materials.push_back(readMaterial(source, i));
     return materials;
-}
-
-std::vector<Texture> readTextures(Source& source) {
-    std::vector<Texture> textures;
-    for (const tinygltf::Texture& texture : source.model.textures)
-        textures.push_back(readTexture(source.model, texture));
-    return textures;
-}
-
-Images readImages(Source& source, const Progress& progress) {
-    const std::size_t count = entryCount(source.document, "images");
-    Images result;
-    result.images.resize(count);
-    std::vector<std::string> labels;
-    for (std::size_t i = 0; i < count; ++i) {
-        const nlohmann::json& json = source.document.json["images"][i];
-        result.names.push_back(shortLine(imageName(json, i)));
-        labels.push_back(fmt::format("image {} '{}'", i, result.names[i]));
-        if (json.contains("uri")) grantFile(source, json["uri"].get<std::string>(), labels[i]);
-    }
-
-    std::mutex mutex;
-    std::size_t done = 0;
-    parallelFor(count, [&](std::size_t i) {
-        const std::vector<std::byte> encoded = encodedImage(source, source.document.json["images"][i], labels[i]);
-        const auto take = [&](std::uint64_t pixels) {
-            const std::scoped_lock lock(mutex);
-            takeBudget(source, pixels, sizeof(std::uint32_t), labels[i] + ": pixels");
-        };
-        result.images[i] = decodeTexture(encoded, source.document.file + ": " + labels[i], take);
-        const std::scoped_lock lock(mutex);
-        report(progress, "reading images", ++done, count);
-    });
-    return result;
 }
 
 }  // namespace defocus::engine::gltf

@@ -2,6 +2,7 @@
 #include "scene/gltf/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "scene/finish_mesh.h"
@@ -48,8 +49,26 @@ std::vector<std::uint32_t> triangleList(int mode, const std::vector<std::uint32_
     return result;
 }
 
-std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primitive& primitive, std::size_t vertexCount,
-                                         const DracoPrimitive* draco, const std::string& what) {
+bool isStroke(const tinygltf::Primitive& primitive) {
+    return primitive.mode < TINYGLTF_MODE_TRIANGLES;
+}
+
+// Returns the indices of the points, or of both ends of each line segment.
+std::vector<std::uint32_t> strokeList(int mode, const std::vector<std::uint32_t>& indices) {
+    if (mode == TINYGLTF_MODE_POINTS) return indices;
+    if (mode == TINYGLTF_MODE_LINE)
+        return {indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 2)};
+    std::vector<std::uint32_t> result;
+    for (std::size_t i = 0; i + 1 < indices.size(); ++i) result.insert(result.end(), {indices[i], indices[i + 1]});
+    if (mode == TINYGLTF_MODE_LINE_LOOP && indices.size() > 2)
+        result.insert(result.end(), {indices.back(), indices.front()});
+    return result;
+}
+
+// Returns the vertex indices of a primitive, which are 0, 1, 2 … if the file has none. Throws Error for an index that
+// is not below `vertexCount`.
+std::vector<std::uint32_t> readIndices(Source& source, const tinygltf::Primitive& primitive, std::size_t vertexCount,
+                                       const DracoPrimitive* draco, const std::string& what) {
     std::vector<std::uint32_t> indices;
     if (draco != nullptr) {
         indices = draco->triangles();
@@ -63,20 +82,61 @@ std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primiti
     for (const std::uint32_t index : indices)
         if (index >= vertexCount)
             fault(source.document, "{}: index {} is out of range; there are {} vertices", what, index, vertexCount);
-    return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode, indices);
+    return indices;
 }
 
-// Returns whether a primitive consists of triangles and has positions; otherwise lists it in Source::ignored. Throws
-// Error for unknown modes.
+std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primitive& primitive, std::size_t vertexCount,
+                                         const DracoPrimitive* draco, const std::string& what) {
+    return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode,
+                        readIndices(source, primitive, vertexCount, draco, what));
+}
+
+// Removes points and segments with an end that is NaN or infinite.
+void dropUnplacedStrokes(Source& source, Strokes& strokes) {
+    const std::size_t ends = strokes.points ? 1 : 2;
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i + ends <= strokes.indices.size(); i += ends) {
+        const auto first = strokes.indices.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto last = first + static_cast<std::ptrdiff_t>(ends);
+        const bool placed = std::all_of(first, last, [&](std::uint32_t vertex) {
+            const glm::vec3& position = strokes.vertices.positions[vertex];
+            return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+        });
+        if (placed) kept.insert(kept.end(), first, last);
+    }
+    const std::size_t dropped = (strokes.indices.size() - kept.size()) / ends;
+    if (dropped > 0)
+        ignoreDamaged(source, strokes.points ? "points" : "lines", "a vertex position is NaN or infinite", dropped);
+    strokes.indices = std::move(kept);
+}
+
+// Reads points or lines. Their joints and morph targets are left out.
+Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
+    VertexBlock block = readAttributes(source, primitive, nullptr, what);
+    std::vector<std::uint32_t> none;
+    std::vector<std::uint32_t>* const lists[] = {&none};
+    repairAttributes(block, lists);
+    Strokes strokes;
+    strokes.material = primitive.material;
+    strokes.points = primitive.mode == TINYGLTF_MODE_POINTS;
+    strokes.vertices = std::move(block.vertices);
+    strokes.vertices.tangents = {};
+    strokes.vertices.joints = strokes.vertices.joints1 = {};
+    strokes.vertices.weights = strokes.vertices.weights1 = {};
+    strokes.indices =
+        strokeList(primitive.mode, readIndices(source, primitive, strokes.vertices.count(), nullptr, what));
+    constexpr std::uint64_t quadBytes = 512;  // four vertices and two triangles
+    takeBudget(source, strokes.indices.size(), quadBytes, what);
+    dropUnplacedStrokes(source, strokes);
+    return strokes;
+}
+
+// Returns whether a primitive has positions; otherwise lists it in Source::ignored. Throws Error for unknown modes.
 bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         fault(source.document, "{}: unknown mode {}", what, primitive.mode);
     if (!primitive.attributes.contains("POSITION")) {
         ignore(source, "primitive", "it has no positions");
-        return false;
-    }
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        ignore(source, primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines", "only triangles are drawn");
         return false;
     }
     for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_2"})
@@ -90,7 +150,7 @@ std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, c
     std::map<VertexSource, std::size_t> places;  // index into `groups`, for uncompressed primitives
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = mesh.primitives[i];
-        if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i))) continue;
+        if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i)) || isStroke(primitive)) continue;
         const bool compressed = findExtension(json["primitives"][i], "KHR_draco_mesh_compression") != nullptr;
         const VertexSource vertices{primitive.attributes, primitive.targets};
         if (!compressed) {
@@ -126,6 +186,10 @@ public:
         for (auto& [order, primitive] : primitives) mesh.primitives.push_back(std::move(primitive));
         if (dropped_ > 0 && mesh.triangleCount() == 0)
             fault(source_.document, "{}: every triangle has a position that is NaN or infinite", label);
+        for (std::size_t i = 0; i < from.primitives.size(); ++i)
+            if (isStroke(from.primitives[i]) && from.primitives[i].attributes.contains("POSITION"))
+                mesh.strokes.push_back(
+                    readStrokes(source_, from.primitives[i], fmt::format("{}, primitive {}", label, i)));
         readMorphWeights(mesh, from, label);
         return mesh;
     }

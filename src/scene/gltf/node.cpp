@@ -1,5 +1,5 @@
 // Sources: glTF 2.0 specification, scenes and nodes (3.5) and cameras (3.10); EXT_mesh_gpu_instancing;
-// KHR_lights_punctual.
+// KHR_lights_punctual; KHR_node_visibility.
 #include "scene/gltf/node.h"
 
 #include <algorithm>
@@ -170,6 +170,8 @@ Node readNode(Source& source, std::size_t index) {
     node.camera = from.camera;
     node.light = lightOf(source, json, label);
     node.cocScale = cocScaleOf(source, json, label);
+    if (const nlohmann::json* visibility = findExtension(json, "KHR_node_visibility"))
+        node.visible = visibility->value("visible", true);
     for (const double weight : from.weights) node.morphWeights.push_back(toFloat(weight));
     const nlohmann::json* instancing = findExtension(json, "EXT_mesh_gpu_instancing");
     if (instancing != nullptr && from.mesh >= 0) node.instances = readInstances(source, *instancing, label);
@@ -289,7 +291,7 @@ std::vector<Camera> readCameras(Source& source) {
         camera.apertureImage = apertureImageOf(json);
         if (from.type == "orthographic") {
             camera.orthographic = "orthographic cameras are not supported";
-            ignore(source, label, *camera.orthographic);
+            ignore(source, label, *camera.orthographic + "; a scene without another camera is framed automatically");
         } else {
             camera.yfov = from.perspective.yfov;
             camera.znear = from.perspective.znear;

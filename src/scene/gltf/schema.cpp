@@ -178,8 +178,10 @@ constexpr Property textureProperties[] = {
 
 constexpr Property instancingProperties[] = {required({"attributes", Kind::indexMap, "accessors"})};
 constexpr Property nodeLightProperties[] = {required({"light", Kind::size})};
+constexpr Property visibilityProperties[] = {{"visible", Kind::boolean}};
 constexpr Property nodeExtensions[] = {object("EXT_mesh_gpu_instancing", instancingProperties),
-                                       object("KHR_lights_punctual", nodeLightProperties)};
+                                       object("KHR_lights_punctual", nodeLightProperties),
+                                       object("KHR_node_visibility", visibilityProperties)};
 constexpr Property nodeProperties[] = {nameProperty,
                                        {"camera", Kind::index, "cameras"},
                                        {"children", Kind::indices, "nodes"},

@@ -15,7 +15,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> supportedExtensions = {
+constexpr std::array<std::string_view, 18> supportedExtensions = {
     "EXT_camera_physical",        "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",    "KHR_animation_pointer",
     "KHR_draco_mesh_compression", "KHR_lights_punctual",
@@ -24,8 +24,11 @@ constexpr std::array<std::string_view, 17> supportedExtensions = {
     "KHR_materials_sheen",        "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",
     "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "KHR_node_visibility",        "KHR_texture_transform",
 };
+
+// Extensions that do not change the picture: metadata about the file.
+constexpr std::array<std::string_view, 2> metadataExtensions = {"KHR_xmp", "KHR_xmp_json_ld"};
 
 // How files with an unsupported extension are drawn.
 struct Fallback {
@@ -54,7 +57,8 @@ std::vector<std::string> stringsOf(const nlohmann::json& json, const char* name)
 
 void checkExtensions(Source& source) {
     const auto supported = [](const std::string& name) {
-        return std::find(supportedExtensions.begin(), supportedExtensions.end(), name) != supportedExtensions.end();
+        return std::ranges::find(supportedExtensions, name) != supportedExtensions.end() ||
+               std::ranges::find(metadataExtensions, name) != metadataExtensions.end();
     };
     for (const std::string& name : stringsOf(source.document.json, "extensionsRequired")) {
         const Fallback* fallback = fallbackOf(name);
@@ -155,6 +159,9 @@ void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes,
 void grantFile(Source& source, const std::string& uri, const std::string& what) {
     const std::optional<std::filesystem::path> file = uriFile(source.document, uri, what);
     if (!file) return;
+    const std::string name = file->lexically_relative(source.document.folder).string();
+    if (uri.find('\\') != std::string::npos && name.find('\\') == std::string::npos)
+        ignore(source, "backslash in a URI", fmt::format("{}: read as '{}'", what, name));
     std::error_code status;
     if (!source.files.insert(std::filesystem::canonical(*file, status)).second) return;
     const std::uintmax_t bytes = std::filesystem::file_size(*file, status);

@@ -61,7 +61,8 @@ std::span<const std::byte> viewBytes(const Source& source, int view);
 // the budget is exceeded.
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
-// Calls budget.grant() for the file that `uri` refers to. Data URIs and repeated files have no effect.
+// Calls budget.grant() for the file that `uri` refers to, and lists a backslash that was read as a slash in
+// Source::ignored. Data URIs and repeated files have no effect.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
 // Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their

@@ -84,7 +84,7 @@ TEST(Info, countsWhatIsRepairedBeforeSimplification) {
         << info(file);
 }
 
-TEST(Info, textNamesWhatIsIgnoredAndWhy) {
+TEST(Info, textCountsPointsAndLines) {
     GltfBuilder builder;
     const nlohmann::json corners = {{"POSITION", builder.positions(unitTriangle)}};
     constexpr int points = 0, lines = 1, strip = 3;
@@ -95,16 +95,14 @@ TEST(Info, textNamesWhatIsIgnoredAndWhy) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "modes.glb", builder.glb());
     const std::string text = info((folder / "modes.glb").string());
-    EXPECT_NE(text.find("2 × lines: only triangles are drawn"), std::string::npos) << text;
-    EXPECT_NE(text.find("points: only triangles are drawn"), std::string::npos) << text;
+    EXPECT_NE(text.find("strokes     3 points, 3 lines"), std::string::npos) << text;
     EXPECT_NE(text.find("1, 1 in the scene"), std::string::npos) << text;
 }
 
 TEST(Info, textOfARealFileWithLinesAndPoints) {
     DEFOCUS_MODEL_OR_SKIP(path, "MeshPrimitiveModes.gltf");
     const std::string text = info(path.string());
-    EXPECT_NE(text.find("3 × lines: only triangles are drawn"), std::string::npos) << text;
-    EXPECT_NE(text.find("points: only triangles are drawn"), std::string::npos) << text;
+    EXPECT_NE(text.find("strokes     7 points, 19 lines"), std::string::npos) << text;
     EXPECT_NE(text.find("16, 16 in the scene"), std::string::npos) << text;
 }
 

@@ -159,5 +159,29 @@ TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
     EXPECT_EQ(lines.back(), "1,000 more kinds of content are ignored");
 }
 
+// Three nodes share a name; the request names them by --focus-node.
+TEST(RequestWarnings, listNodesThatShareTheRequestedName) {
+    Request request;
+    request.focus = FocusNode{"Cube"};
+    PreparedFrame frame;
+    frame.scene = std::make_shared<Scene>();
+    for (const char* name : {"Ball", "Cube", "Cube"}) {
+        frame.scene->roots.push_back(static_cast<int>(frame.scene->nodes.size()));
+        Node& node = frame.scene->nodes.emplace_back();
+        node.name = name;
+        node.translation.x = static_cast<double>(frame.scene->nodes.size());
+    }
+    frame.world.pose = poseAt(*frame.scene, 0);
+    const std::vector<std::string> lines = requestWarnings(request, frame);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0],
+              "2 nodes are named 'Cube': #1 at (2, 0, 0), #2 at (3, 0, 0); #1 is used; give the number of another "
+              "node instead");
+    for (const char* name : {"Ball", "#2"}) {
+        request.focus = FocusNode{name};
+        EXPECT_TRUE(requestWarnings(request, frame).empty()) << name;
+    }
+}
+
 }  // namespace
 }  // namespace defocus::engine

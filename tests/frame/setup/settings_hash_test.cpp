@@ -29,7 +29,7 @@ TEST(SettingsHash, changesWithWhatChangesThePicture) {
         EXPECT_NE(hashOf(request), standard) << name;
     }
     for (const auto& [name, value] :
-         std::vector<std::pair<const char*, const char*>>{{"wave", "3"}, {"noCache", "true"}}) {
+         std::vector<std::pair<const char*, const char*>>{{"wave", "3"}, {"noCache", "true"}, {"strict", "true"}}) {
         Request request;
         setByName(request, name, value);
         EXPECT_EQ(hashOf(request), standard) << name;

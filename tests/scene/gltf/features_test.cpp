@@ -235,15 +235,6 @@ TEST(GltfMorph, targetsAndWeightsAreKept) {
     EXPECT_TRUE(scene.ignored.empty());
 }
 
-TEST(GltfMaterial, texturesWithoutAPlainImageAreLeftOut) {
-    GltfBuilder builder;
-    builder.json["textures"] = {nlohmann::json::object()};
-    builder.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}}};
-    const Scene scene = builder.load();
-    EXPECT_FALSE(scene.materials.at(0).emissive.used());
-    EXPECT_EQ(scene.ignored.at(0).reason, "it has no image in a supported format");
-}
-
 TEST(GltfMaterial, requiredLooksAreLeftOutWithAWarning) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}}});

@@ -123,17 +123,16 @@ TEST(OwnScenes, haveTheTrianglesTheirAccessorsState) {
     EXPECT_GE(read, 12);
 }
 
-std::uint64_t ignoredCount(const Scene& scene, const std::string& what) {
-    for (const Ignored& ignored : scene.ignored)
-        if (ignored.what == what) return ignored.count;
-    return 0;
-}
-
-TEST(Models, pointsAndLinesAreCountedAsIgnored) {
+TEST(Models, pointsAndLinesAreRead) {
     DEFOCUS_MODEL_OR_SKIP(path, "MeshPrimitiveModes.gltf");
     const Scene scene = loadGltf(path);
-    EXPECT_EQ(ignoredCount(scene, "points"), 1u);
-    EXPECT_EQ(ignoredCount(scene, "lines"), 3u);
+    EXPECT_TRUE(scene.ignored.empty());
+    EXPECT_TRUE(scene.meshes.at(0).strokes.at(0).points);
+    for (const std::size_t mesh : {1, 2, 3}) EXPECT_FALSE(scene.meshes.at(mesh).strokes.at(0).points);
+    EXPECT_EQ(scene.meshes.at(0).strokes[0].indices.size(), 7u);
+    EXPECT_EQ(scene.meshes.at(1).strokes[0].indices.size(), 12u);
+    EXPECT_EQ(scene.meshes.at(2).strokes[0].indices.size(), 14u);
+    EXPECT_EQ(scene.meshes.at(3).strokes[0].indices.size(), 12u);
 }
 
 // A quantised cube equals the same cube with floats: the quantised cube's node undoes the quantisation.

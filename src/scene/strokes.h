@@ -1,0 +1,24 @@
+#pragma once
+// Draws points and lines as triangles that face the camera. Source: glTF 2.0 specification, 3.7.2.1 (mesh primitives):
+// a width of one pixel, and no lighting without normals.
+
+#include "scene/pose.h"
+
+namespace defocus::engine {
+
+// Camera for which the points and lines are one pixel wide.
+struct StrokeView {
+    glm::dmat4 worldFromCamera{1.0};
+    double pixelTangent = 0;  // width of a pixel at distance 1
+    double nearPlane = 0;     // m; nearer points and lines have the width of this depth
+};
+
+[[nodiscard]] bool hasStrokes(const Scene& scene);
+
+// Returns the scene with the points and lines of its meshes as triangles. The width holds for `view` and `pose`; as
+// part of the mesh, it changes with the pose and with the distance in other views. A mesh with points or lines is
+// copied for each of its nodes; instances of a node share the width of the first. Points and lines do not follow skins
+// and morph targets.
+Scene withStrokes(const Scene& scene, const Pose& pose, const StrokeView& view);
+
+}  // namespace defocus::engine
