@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -100,8 +101,14 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
-    if (!image.input->open("image", image.spec, hints))
-        fail("cannot read {}: {}", name, firstLine(image.input->geterror()));
+    {
+        // Opening decodes the ICC profile, for which OpenImageIO 2.4 looks up names in a table of all threads. Unknown
+        // names are inserted without a lock.
+        static std::mutex opening;
+        const std::scoped_lock lock(opening);
+        if (!image.input->open("image", image.spec, hints))
+            fail("cannot read {}: {}", name, firstLine(image.input->geterror()));
+    }
     const OIIO::ImageSpec& spec = image.spec;
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("cannot read {}: the image has no pixels", name);
     if (spec.deep) fail("cannot read {}: deep images are not supported", name);

@@ -23,7 +23,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr std::uint32_t referenceSamples = 2048;
+constexpr std::uint32_t referenceSamples = 3072;
 constexpr double agreement = 1.5;
 
 struct StoppedFrame {
