@@ -199,6 +199,9 @@ std::string summary(const RenderReport& report) {
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
     else if (stopSettings(report.options).automatic)
         samples += stats.estimatedError ? fmt::format(" (automatic, {})", errorText(stats)) : " (automatic)";
+    else if (const std::uint32_t asked = report.options.samples.value_or(0);
+             asked > stats.samples && stats.samples == report.plan.frameSamples && !report.plan.usesLens)
+        samples += fmt::format(" (of {}, as nothing is blurred; --keep-all draws all)", asked);
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);
 }

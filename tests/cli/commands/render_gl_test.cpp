@@ -47,6 +47,15 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
     EXPECT_TRUE(fs::exists(folder() / "out.exr"));
 }
 
+TEST_F(Render, theSummaryTellsOfSamplesLeftOut) {
+    const std::vector<std::string> sharp = {"render", "quads.gltf", "--size", "32x24", "--samples", "100", "--no-dof"};
+    EXPECT_NE(run(sharp).err.find("16 samples (of 100, as nothing is blurred; --keep-all draws all)"),
+              std::string::npos);
+    std::vector<std::string> all = sharp;
+    all.emplace_back("--keep-all");
+    EXPECT_NE(run(all).err.find("100 samples in"), std::string::npos);
+}
+
 // The public API and the program render the same bits, for each of these sets of options.
 TEST_F(Render, isWhatTheLibraryRenders) {
     const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
