@@ -111,6 +111,33 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
+// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the shadow
+// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
+    const auto small = wall();
+    small->world.pose.objects.clear();
+    const glm::dmat4 level = glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0));
+    place(*small, 0, level * glm::scale(glm::dmat4(1), glm::dvec3(6)));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0.5, 0}), glm::dvec3(0.5)));
+    addSun(*small, {0.294, 0.935, 0.2}, 0.01);
+    small->view.worldFromCamera = glm::translate(glm::dmat4(1), {0, 0.5, 2});
+    finish(*small);
+    const Image shadowed = shadowImage(*small, settingsFor(64, Shadows::on));
+    const Image lit = shadowImage(*small, settingsFor(64, Shadows::off));
+    const double pixel = 2 * tanHalfWidth * 2 / small->view.width;  // m on the wall
+    int seen = 0;
+    for (int y = 0; y < shadowed.height; ++y) {
+        const double height = 0.5 + (0.5 * shadowed.height - y - 0.5) * pixel;
+        if (height < 0.5 * pixel || height > 0.3) continue;
+        for (int x = 0; x < shadowed.width; ++x) {
+            if (std::abs(x + 0.5 - 0.5 * shadowed.width) * pixel > 0.5 - pixel) continue;
+            EXPECT_NEAR(shadowed.at(x, y)[0], lit.at(x, y)[0], 1e-5) << x << ", " << height << " m";
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 500);
+}
+
 // Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of
 // 0.8 m. The lamp uses one map, or six if an object also stands behind the lamp.
 TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
