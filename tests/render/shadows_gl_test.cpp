@@ -9,6 +9,7 @@
 #include "image/metrics.h"
 #include "plan/visible/shadows.h"
 #include "render/shadowed.h"
+#include "render/textured_wall.h"
 
 namespace defocus::engine {
 namespace {
@@ -136,6 +137,42 @@ TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
         }
     }
     EXPECT_GT(seen, 500);
+}
+
+// A pane of glass casts a shadow of the light that it absorbs. Its metalness of 1 is cancelled by a texture without
+// metal, another texture halves its transmission, and its volume absorbs by Beer-Lambert.
+TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
+    constexpr double side = 4;  // m, of the pane
+    constexpr double thickness = 0.1;
+    const auto small = wall();
+    addSun(*small, {1, 0, 1}, 0.01);
+    Mesh pane = quad(1);
+    pane.vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    small->scene.meshes.push_back(pane);
+    Material glass;
+    glass.metallicFactor = 1;
+    glass.transmissionFactor = 1;
+    glass.thicknessFactor = static_cast<float>(thickness);
+    glass.attenuationColor = glm::vec3(0.5f);
+    glass.attenuationDistance = 0.5f;
+    glass.metallicRoughness.texture = addTexture(small->scene, 1, [](int, int) { return Texel{255, 255, 0, 255}; });
+    glass.transmission.texture = addTexture(small->scene, 1, [](int, int) { return Texel{128, 0, 0, 255}; });
+    small->scene.materials.push_back(glass);
+    place(*small, 1,
+          glm::scale(glm::translate(glm::dmat4(1), {1 + side / 2, 0, 1 - receiverDepth}), glm::dvec3(side / 2)));
+    finish(*small);
+    const std::vector<double> shares = litShares(*small, settingsFor(256, Shadows::on));
+    const double expected = 128 / 255.0 * std::pow(0.5, thickness * (side / 2) / 0.5);
+    double sum = 0;
+    int seen = 0;
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x);
+        if (place < 0.1 || place > 0.9) continue;  // farther right, the pane hides the wall
+        sum += shares[static_cast<std::size_t>(x)];
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+    EXPECT_NEAR(sum / seen, expected, 0.01);
 }
 
 // Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of
