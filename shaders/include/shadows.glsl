@@ -7,6 +7,11 @@
 // is exact for planes. For concave surfaces, the receiver is offset along the facet's normal n by a quarter of a texel
 // plus the deviation of the level of detail from the surface.
 //
+// Where the facet descends towards the texel centre, its plane may reach below a neighbouring facet: a wall's plane goes
+// on below the floor at its foot, and the floor would shadow the wall. There, the comparison uses the depth at which a
+// facet would rise from the receiver as steeply as the receiver's own facet descends, and by at most 45°. This never
+// darkens the receiver, and it leaves facets that face the light unchanged.
+//
 // At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
 // diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
 // the receiver by d/cos θ towards the light. So d = r·sin θ ≤ r is sufficient for any slope, and the offset is at most
@@ -51,7 +56,10 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     vec2 place = clip.xy / clip.w;
     ivec2 at = min(ivec2((0.5 + 0.5 * place) * float(shadowSize)), ivec2(shadowSize - 1));
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
-    float depth = clip.z / clip.w + depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
+    float rise = depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
+    vec4 diagonal = shadowDirection(texel, toLight * (0.5 * float(shadowSize) * length(toMiddle) * width));
+    float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;   // rise at 45°
+    float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
     float nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).r;
     return nearest <= max(depth, 0.0) ? 1.0 : 0.0;
 }

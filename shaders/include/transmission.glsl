@@ -1,5 +1,7 @@
 // Light from behind a surface that transmits light.
 
+#include "include/transmittance.glsl"
+
 // Copy of all layers from before this object was drawn: the background seen through the object.
 layout(binding = 22) uniform sampler2DArray backdrop;
 
@@ -25,16 +27,12 @@ vec4 seenBehind(vec3 offset, float roughness) {
 }
 
 // Adds transmitted light (KHR_materials_transmission and KHR_materials_volume). A thin wall shows the background
-// straight behind the wall. A volume shows the background at the end of the refracted ray through its thickness, with
-// Beer–Lambert absorption.
+// straight behind the wall. A volume shows the background at the end of the refracted ray through its thickness.
 void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
-    float share = material.transmission.x * materialTexel(transmissionTexture).r;
-    float thickness = material.transmission.y * materialTexel(thicknessTexture).g;
-    float scale = pow(abs(determinant(mat3(object.viewFromObject))), 1.0 / 3.0);
-    vec3 way = scale * thickness * refract(-point.toEye, point.normal, material.transmission.z);
+    float share = transmittedShare(metallic);
+    vec3 way = volumeThickness() * refract(-point.toEye, point.normal, material.transmission.z);
     vec4 behind = seenBehind(way, point.roughness * material.transmission.w);
-    vec3 tint = baseColor * exp(-material.absorption.rgb * length(way));
-    share *= 1.0 - metallic;
+    vec3 tint = transmittedTint(baseColor, length(way));
     point.diffuse *= 1.0 - share;
     point.transmitted = share * tint * behind.rgb;
     surfaceCoverage = 1.0 - share * (1.0 - behind.a) * max(tint.r, max(tint.g, tint.b));

@@ -9,6 +9,7 @@
 #include "image/metrics.h"
 #include "plan/visible/shadows.h"
 #include "render/shadowed.h"
+#include "render/textured_wall.h"
 
 namespace defocus::engine {
 namespace {
@@ -109,6 +110,69 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
         for (int x = 30; x < 66; ++x)
             max = std::max(max, static_cast<double>(lit.at(x, y)[0] - shadowed.at(x, y)[0]) / lit.at(x, y)[0]);
     EXPECT_LT(max, 0.02);
+}
+
+// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the shadow
+// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
+    const auto small = wall();
+    small->world.pose.objects.clear();
+    const glm::dmat4 level = glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0));
+    place(*small, 0, level * glm::scale(glm::dmat4(1), glm::dvec3(6)));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0.5, 0}), glm::dvec3(0.5)));
+    addSun(*small, {0.294, 0.935, 0.2}, 0.01);
+    small->view.worldFromCamera = glm::translate(glm::dmat4(1), {0, 0.5, 2});
+    finish(*small);
+    const Image shadowed = shadowImage(*small, settingsFor(64, Shadows::on));
+    const Image lit = shadowImage(*small, settingsFor(64, Shadows::off));
+    const double pixel = 2 * tanHalfWidth * 2 / small->view.width;  // m on the wall
+    int seen = 0;
+    for (int y = 0; y < shadowed.height; ++y) {
+        const double height = 0.5 + (0.5 * shadowed.height - y - 0.5) * pixel;
+        if (height < 0.5 * pixel || height > 0.3) continue;
+        for (int x = 0; x < shadowed.width; ++x) {
+            if (std::abs(x + 0.5 - 0.5 * shadowed.width) * pixel > 0.5 - pixel) continue;
+            EXPECT_NEAR(shadowed.at(x, y)[0], lit.at(x, y)[0], 1e-5) << x << ", " << height << " m";
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 500);
+}
+
+// A pane of glass casts a shadow of the light that it absorbs. Its metalness of 1 is cancelled by a texture without
+// metal, another texture halves its transmission, and its volume absorbs by Beer-Lambert.
+TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
+    constexpr double side = 4;  // m, of the pane
+    constexpr double thickness = 0.1;
+    const auto small = wall();
+    addSun(*small, {1, 0, 1}, 0.01);
+    Mesh pane = quad(1);
+    pane.vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    small->scene.meshes.push_back(pane);
+    Material glass;
+    glass.metallicFactor = 1;
+    glass.transmissionFactor = 1;
+    glass.thicknessFactor = static_cast<float>(thickness);
+    glass.attenuationColor = glm::vec3(0.5f);
+    glass.attenuationDistance = 0.5f;
+    glass.metallicRoughness.texture = addTexture(small->scene, 1, [](int, int) { return Texel{255, 255, 0, 255}; });
+    glass.transmission.texture = addTexture(small->scene, 1, [](int, int) { return Texel{128, 0, 0, 255}; });
+    small->scene.materials.push_back(glass);
+    place(*small, 1,
+          glm::scale(glm::translate(glm::dmat4(1), {1 + side / 2, 0, 1 - receiverDepth}), glm::dvec3(side / 2)));
+    finish(*small);
+    const std::vector<double> shares = litShares(*small, settingsFor(256, Shadows::on));
+    const double expected = 128 / 255.0 * std::pow(0.5, thickness * (side / 2) / 0.5);
+    double sum = 0;
+    int seen = 0;
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x);
+        if (place < 0.1 || place > 0.9) continue;  // farther right, the pane hides the wall
+        sum += shares[static_cast<std::size_t>(x)];
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+    EXPECT_NEAR(sum / seen, expected, 0.01);
 }
 
 // Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of

@@ -75,6 +75,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
                              SurfaceLook look) {
     constexpr std::size_t normalSlots[] = {2, 11};
     constexpr std::size_t transmissionSlots[] = {7, 8};
+    constexpr std::size_t metallicSlot = 1;
     const bool shaded = look == SurfaceLook::lit || look == SurfaceLook::seenThrough;
     const Material& material = scene.material(materialIndex);
     ShaderDefines defines;
@@ -83,9 +84,10 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     };
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
     const GpuMaterialTextures& textures = scene.textures(materialIndex);
-    const bool passes = look == SurfaceLook::caster && (material.transmits() || material.alphaMode == AlphaMode::blend);
-    const bool masked = material.alphaMode == AlphaMode::mask || passes;
     const bool transmits = look == SurfaceLook::seenThrough && material.transmits();
+    const bool letsLightPass = look == SurfaceLook::caster && material.transmits();
+    const bool masked = material.alphaMode == AlphaMode::mask || letsLightPass ||
+                        (look == SurfaceLook::caster && material.alphaMode == AlphaMode::blend);
     const auto uses = textureUses(material);
     std::array<int, materialTextureCount> units{};
     bool textured = false;
@@ -93,7 +95,9 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     bool bumped = false;
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const bool ofNormals = std::ranges::count(normalSlots, i) > 0;
-        const bool wanted = shaded ? transmits || std::ranges::count(transmissionSlots, i) == 0 : i == 0 && masked;
+        const bool ofTransmission = std::ranges::count(transmissionSlots, i) > 0;
+        const bool wanted = shaded ? transmits || !ofTransmission
+                                   : (i == 0 && masked) || ((i == metallicSlot || ofTransmission) && letsLightPass);
         const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofNormals || mesh.tangents);
         bumped |= used && ofNormals;
         textured |= used;
@@ -113,7 +117,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     set(transformed, "uvTransforms");
     set(lit, "lit");
     set(lit && material.emissiveFactor != glm::vec3(0), "emissive");
-    set(look == SurfaceLook::caster && material.transmits(), "letsLightPass");
+    set(letsLightPass, "letsLightPass");
     set(transmits, "transmissive");
     set(lit && material.hasOwnReflectance(), "ownReflectance");
     set(lit && material.hasClearcoat(), "clearcoat");
