@@ -49,7 +49,7 @@ Image cutImage(const SmallWorld& small, std::uint32_t samples) {
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
-glm::dvec4 sumOf(const Image& image) {
+glm::dvec4 channelSums(const Image& image) {
     glm::dvec4 sum(0);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -60,7 +60,7 @@ glm::dvec4 sumOf(const Image& image) {
 TEST_F(AlphaMask, keepsItsCoverageAndColorAtEverySize) {
     for (const double pixels : {50.0, 23.0, 10.0, 4.0})
         for (const std::uint32_t samples : {4u, 64u}) {
-            const glm::dvec4 sum = sumOf(cutImage(*cutWall(pixels), samples));
+            const glm::dvec4 sum = channelSums(cutImage(*cutWall(pixels), samples));
             const double places = samples * pixels * pixels;
             const double error = std::max(0.02, 3 * std::sqrt(shownShare / places));  // 3 σ if places were random
             EXPECT_NEAR(sum.a / (pixels * pixels), shownShare, error) << pixels << " px, " << samples << " samples";
