@@ -73,7 +73,8 @@ struct Request {
     // Lens.
     LensSettings lens;
     Focus focus;
-    std::map<std::string, double> nodeBlur;  // node name or index → factor ≥ 0 on the blur of the node and its descendants
+    std::map<std::string, double>
+        nodeBlur;  // node name or index → factor ≥ 0 on the blur of the node and its descendants
 
     // Samples and levels of detail.
     std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, from the blur

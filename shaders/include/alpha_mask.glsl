@@ -1,7 +1,7 @@
-// Cut-outs of glTF's alphaMode MASK. A texel is shown if its alpha reaches the cutoff. Mip levels ≥ 1 of the base
-// colour hold, in alpha, the fraction of their full-size texels that reach it (src/render/gpu_scene/gpu_scene.cpp). Where
-// such a level is read, a lens sample shows the fragment if this coverage exceeds its dither threshold, so that the mean
-// over the samples is the coverage (Enderton et al. 2010, Stochastic Transparency). Magnified edges stay sharp.
+// Cut-outs of glTF's alphaMode MASK. A texel is shown if its alpha is at least the cutoff. Alpha in mip levels ≥ 1 of
+// the base colour is the coverage: the fraction of shown full-size texels (src/render/gpu_scene/cut_out.h). Where such a
+// level is read, a lens sample shows the fragment if the coverage exceeds the sample's dither threshold. The mean over
+// the samples is therefore the coverage (Enderton et al. 2010, Stochastic Transparency). Magnified edges stay sharp.
 
 // Returns a dither threshold in [0, 1) that is evenly distributed over neighbouring pixels, with a different offset for
 // each object, and over the lens samples in each pixel. The pattern is the R2 sequence x/ρ + y/ρ² modulo 1 with
@@ -12,7 +12,7 @@ float ditherThreshold(uvec2 pixel, float sampleOffset) {
     return fract(float(place >> 8) / 16777216.0 + sampleOffset);
 }
 
-// Returns how far a texture is read from mip level 1 rather than 0, in [0, 1].
+// Returns 0 if a texture lookup reads only mip level 0, 1 if it reads none of level 0, and between the weight of level 1.
 float minification(int unit, int slot, float mipBias) {
     vec2 levels = textureQueryLod(materialTextures[unit], uvOf(slot, surface.uv));   // x: level read without the bias
     return clamp(min(levels.y + mipBias, levels.x), 0.0, 1.0);

@@ -46,15 +46,15 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
 }
 
 // Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, converted and tagged so. Without tags,
-// players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs even sides: the last column and row
-// of odd sides are repeated.
+// players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs even sides: the last column and
+// row of odd sides are repeated.
 std::vector<std::string> bt709(int width, int height) {
     const std::string filters = fmt::format(
         "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={},"
         "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int",
         width % 2, height % 2);
-    return {"-vf",   filters,       "-pix_fmt", "yuv420p",      "-color_primaries", "bt709", "-color_trc",
-            "bt709", "-colorspace", "bt709",    "-color_range", "tv"};
+    return {"-vf",        filters, "-pix_fmt",    "yuv420p", "-color_primaries", "bt709",
+            "-color_trc", "bt709", "-colorspace", "bt709",   "-color_range",     "tv"};
 }
 
 const std::vector<std::string>& encoderOf(const fs::path& path) {

@@ -102,8 +102,8 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     hints.attribute("oiio:UnassociatedAlpha", 1);
     image.input->set_ioproxy(image.memory.get());
     {
-        // Opening decodes the ICC profile, for which OpenImageIO 2.4 looks up names in a table of all threads. Unknown
-        // names are inserted without a lock.
+        // Opening an image decodes its ICC profile. For this, OpenImageIO 2.4 looks up names in a table that all
+        // threads share, and inserts unknown names without a lock.
         static std::mutex opening;
         const std::scoped_lock lock(opening);
         if (!image.input->open("image", image.spec, hints))

@@ -1,16 +1,16 @@
 #pragma once
-// Directional albedo of glTF's specular reflection: the fraction of a uniform white environment that it reflects towards
-// the eye.
+// Directional albedo of glTF's specular reflection: the fraction of a uniform white environment that it reflects
+// towards the eye.
 
 #include <array>
 #include <glm/vec2.hpp>
 
 namespace defocus::engine {
 
-// The albedo is F0·x + F90·y for a surface with reflectance F0 at normal incidence and F90 at grazing incidence. `table`
-// holds (x, y) at `side` × `side` points; the point (column, row) is at n·v = (column / (side − 1))² and perceptual
-// roughness row / (side − 1). Bilinear interpolation in √(n·v) and roughness differs from the integral by less than
-// 1.5e-3 in 95 % of the domain, and by less than 6e-3 where n·v ≥ 0.02.
+// The albedo is F0·x + F90·y for a surface with reflectance F0 at normal incidence and F90 at grazing incidence.
+// `table` holds (x, y) at `side` × `side` points; the point (column, row) is at n·v = (column / (side − 1))² and
+// perceptual roughness row / (side − 1). Bilinear interpolation in √(n·v) and roughness differs from the integral by
+// less than 1.5e-3 in 95 % of the domain, and by less than 6e-3 where n·v ≥ 0.02.
 struct SpecularAlbedoTable {
     static constexpr int side = 32;
     std::array<glm::vec2, std::size_t{side} * side> table;

@@ -69,7 +69,7 @@ TEST_F(AlphaMask, keepsItsCoverageAndColorAtEverySize) {
         }
 }
 
-// Where texels are larger than pixels, a pixel's single sample is either shown or hidden, by its interpolated alpha.
+// In a magnified texture, the interpolated alpha decides, so a pixel with a single sample is either opaque or empty.
 TEST_F(AlphaMask, magnifiedEdgesAreSharp) {
     const auto small = cutWall(1000);
     const Image image = cutImage(*small, 1);

@@ -112,8 +112,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the shadow
-// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the
+// shadow map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();

@@ -73,6 +73,31 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
         blur, grouped(samples), more, roundNumber(scale));
 }
 
+// Returns the nodes that the request names, as texts.
+std::vector<std::string> namedNodes(const Request& request) {
+    std::vector<std::string> names = request.hide;
+    for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);
+    if (const auto* focus = std::get_if<FocusNode>(&request.focus)) names.push_back(focus->name);
+    return names;
+}
+
+// Returns a warning that lists the nodes with this name and says which is used; empty if at most one node has the name.
+std::vector<std::string> sharedName(const std::string& name, const PreparedFrame& frame) {
+    const std::vector<Node>& nodes = frame.scene->nodes;
+    std::vector<std::string> sharing;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].name != name) continue;
+        const glm::dvec4& origin = frame.world.pose.worldFromNode[i][3];
+        sharing.push_back(fmt::format("#{} at ({:.3g}, {:.3g}, {:.3g})", i, origin.x, origin.y, origin.z));
+    }
+    if (sharing.size() < 2) return {};
+    const int used = nodeCalled(*frame.scene, name);
+    const std::size_t listed = std::min(sharing.size(), maxSharing);
+    return {fmt::format("{} nodes are named '{}': {}{}; #{} is used; give the number of another node instead",
+                        sharing.size(), name, fmt::join(sharing.begin(), sharing.begin() + listed, ", "),
+                        listed < sharing.size() ? ", …" : "", used)};
+}
+
 }  // namespace
 
 std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples) {
@@ -107,35 +132,6 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
     if (more > 0) lines.push_back(fmt::format("{} more kinds of content are ignored", grouped(more)));
     return lines;
 }
-
-namespace {
-
-// Returns the nodes that the request names, as texts.
-std::vector<std::string> namedNodes(const Request& request) {
-    std::vector<std::string> names = request.hide;
-    for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);
-    if (const auto* focus = std::get_if<FocusNode>(&request.focus)) names.push_back(focus->name);
-    return names;
-}
-
-// Returns a warning that lists the nodes with this name and says which is used; empty if at most one node has the name.
-std::vector<std::string> sharedName(const std::string& name, const PreparedFrame& frame) {
-    const std::vector<Node>& nodes = frame.scene->nodes;
-    std::vector<std::string> sharing;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (nodes[i].name != name) continue;
-        const glm::dvec4& origin = frame.world.pose.worldFromNode[i][3];
-        sharing.push_back(fmt::format("#{} at ({:.3g}, {:.3g}, {:.3g})", i, origin.x, origin.y, origin.z));
-    }
-    if (sharing.size() < 2) return {};
-    const int used = nodeCalled(*frame.scene, name);
-    const std::size_t listed = std::min(sharing.size(), maxSharing);
-    return {fmt::format("{} nodes are named '{}': {}{}; #{} is used; give the number of another node instead",
-                        sharing.size(), name, fmt::join(sharing.begin(), sharing.begin() + listed, ", "),
-                        listed < sharing.size() ? ", …" : "", used)};
-}
-
-}  // namespace
 
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame) {
     std::vector<std::string> lines = frameWarnings(frame);

@@ -285,7 +285,8 @@ Row lensRow(const LensField& field) {
 Rows focusRows() {
     return {
         rows::other("focusNode", "--focus-node", "NAME", setFocusNode, focusNodeText,
-                    "Focus on a node, given by name or number: on the centre of its mesh's bounding box, or on its origin if it has no mesh")
+                    "Focus on a node, given by name or number: on the centre of its mesh's bounding box, or on its "
+                    "origin if it has no mesh")
             .clears(clearFocus<FocusNode>)
             .everyday()
             .excludes({"focusDistance"})
@@ -321,12 +322,12 @@ Rows lensRows() {
                                "Image of the aperture: bright pixels pass light, and the longer side spans the lens. "
                                "Replaces --blades and --obstruction")
                        .unused(unusedLensField(LensFeature::shape)));
-    rows.push_back(
-        rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
-                    "Scale the blur of a node, given by name or number, and its children; 0 keeps them sharp. Can be given several times")
-            .clears(MEMBER(nodeBlur))
-            .repeats(nodeBlurTexts)
-            .unused(withoutBlur));
+    rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
+                               "Scale the blur of a node, given by name or number, and its children; 0 keeps them "
+                               "sharp. Can be given several times")
+                       .clears(MEMBER(nodeBlur))
+                       .repeats(nodeBlurTexts)
+                       .unused(withoutBlur));
     return rows;
 }
 

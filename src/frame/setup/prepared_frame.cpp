@@ -39,6 +39,8 @@ namespace defocus::engine {
 
 namespace {
 
+constexpr std::size_t maxDamage = 20;  // maximum number of lines in damageWarnings
+
 // ---- environment ----------------------------------------------------------------------------------------------------
 
 [[noreturn]] void failForEnvironment(const std::string& name) {
@@ -305,8 +307,6 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
     addPyramids(frame, progress);
     return frame;
 }
-
-constexpr std::size_t maxDamage = 20;  // maximum number of lines in damageWarnings
 
 std::vector<std::string> damageWarnings(const Scene& scene) {
     std::vector<std::string> lines;

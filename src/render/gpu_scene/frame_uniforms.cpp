@@ -251,8 +251,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
         if (i % blockSamples % layerCount == 0) {
             const std::uint32_t number = plan.settings.firstSample + i;
             const std::uint32_t block = number / blockSamples * blockSamples;
-            const double samples = std::min(block + blockSamples, plan.frameSamples);
-            const double footprint = std::sqrt(1 / (2 * samples - 1));
+            const double drawn = std::min(block + blockSamples, plan.frameSamples);
+            const double footprint = std::sqrt(1 / (2 * drawn - 1));
             waves[waveOf(i) * waveStride / sizeof(glm::vec4)] =
                 glm::vec4(number, block, footprint, std::log2(footprint));
         }

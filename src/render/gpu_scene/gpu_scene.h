@@ -123,7 +123,7 @@ private:
     void uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target);
     void uploadMesh(int mesh, const std::vector<bool>& levels);
     // Returns a texture, or nullptr if it is not used. With a cutoff > 0, mip levels ≥ 1 hold in alpha the fraction of
-    // their full-size texels whose alpha is at least the cutoff (shaders/include/alpha_mask.glsl).
+    // their full-size texels whose alpha is at least the cutoff (cut_out.h).
     const GlTexture* texture(const TextureUse& use, bool srgb, float cutoff = 0);
     void prepareMaterial(int material);
 

@@ -110,7 +110,8 @@ std::vector<glm::dmat4> readInstances(Source& source, const nlohmann::json& json
         if (accessor(name) < 0) continue;
         const std::size_t elements = elementCount(source, accessor(name));
         if (count && *count != elements)
-            fault(source.document, "{}: {} has {} elements, but another attribute has {}", what, name, elements, *count);
+            fault(source.document, "{}: {} has {} elements, but another attribute has {}", what, name, elements,
+                  *count);
         count = elements;
     }
     if (!count) return {};

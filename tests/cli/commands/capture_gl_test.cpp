@@ -297,10 +297,9 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
         std::string background;
         for (const double value : colours[i])
             background += (background.empty() ? "" : ",") + std::to_string(srgbDecode(static_cast<float>(value / 255)));
-        const Outcome outcome =
-            capture({"--video", films[i], "--range", "0", "--size", "33x25", "--background", background,
-                     "--camera-target", "0,0,90", "--tonemap", "none", "--exposure", "0", "--no-dof", "-o",
-                     std::to_string(i) + "#.png"});
+        const Outcome outcome = capture({"--video", films[i], "--range", "0", "--size", "33x25", "--background",
+                                         background, "--camera-target", "0,0,90", "--tonemap", "none", "--exposure",
+                                         "0", "--no-dof", "-o", std::to_string(i) + "#.png"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         const std::string film = "'" + (folder() / films[i]).string() + "'";
         EXPECT_EQ(outputOf("ffprobe -v error -show_entries stream=width,height,color_range,color_space,color_transfer,"

@@ -143,7 +143,8 @@ TEST(PyramidCommand, SaysWhyThereIsNoFurtherLevel) {
     const std::string file = (folder / "slab.glb").string();
     EXPECT_NE(pyramid({file, "--no-measure"}).find("no further level: handles"), std::string::npos);
     EXPECT_EQ(nlohmann::json::parse(pyramid({file, "--no-measure", "--json"}))["meshes"][0]["end"], "topology");
-    EXPECT_NE(pyramid(withFish({"--no-measure"})).find("no further level: this is the minimum size"), std::string::npos);
+    EXPECT_NE(pyramid(withFish({"--no-measure"})).find("no further level: this is the minimum size"),
+              std::string::npos);
 }
 
 TEST(PyramidCommand, UnknownMeshAndFolderThatCannotBeWrittenAreErrors) {
