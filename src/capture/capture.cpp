@@ -262,22 +262,15 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
 FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
-    // Remove incomplete files of an earlier run. If its finished frames aren't kept, remove its timings too.
-    std::vector<fs::path> files;
-    int wanted = 0;
-    for (const FilmFrame& film : frames) {
-        files.insert(files.end(), film.files.begin(), film.files.end());
-        wanted += film.finished ? 0 : 1;
-    }
-    removeUnfinished(files);
     std::error_code ignored;
-    if (!options.resume) fs::remove(options.timings, ignored);
+    if (!options.resume) fs::remove(options.timings, ignored);  // of an earlier run
 
     // Draw one frame after another while the writer thread encodes and writes the previous ones.
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);
-    const auto total = static_cast<double>(std::max(wanted, 1));
+    const auto wanted = std::ranges::count(frames, false, &FilmFrame::finished);
+    const auto total = static_cast<double>(std::max(wanted, std::ptrdiff_t{1}));
     for (const FilmFrame& film : frames) {
         if (film.finished) {
             ++figures.finishedBefore;

@@ -1,8 +1,6 @@
 #include "capture/frame_files.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <system_error>
 
 #include "core/error.h"
@@ -48,23 +46,6 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
         return FrameState::other;
     } catch (const Error&) {
         return FrameState::missing;
-    }
-}
-
-void removeUnfinished(const std::vector<fs::path>& paths) {
-    // Temporary files are named ".STEM.PROCESS-COUNT.EXTENSION" (core/file.h).
-    std::map<fs::path, std::set<std::string>> stems;
-    for (const fs::path& path : paths) stems[path.parent_path()].insert(path.stem().string());
-    for (const auto& [folder, names] : stems) {
-        std::error_code fault;
-        for (auto entry = fs::directory_iterator(folder.empty() ? "." : folder, fault);
-             !fault && entry != fs::directory_iterator(); entry.increment(fault)) {
-            const std::string name = entry->path().stem().string();
-            const std::size_t dot = name.rfind('.');
-            if (name.front() != '.' || dot == 0 || dot == std::string::npos) continue;
-            const bool numbered = name.find_first_not_of("0123456789-", dot + 1) == std::string::npos;
-            if (numbered && names.contains(name.substr(1, dot - 1))) removeAbandoned(entry->path());
-        }
     }
 }
 

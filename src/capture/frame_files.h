@@ -22,8 +22,4 @@ enum class FrameState {
 };
 FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
 
-// Removes temporary files that killed processes have left beside the files at `paths`. Keeps temporary files of running
-// processes.
-void removeUnfinished(const std::vector<std::filesystem::path>& paths);
-
 }  // namespace defocus::engine

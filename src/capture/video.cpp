@@ -219,7 +219,6 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     if (frames.empty()) fail("{}: a video needs at least one frame", path.string());
     const Image first = readImage(frames.front().file);
     const fs::path log = path.string() + ".log";
-    removeUnfinished({path, log, path.string() + ".count"});
     PendingFile film(path);
     PendingFile messages(log);  // a temporary file
 

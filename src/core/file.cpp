@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -88,6 +89,25 @@ void syncFolder(const fs::path& folder) {
     ::close(descriptor);
 }
 
+// Returns the name of a temporary file for `target`: ".STEM.PROCESS-COUNT.EXTENSION".
+std::string temporaryName(const fs::path& target, std::string_view number) {
+    return fmt::format(".{}.{}{}", target.stem().string(), number, target.extension().string());
+}
+
+// Removes the temporary files of `target` that killed processes have left.
+void removeAbandonedOf(const fs::path& target) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    const std::size_t begin = target.stem().string().size() + 2;  // of the process number
+    std::error_code fault;
+    for (auto entry = fs::directory_iterator(folder, fault); !fault && entry != fs::directory_iterator();
+         entry.increment(fault)) {
+        const std::string name = entry->path().filename().string();
+        const std::size_t end = std::min(name.find_first_not_of("0123456789-", begin), name.size());
+        if (end > begin && name == temporaryName(target, name.substr(begin, end - begin)))
+            removeAbandoned(entry->path());
+    }
+}
+
 }  // namespace
 
 std::vector<std::byte> readFile(const fs::path& path) {
@@ -132,11 +152,13 @@ void writeFile(const fs::path& path, std::string_view text) {
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(isStream(target_)) {
     static std::atomic<unsigned> counter = 0;
-    if (!stream_) target_ = followed(target_);
+    if (!stream_) {
+        target_ = followed(target_);
+        removeAbandonedOf(target_);
+    }
     while (descriptor_ < 0) {
         temporary_ = stream_ ? fs::temp_directory_path() / target_.filename() : target_;
-        temporary_.replace_filename(
-            fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
+        temporary_.replace_filename(temporaryName(target_, fmt::format("{}-{}", ::getpid(), counter++)));
         // O_EXCL fails if the file exists: a process with the same id on another machine may have created it.
         descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno != EEXIST) fail("cannot write {}: {}", target_.string(), reason(errno));

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -89,7 +90,9 @@ TEST_F(Files, onlyAbandonedTemporaryFilesAreRemoved) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
         if (entry.path() != path) left = entry.path();
     EXPECT_EQ(left.filename().string().substr(0, 7), ".frame.");
-    removeAbandoned(left);
+    writeFile(folder_ / "frame.png", std::string_view("another target"));
+    EXPECT_TRUE(fs::exists(left));
+    writeFile(path, std::string_view("next"));
     EXPECT_FALSE(fs::exists(left));
     EXPECT_TRUE(fs::exists(path));
     removeAbandoned(folder_ / "missing");
@@ -167,10 +170,16 @@ TEST_F(Files, temporaryNamesThatAreTakenAreLeftAlone) {
     const auto nameOf = [&](unsigned long each) {
         return folder_ / (".frame." + std::to_string(::getpid()) + "-" + std::to_string(each) + ".exr");
     };
-    for (const unsigned long taken : {number + 1, number + 2}) std::ofstream(nameOf(taken)) << "theirs";
+    std::vector<int> locked;
+    for (const unsigned long taken : {number + 1, number + 2}) {
+        std::ofstream(nameOf(taken)) << "theirs";
+        locked.push_back(::open(nameOf(taken).c_str(), O_RDONLY | O_CLOEXEC));
+        ASSERT_EQ(::flock(locked.back(), LOCK_EX), 0);
+    }
     writeFile(path, std::string_view("ours"));
     EXPECT_EQ(readFile(path).size(), 4u);
     for (const unsigned long taken : {number + 1, number + 2}) EXPECT_EQ(readFile(nameOf(taken)).size(), 6u);
+    for (const int each : locked) ::close(each);
 }
 
 TEST_F(Files, errorsNameThePathAndTheReason) {
