@@ -13,6 +13,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "lens": "render bench/results/lens, with the page that shows it",
     "first-pictures": "render docs/first-pictures.jpg",
     "artefacts": "render known artefacts of image-space methods for a report",
+    "cycles": "compare lit, textured scenes with Blender's Cycles",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "latency": "measure how fast the window answers the mouse",
 }

@@ -132,6 +132,13 @@ def ray_tracer():
         "scene with painted light, camera, lens, number of samples", "llvmpipe-truth.txt")
 
 
+def cycles():
+    lines = [line for line in lines_of("llvmpipe-cycles")[4:] if line.strip()]
+    rows = [[line[:18].strip(), *(f"{value} dB" for value in line[18:].split())] for line in lines]
+    return table(["scene", "16 samples", "64 samples", "256 samples", "noise of Cycles", "256 samples, shadows"], rows) + source(
+        "scripts/figures cycles", "scene, textures, lights, camera, lens, image size, shading equations", "llvmpipe-cycles.txt")
+
+
 def shadows():
     def times(scene, renderer):
         return " → ".join(f"{scene[f'{renderer}Milliseconds{end}'] / 1000:.1f}" for end in ("WithoutShadows", "")) + " s"
@@ -319,7 +326,8 @@ def lens_level_table():
         "many lines")
 
 
-TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": ray_tracer, "shadows": shadows, "stability": stability, "honesty": honesty,
+TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": ray_tracer, "cycles": cycles, "shadows": shadows,
+          "stability": stability, "honesty": honesty,
           "lens equation": lambda: honesty(every_setting=False), "memory": memory, "few images": few_images, "layers": layers,
           "exponents": lambda: scaling(with_parts=False), "pyramid summary": lambda: pyramids(summary=True),
           "parts summary": lambda: parts(summary=True),
