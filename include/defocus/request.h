@@ -77,7 +77,8 @@ struct Request {
         nodeBlur;  // node name or index → factor ≥ 0 on the blur of the node and its descendants
 
     // Samples and levels of detail.
-    std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, from the blur
+    std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, for `quality`
+    Quality quality = Quality::good;       // ignored with `samples`, `targetError` or `timeLimit`
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
     // error is below the target. `samples` is the max number of samples.
     std::optional<double> targetError;
@@ -95,7 +96,7 @@ struct Request {
     bool noCache = false;                  // true: pyramids are built without reading or writing the cache
 
     // Method.
-    std::string method = "accumulation";
+    std::string method = "auto";
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
 

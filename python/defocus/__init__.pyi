@@ -79,6 +79,7 @@ class Keywords(TypedDict, total=False):
     node_blur: Optional[Union[Mapping[str, float], str]]
     preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
     samples: Optional[Union[int, Literal["auto"]]]
+    quality: Optional[Literal["draft", "good", "fine"]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]

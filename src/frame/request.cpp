@@ -44,7 +44,8 @@ ShutterSettings shutterSettings(const Request& request) {
 StopSettings stopSettings(const Request& request) {
     StopSettings stop{request.targetError, request.timeLimit, request.samples.value_or(maxSamples)};
     const bool exact = request.shutter > 0 && shutterSettings(request).exactMotion();
-    stop.automatic = !request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks;
+    if (!request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks)
+        stop.automatic = request.quality;
     return stop;
 }
 

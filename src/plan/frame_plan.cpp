@@ -343,6 +343,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
+    plan.showsMap = !plan.needsAlpha && world.environment.type == EnvironmentType::map;
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
         fail("lens: a cat's eye cannot be combined with a transparent background");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);

@@ -146,6 +146,7 @@ struct FramePlan {
     bool usesBlending = false;
     bool usesTransmission = false;
     bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
+    bool showsMap = false;    // the background is an environment map
     // Triangle counts, summed over all samples.
     std::uint64_t trianglesDrawn = 0;
     std::uint64_t trianglesFacingAway = 0;  // culled from the drawn levels because their clusters face away

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
 
 namespace defocus::engine {
@@ -43,15 +44,15 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// Describes how --method multirate blurs the samples' images, or the reason why it doesn't.
-std::string lensCellsText(const FramePlan& plan) {
+// Describes the choice of method "auto".
+std::string chosenMethodText(const FramePlan& plan) {
+    if (const std::string reason = reasonForAccumulation(plan); !reason.empty())
+        return fmt::format("--method auto is accumulation, as {}\n", reason);
     const LensCells cells = lensCells(plan);
-    if (cells.blur > 0)
-        return fmt::format(
-            "--method multirate blurs each sample's image by σ = {:.3g} of the CoC ({:.2g} px for the largest CoC), as "
-            "its part of the lens would\n",
-            cells.blur, cells.blur * plan.largestBlur);
-    return fmt::format("--method multirate draws this frame like accumulation: {}\n", cells.reason);
+    return fmt::format(
+        "--method auto is multirate, as about {:.0f} % of the image is blurred by {:g} px or more: each sample's image "
+        "is blurred by σ = {:.3g} of the CoC ({:.2g} px for the largest CoC), as its part of the lens would\n",
+        100 * blurredShare(plan, minBlurOfCells), minBlurOfCells, cells.blur, cells.blur * plan.largestBlur);
 }
 
 // Rounds a tiny CoC to 0, to avoid printing −0.00.
@@ -88,7 +89,7 @@ std::string planTable(const FramePlan& plan) {
                                                  : 1;
     text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n",
                         plan.trianglesDrawn, plan.trianglesAtFullDetail, ratio);
-    if (!plan.settings.keepAll && plan.usesLens) text += lensCellsText(plan);
+    if (!plan.settings.keepAll && plan.usesLens) text += chosenMethodText(plan);
     if (!plan.leftOut.empty()) text += "\nleft out\n";
     for (const LeftOut& entry : plan.leftOut) text += fmt::format("  {}: {}\n", entry.what, entry.reason);
     return text;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -31,26 +32,28 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
     plan_ = {};
     planMilliseconds_ = 0;
     schedule_.reset();
+    trial_.reset();
     if (stop.given()) {
         schedule_.emplace(settings, stop, measuredLevels(settings));
         return startBlock(true);
     }
-    if (stop.automatic) return startAutomatic(settings);
+    if (stop.automatic) return startAutomatic(settings, *stop.automatic);
     plan_ = planned(settings);
     renderer_->start(plan_);
 }
 
-void FrameRun::startAutomatic(RenderSettings settings) {
+void FrameRun::startAutomatic(RenderSettings settings, Quality quality) {
     settings.sampleCount = blockSamples;
     plan_ = planned(settings);
-    const std::uint32_t samples = samplesForBlur(plan_);
-    if (samples > blockSamples) {
-        schedule_ = BlockSchedule::automatic(settings, samples);
+    const std::uint32_t samples = firstSamples(plan_, quality);
+    if (samples >= blockSamples) {
+        schedule_ = BlockSchedule::automatic(settings, quality, samples);
         plan_ = {};
         return startBlock(true);
     }
     settings.sampleCount = samples;
-    if (samples != blockSamples) plan_ = planned(settings);
+    plan_ = planned(settings);
+    trial_ = Trial{settings, quality};
     renderer_->start(plan_);
 }
 
@@ -103,25 +106,56 @@ void FrameRun::startBlock(bool first) {
 }
 
 bool FrameRun::advance() {
-    if (renderer_->advance()) return true;
+    if (renderer_->advance()) {
+        if (trial_ && 2 * samples() == plan_.samples.size()) trial_->estimate.add(renderer_->image(), samples());
+        if (schedule_ && schedule_->wantsImage(samples())) schedule_->addImage(renderer_->image(), samples());
+        return true;
+    }
+    if (trial_) return endTrial();
     if (!schedule_ || schedule_->stopped()) return false;
     const bool more =
         schedule_->endBlock(plan_, millisecondsSince(begin_) / 1000, [this] { return renderer_->image(); });
     if (!more) return false;
+    keepStats();
+    startBlock(false);
+    return true;
+}
+
+// Returns false if the trial is good enough. Otherwise starts the frame again, in blocks.
+bool FrameRun::endTrial() {
+    Trial& trial = *trial_;
+    const bool halved = trial.estimate.samples() > 0;
+    if (halved) trial.estimate.add(renderer_->image(), samples());
+    const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);
+    if (excess <= 1) return false;
+    keepStats();
+    schedule_ =
+        BlockSchedule::automatic(trial.settings, trial.quality, samples() * std::pow(excess, 1 / lensSampleExponent));
+    trial_.reset();
+    plan_ = {};
+    startBlock(true);
+    return true;
+}
+
+void FrameRun::keepStats() {
     const RenderStats block = renderer_->stats();
     before_.renderMilliseconds += block.renderMilliseconds;
     before_.setupMilliseconds += block.setupMilliseconds;
     before_.gpuMilliseconds += block.gpuMilliseconds;
-    startBlock(false);
-    return true;
 }
 
 std::uint32_t FrameRun::sampleTotal() const {
     return schedule_ ? std::max(schedule_->expectedSamples(), samples()) : renderer_->sampleTotal();
 }
 
+double FrameRun::share() const {
+    const bool unconfirmed = trial_ ? trial_->estimate.samples() < samples() : schedule_ && schedule_->unconfirmed();
+    return (unconfirmed ? 0.5 : 1.0) * samples() / std::max(sampleTotal(), 1u);
+}
+
 RenderStats FrameRun::stats() const {
     RenderStats stats = renderer_->stats();
+    if (trial_) stats.estimatedError = trial_->estimate.error();
     if (!schedule_) return stats;
     stats.renderMilliseconds += before_.renderMilliseconds;
     stats.setupMilliseconds += before_.setupMilliseconds;

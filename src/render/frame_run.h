@@ -3,6 +3,7 @@
 //   FrameRun run(world, renderer); run.start(view, settings, stop); while (run.advance()) {} renderer.image();
 // Without stop conditions, a frame is one plan and one Renderer::start. With StopSettings, blocks of samples are added
 // to one sum until the error or time limit is reached. Each block is planned for the expected final number of samples.
+// An automatic number of samples begins with the number that the plan's blur suggests.
 
 #include <chrono>
 #include <optional>
@@ -32,6 +33,9 @@ public:
     // Returns the final number of samples of the frame. With StopSettings, this is an estimate that is updated after
     // each block.
     [[nodiscard]] std::uint32_t sampleTotal() const;
+    // Returns the share of the work that is done, 0 … 1. While no estimate has confirmed an automatic number of
+    // samples, the share stays below one half.
+    [[nodiscard]] double share() const;
     // Returns the plan of the frame. With StopSettings, it is the plan of the latest block, which has the finest
     // levels, but its triangle counts are sums over all blocks.
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
@@ -43,13 +47,23 @@ public:
 private:
     FramePlan planned(const RenderSettings& settings);
     std::optional<LevelError> measuredLevels(RenderSettings settings);
-    void startAutomatic(RenderSettings settings);
+    void startAutomatic(RenderSettings settings, Quality quality);
     void startBlock(bool first);
+    bool endTrial();
+    void keepStats();
 
     const World* world_;
     Renderer* renderer_;
     View view_;
     std::optional<BlockSchedule> schedule_;  // nullopt: the frame has a single plan
+    // A complete frame of fewer samples than a block, with an automatic number of samples. If its error is above that
+    // of the quality, it is drawn again in blocks.
+    struct Trial {
+        RenderSettings settings;
+        Quality quality;
+        ErrorEstimate estimate = {};
+    };
+    std::optional<Trial> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;
     RenderStats before_;  // sums over all blocks before the latest

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "plan/lens_cells/automatic_cells.h"
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
 #include "render/layered/layered.h"
@@ -21,6 +22,13 @@ namespace {
 
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
+        {.name = automaticMethod,
+         .description = "multirate where a visible part of the image is widely blurred, else accumulation",
+         .blursCells = true,
+         .sumsBlocks = true,
+         .drawsTiles = true,
+         .settings = {},
+         .make = makeAutomaticRenderer},
         {.name = "accumulation",
          .description = "accumulation of lens samples with levels of detail (Jeong, Kim and Lee 2011)",
          .sumsBlocks = true,
@@ -82,6 +90,11 @@ const Method& methodNamed(std::string_view name) {
     std::string known;
     for (const Method& method : table()) known += (known.empty() ? "" : ", ") + method.name;
     fail("there is no method '{}'; the methods are: {}", name, known);
+}
+
+MethodUse drawnMethod(const MethodUse& use, const FramePlan& plan) {
+    if (use.method->name != automaticMethod) return use;
+    return {&methodNamed(reasonForAccumulation(plan).empty() ? "multirate" : "accumulation"), {}};
 }
 
 std::string MethodUse::text() const {

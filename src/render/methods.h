@@ -71,10 +71,15 @@ struct MethodUse {
     [[nodiscard]] std::string text() const;
 };
 
+// Name of the method that chooses between accumulation and multirate for each frame; see drawnMethod.
+inline constexpr const char* automaticMethod = "auto";
+
 const std::vector<Method>& methods();
 void registerMethod(Method method);
 // Returns the method with this name. Throws Error, with a list of all names, if there is none.
 const Method& methodNamed(std::string_view name);
+// Returns the method that draws the plan: the choice of method "auto"; other methods draw all plans themselves.
+MethodUse drawnMethod(const MethodUse& use, const FramePlan& plan);
 // Inverse of MethodUse::text. Throws Error for an unknown method or setting, or a value out of range.
 MethodUse parseMethodUse(std::string_view text);
 

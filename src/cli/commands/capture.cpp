@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -98,14 +99,33 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     return options;
 }
 
+// Returns the method of all frames of the shot, so that the look doesn't change within it. Method "auto" becomes
+// multirate if up to 16 frames, spread over the complete shot, include one for which it chooses multirate.
+MethodUse methodOfShot(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
+    const MethodUse use = chosenMethod(arguments.request);
+    if (use.method->name != automaticMethod) return use;
+    constexpr int maxPlanned = 16;
+    const FrameRange& range = arguments.shot.range;
+    const int count = std::min(maxPlanned, range.last - range.first + 1);
+    MethodUse drawn = use;
+    for (int i = 0; i < count && drawn.method->name != "multirate"; ++i) {
+        const int number =
+            range.first + static_cast<int>(std::lround((range.last - range.first) * (i / std::max(1.0, count - 1.0))));
+        const FrameMoment frame = frameAt(arguments.shot, base, number);
+        applyMoment(frame, prepared.world);
+        drawn = drawnMethod(use, planFrame(prepared.world, frame.view, frame.settings));
+    }
+    return drawn;
+}
+
 void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-               const std::vector<FilmFrame>& film) {
+               const std::vector<FilmFrame>& film, const MethodUse& use) {
     const StopSettings stop = stopSettings(arguments.request);
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
                                 : stop.automatic ? "as many samples as each frame needs"
                                                  : fmt::format("{} samples", base.settings.sampleCount);
-    fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames per second\n", prepared.sceneName, prepared.cameraName,
-               base.view.width, base.view.height, samples, arguments.shot.frameRate);
+    fmt::print("{}, camera '{}', {}x{}, {}, method {}, {:g} frames per second\n", prepared.sceneName,
+               prepared.cameraName, base.view.width, base.view.height, samples, use.text(), arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
                "triangles", "file");
     for (const FilmFrame& each : film) {
@@ -219,7 +239,6 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
-    const MethodUse use = chosenMethod(arguments.request);
     if (arguments.request.targetError) checkStop(arguments.request);
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placedFrame(arguments, progress);
@@ -235,14 +254,17 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     // Render the frames.
     std::unique_ptr<GlContext> context;
     const bool meters = options.metered && (!allThere || !shot.video.empty());
-    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
+    if (((!allThere && chosenMethod(arguments.request).method->needsGl) || meters) && !arguments.dryRun)
+        context = createHeadlessContext();
     if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
     progress = {};
     printCacheUse(prepared, global);
     WarningPrinter warnings(global);
     warnings.print(requestWarnings(arguments.request, prepared));
+    const MethodUse use =
+        allThere && !arguments.dryRun ? chosenMethod(arguments.request) : methodOfShot(arguments, prepared, base);
     if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
-    if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
+    if (arguments.dryRun) return printPlan(arguments, prepared, base, film, use);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
     const auto hasCurve = [](const std::string& pattern) {

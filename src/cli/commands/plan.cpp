@@ -26,16 +26,16 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (stopSettings(arguments.request).automatic) {  // a render starts with this number of samples and may add more
+    if (const std::optional<Quality> quality = stopSettings(arguments.request).automatic) {  // a render starts with this number of samples and may add more
         RenderSettings settings = frame.settings;
-        settings.sampleCount = samplesForBlur(plan);
+        settings.sampleCount = firstSamples(plan, *quality);
         plan = planFrame(frame.world, frame.view, settings);
     }
     fmt::print("{}", arguments.json ? toJson(reportedPlan(plan)) : planTable(plan));
     printCacheUse(frame, global);
     WarningPrinter warnings(global);
     warnings.print(requestWarnings(arguments.request, frame));
-    warnings.print(planWarnings(plan, parseMethodUse("accumulation")));
+    warnings.print(planWarnings(plan, drawnMethod(parseMethodUse(automaticMethod), plan)));
 }
 
 }  // namespace

@@ -169,10 +169,7 @@ void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progre
     const FrameDriver& frame = driver.driver();
     const auto step = [&] {
         if (stopAsked()) fail("{}", output.stopMessage());
-        if (frame.inTiles())
-            report(progress, "rows", static_cast<std::uint64_t>(1000 * output.share()), 1000);
-        else
-            report(progress, "samples", frame.samples(), frame.sampleTotal());
+        report(progress, frame.inTiles() ? "rows" : "samples", static_cast<std::uint64_t>(1000 * output.share()), 1000);
     };
     stopWhenAsked();
     do step();

@@ -30,9 +30,11 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
     };
+    // All methods but the automatic one, which equals one of the others.
     const bool all = uses.empty();
     for (const Method& method : methods())
-        if (all || (std::ranges::count(alwaysThere, method.name) > 0 && !has(method.name)))
+        if ((all && method.name != automaticMethod) ||
+            (std::ranges::count(alwaysThere, method.name) > 0 && !has(method.name)))
             uses.push_back(standardUse(method));
     return uses;
 }

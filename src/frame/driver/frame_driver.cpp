@@ -1,5 +1,6 @@
 #include "frame/driver/frame_driver.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.h"
@@ -44,6 +45,7 @@ public:
     bool advance() override { return run_.advance(); }
     [[nodiscard]] std::uint32_t samples() const override { return run_.samples(); }
     [[nodiscard]] std::uint32_t sampleTotal() const override { return run_.sampleTotal(); }
+    [[nodiscard]] double share() const override { return run_.share(); }
     [[nodiscard]] const FramePlan& plan() const override { return run_.plan(); }
     [[nodiscard]] RenderStats stats() const override { return run_.stats(); }
     [[nodiscard]] double planMilliseconds() const override { return run_.planMilliseconds(); }
@@ -250,6 +252,7 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
 
 void FrameDriver::start(FrameOrder order) {
     drawing_.reset();
+    share_ = 0;
     Fit wanted = fitOf(order);
     if (fitted_ != wanted) {
         fitted_.reset();
@@ -277,7 +280,8 @@ std::uint32_t FrameDriver::sampleTotal() const {
 }
 
 double FrameDriver::share() const {
-    return drawing_->share();
+    share_ = std::max(share_, drawing_->share());
+    return share_;
 }
 
 const FramePlan& FrameDriver::plan() const {
@@ -296,6 +300,13 @@ int FrameDriver::tiles() const {
     return drawing_->tiles();
 }
 
+MethodUse FrameDriver::method() const {
+    if (!inTiles()) return drawnMethod(options_.method, plan());
+    FramePlan tile = plan();
+    tile.tile = Tile{};
+    return drawnMethod(options_.method, tile);
+}
+
 bool FrameDriver::inTiles() const {
     return bands_.has_value();
 }
@@ -310,10 +321,10 @@ FramePart FrameDriver::sums() {
     return std::move(*part);
 }
 
-FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples) {
-    if (!automaticSamples) return planFrame(world, view, settings);
+FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, std::optional<Quality> automatic) {
+    if (!automatic) return planFrame(world, view, settings);
     settings.sampleCount = blockSamples;
-    settings.sampleCount = samplesForBlur(planFrame(world, view, settings));
+    settings.sampleCount = samplesForBlur(planFrame(world, view, settings), *automatic);
     return planFrame(world, view, settings);
 }
 

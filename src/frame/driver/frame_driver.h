@@ -63,7 +63,7 @@ public:
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
     [[nodiscard]] std::uint32_t samples() const;      // drawn so far; in tiles: mean over all rows, rounded down
     [[nodiscard]] std::uint32_t sampleTotal() const;  // expected total when the frame is complete
-    [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1
+    [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1; never falls
     [[nodiscard]] const FramePlan& plan() const;      // plan of the complete frame
     [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] double planMilliseconds() const;
@@ -78,7 +78,8 @@ public:
     // then write each image before it starts the next frame.
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] std::uint64_t memoryLimit() const { return limit_; }
-    [[nodiscard]] const MethodUse& method() const { return options_.method; }
+    // Returns the method that draws the frame. Method "auto" becomes the method that it has chosen.
+    [[nodiscard]] MethodUse method() const;
 
 private:
     class Drawing;
@@ -112,10 +113,11 @@ private:
     std::optional<std::vector<Band>> bands_;  // none: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
+    mutable double share_ = 0;  // largest share that was returned: progress never falls back
 };
 
 // Returns the plan of a frame that is drawn in tiles. An automatic number of samples is derived from the size of the
 // blur alone, because the error of the image is unknown until all tiles are drawn.
-FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples);
+FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, std::optional<Quality> automatic);
 
 }  // namespace defocus::engine

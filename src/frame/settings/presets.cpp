@@ -15,7 +15,8 @@ std::span<const Preset> presets() {
     static const std::vector<Preset> all = {
         {"jeong2011",
          "accumulation with levels of detail by size (Jeong et al. 2011)",
-         {{"sequence", "halton"},
+         {{"method", "accumulation"},
+          {"sequence", "halton"},
           {"lod", "fractional"},
           {"blurThreshold", "0.25"},
           {"sizeThreshold", "3.3"},

@@ -108,7 +108,6 @@ Rows sceneRows() {
         rows::number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
                      "Time in the animation in seconds. Outside its range, the animation holds its first or last frame")
             .unit("s")
-            .everyday()
             .inShot("/animation/start")
             .unused(withoutAnimation),
         rows::words(SettingKind::text, "clip", "--clip", "NAME|N", MEMBER(clip),
@@ -364,9 +363,9 @@ Row presetRow() {
 Row samplesRow() {
     return rows::integer(
                "samples", "--samples", 1, maxSamples, MEMBER(samples),
-               fmt::format("Number of lens samples. auto: 32 to 1024, from the largest blur and, for wide blurs, the "
-                           "estimated error. With --target-error or --time-limit: the maximum, {} by default",
-                           maxSamples))
+               fmt::format("Number of lens samples. auto: as many as --quality needs, 16 to {}. With --target-error or "
+                           "--time-limit: the maximum, {} by default",
+                           maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
         .values(
@@ -389,6 +388,15 @@ Rows sampleRows() {
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
+        rows::choice<Quality>(
+            "quality", "--quality", {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+            MEMBER(quality),
+            "Error that an automatic number of samples aims at: a difference (FLIP) from the converged image of about "
+            "0.03 (draft), 0.01 (good) or 0.005 (fine)")
+            .everyday()
+            .inShot("/quality")
+            .excludes({"samples", "targetError", "timeLimit"})
+            .unused(methodWithoutSamples),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
                      "Add blocks of 64 samples until the estimated RMSE of the image is below R. Pixel values are "
                      "display-encoded, 0 to 1, at EV 0")
@@ -546,8 +554,10 @@ Rows developerRows() {
             "at once, or the image in tiles. Default: three quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
-        rows::integer("wave", "--wave", 1, 64, MEMBER(wave),
-                      "Number of samples drawn at once; does not affect the image. Default: as many as fit into memory")
+        rows::integer(
+            "wave", "--wave", 1, 64, MEMBER(wave),
+            "Maximum number of samples drawn at once; does not affect the image. Default: as many as fit into "
+            "memory, at most 16")
             .effect(SettingEffect::run),
     };
 }

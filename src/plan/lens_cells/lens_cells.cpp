@@ -23,17 +23,6 @@ constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, images are no
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max lens points in all cells together
 
-std::string reasonForNone(const FramePlan& plan) {
-    if (plan.settings.keepAll) return "--keep-all is given";
-    if (!plan.usesLens) return "no blur reaches half a pixel";
-    if (plan.frameSamples < fewestSamples) return "there are too few samples";
-    if (plan.needsAlpha) return "the background is transparent";
-    if (plan.coc.chromatic > 0) return "each sample has its own wavelength";
-    if (plan.usesOwnBlur) return "objects or vertices have their own blur";
-    if (plan.usesTransmission) return "a material transmits light";
-    return "";
-}
-
 // Mean and covariance of lens points, and the fraction of the unit disk that their light fills. Defaults: a uniform
 // unit disk.
 struct LensSpread {
@@ -148,9 +137,20 @@ int classesFor(double blur, double coc) {
 
 }  // namespace
 
+std::string reasonForNoCells(const FramePlan& plan) {
+    if (plan.settings.keepAll) return "--keep-all is given";
+    if (!plan.usesLens) return "no blur reaches half a pixel";
+    if (plan.frameSamples < fewestSamples) return "there are too few samples";
+    if (plan.needsAlpha) return "the background is transparent";
+    if (plan.coc.chromatic > 0) return "each sample has its own wavelength";
+    if (plan.usesOwnBlur) return "objects or vertices have their own blur";
+    if (plan.usesTransmission) return "a material transmits light";
+    return "";
+}
+
 LensCells lensCells(const FramePlan& plan) {
     LensCells cells;
-    cells.reason = reasonForNone(plan);
+    cells.reason = reasonForNoCells(plan);
     if (!cells.reason.empty()) return cells;
 
     const LensSpread lens = lensSpread(plan.view.lens);

@@ -44,6 +44,9 @@ struct LensCells {
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
+// Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can.
+std::string reasonForNoCells(const FramePlan& plan);
+
 // Returns the cells of the samples that were planned together. A frame that grows block by block has separate cells in
 // each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);

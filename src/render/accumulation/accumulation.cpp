@@ -4,12 +4,14 @@
 #include "render/accumulation/accumulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <utility>
 
 #include "core/error.h"
 #include "gl/context.h"
 #include "gl/timer.h"
+#include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/layer_sum.h"
@@ -21,8 +23,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the number of layers, which is the number of samples per wave. If `requested` is 0, a block of 64 samples is
-// divided into the fewest equal waves that fit into RendererOptions::waveBytes.
+// The error of the image may be estimated at multiples of this number of samples, so no wave may cross them.
+constexpr std::uint32_t maxWave = 16;
+
+// Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
+// 0, as many as fit into RendererOptions::waveBytes.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t requested,
                          LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
@@ -30,11 +35,9 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
                                      shadowMapBytes(plan);
-    const std::uint64_t block = std::min<std::uint64_t>(blockSamples, plan.samples.size());
-    if (requested > 0) return static_cast<std::uint32_t>(std::min<std::uint64_t>(requested, block));
-    const std::uint64_t fitting = std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
-    const std::uint64_t waves = (block + fitting - 1) / fitting;
-    return static_cast<std::uint32_t>((block + waves - 1) / waves);
+    const std::uint64_t fitting =
+        requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
+    return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>({fitting, maxWave, plan.samples.size()})));
 }
 
 bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
@@ -42,10 +45,13 @@ bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
            a.sumHeight == b.sumHeight;
 }
 
+// When each sample's image is blurred by its lens cell.
+enum class CellUse { never, always, automatic };
+
 class AccumulationRenderer final : public Renderer {
 public:
-    AccumulationRenderer(const World& world, const RendererOptions& options, bool usesLensCells)
-        : options_(options), wave_(options.wave), usesLensCells_(usesLensCells), scene_(world) {}
+    AccumulationRenderer(const World& world, const RendererOptions& options, CellUse cellUse)
+        : options_(options), wave_(options.wave), cellUse_(cellUse), scene_(world) {}
 
     void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
 
@@ -55,8 +61,7 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = stats_.trianglesHidden = 0;
-        for (GpuTimer* timer :
-             {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
+        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
             timer->reset();
         prepareFrame();
     }
@@ -76,7 +81,7 @@ public:
         const std::uint32_t first = sum_->samples() - samplesBefore_;
         const auto total = static_cast<std::uint32_t>(plan_.samples.size());
         if (first >= total) return false;
-        const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
+        const std::uint32_t count = std::min(sum_->info().layers, total - first);
         clock_.beginWave();
         drawWave(first, count);
         clock_.endWave();
@@ -113,14 +118,17 @@ public:
 private:
     void setPlan(const FramePlan& plan) {
         plan_ = plan;
-        if (!usesLensCells_) return;
+        cells_ = {};
+        const bool wanted =
+            cellUse_ == CellUse::automatic ? reasonForAccumulation(plan_).empty() : cellUse_ == CellUse::always;
+        if (!wanted) return;
         cells_ = lensCells(plan_);
         moveToCells(plan_, cells_);
     }
 
     void prepareFrame() {
         scene_.prepare(plan_);
-        if (usesLensCells_) sum_->blurCells(cells_);
+        sum_->blurCells(cells_);
         frame_.upload(scene_.world(), plan_, sum_->info().layers);
         shadows_->prepare(plan_, frame_);
         surfaces_->prepare(plan_, frame_, &*shadows_);
@@ -202,7 +210,7 @@ private:
 
     RendererOptions options_;
     std::uint32_t wave_;  // requested samples per wave K; 0: as many as fit into waveBytes
-    bool usesLensCells_;
+    CellUse cellUse_;
     GpuScene scene_;
     FramePlan plan_;
     LensCells cells_;                  // lens cells of plan_; without blur classes, images are not blurred
@@ -219,11 +227,15 @@ private:
 }  // namespace
 
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options) {
-    return std::make_unique<AccumulationRenderer>(world, options, false);
+    return std::make_unique<AccumulationRenderer>(world, options, CellUse::never);
 }
 
 std::unique_ptr<Renderer> makeMultirateRenderer(const World& world, const RendererOptions& options) {
-    return std::make_unique<AccumulationRenderer>(world, options, true);
+    return std::make_unique<AccumulationRenderer>(world, options, CellUse::always);
+}
+
+std::unique_ptr<Renderer> makeAutomaticRenderer(const World& world, const RendererOptions& options) {
+    return std::make_unique<AccumulationRenderer>(world, options, CellUse::automatic);
 }
 
 }  // namespace defocus::engine

@@ -10,11 +10,42 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gap = 2;  // px between the images of a blurred point in neighbouring samples
-constexpr std::uint32_t movingSamples = 4 * blockSamples;
-constexpr std::uint32_t shadowSamples = 64;  // min for smooth penumbrae and sky shadows
+constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
+
+struct QualityLimits {
+    double flip;        // error to aim at
+    double firstGap;    // px between the images of a blurred point in neighbouring samples
+    double gap;         // px, if no error estimate can correct the number of samples
+    std::uint32_t min;  // samples
+};
+
+QualityLimits limitsOf(Quality quality) {
+    switch (quality) {
+        case Quality::draft:
+            return {0.03, 8, 3.5, 16};
+        case Quality::good:
+            return {0.01, 4.5, 2, 32};
+        case Quality::fine:
+            return {0.005, 3, 1.4, 64};
+    }
+    return {};
+}
+
+std::uint32_t samplesForGap(const FramePlan& plan, const QualityLimits& limits, double gap) {
+    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
+    const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
+    const bool spreads = !plan.shadows.maps.empty() || !plan.moments.empty();
+    const std::uint32_t min = spreads ? std::max(limits.min, minSpread) : limits.min;
+    if (!(filling > min)) return min;
+    const double blocks = std::ceil(std::min(filling, double{maxAutomaticSamples}) / blockSamples);
+    return static_cast<std::uint32_t>(blocks) * blockSamples;
+}
 
 }  // namespace
+
+double flipOf(Quality quality) {
+    return limitsOf(quality).flip;
+}
 
 double largestBoundedBlur(const FramePlan& plan) {
     double largest = 0;
@@ -23,14 +54,14 @@ double largestBoundedBlur(const FramePlan& plan) {
     return largest;
 }
 
-std::uint32_t samplesForBlur(const FramePlan& plan) {
-    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
-    const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
-    const std::uint32_t still = plan.shadows.maps.empty() ? minAutomaticSamples : shadowSamples;
-    const std::uint32_t min = plan.moments.empty() ? still : movingSamples;
-    if (!(filling > min)) return min;
-    const double blocks = std::ceil(std::min(filling, double{maxAutomaticSamples}) / blockSamples);
-    return static_cast<std::uint32_t>(blocks) * blockSamples;
+std::uint32_t firstSamples(const FramePlan& plan, Quality quality) {
+    const QualityLimits limits = limitsOf(quality);
+    return samplesForGap(plan, limits, limits.firstGap);
+}
+
+std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality) {
+    const QualityLimits limits = limitsOf(quality);
+    return samplesForGap(plan, limits, limits.gap);
 }
 
 }  // namespace defocus::engine

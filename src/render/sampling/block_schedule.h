@@ -41,13 +41,18 @@ public:
     // `settings` are those of the frame; their number of samples is ignored. `levels` is nullopt if the level error was
     // not measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
-    // Returns the schedule of a frame with an automatic number of samples, at most `max`. Level-of-detail thresholds
-    // are those for `max` samples.
-    static BlockSchedule automatic(const RenderSettings& settings, std::uint32_t max);
+    // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below
+    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are those
+    // for the samples expected.
+    static BlockSchedule automatic(const RenderSettings& settings, Quality quality, double expected);
 
     // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by
     // StopSettings::sampleLimit.
     [[nodiscard]] RenderSettings nextBlock() const;
+    // Returns whether addImage() wants the frame's image with this number of samples: half of those of the first error
+    // estimate, which compares the two images.
+    [[nodiscard]] bool wantsImage(std::uint32_t samples) const;
+    void addImage(const Image& mean, std::uint32_t samples) { estimate_.add(mean, samples); }
     // Records that a block has been drawn with `plan`, made from the settings of nextBlock(). Returns whether another
     // block follows. `seconds` is the time since the start of the frame. `mean` returns the frame's current image; it
     // is called only if an error estimate is due.
@@ -57,6 +62,8 @@ public:
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
+    // Returns whether an automatic number of samples is only a prediction from the blur.
+    [[nodiscard]] bool unconfirmed() const { return targetFlip_ && !estimate_.flip(); }
     // Returns the latest error estimate, extrapolated to the current number of samples with lensSampleExponent. A
     // complete frame needs no extrapolation.
     [[nodiscard]] std::optional<double> estimatedError() const;
@@ -64,14 +71,16 @@ public:
 private:
     [[nodiscard]] std::optional<StopReason> reasonToStop(const FramePlan& plan, double seconds) const;
     [[nodiscard]] double thresholdSamples() const;
+    [[nodiscard]] std::optional<double> estimatedFlip() const;
+    void predict();
     [[nodiscard]] double withLevels(double sampleError) const;
 
     RenderSettings settings_;
     StopSettings stop_;
     std::optional<LevelError> levels_;
-    bool automatic_ = false;
-    double levelErrorSum_ = 0;  // level errors of blocks, weighted by their samples
-    ErrorEstimate estimate_;    // error due to sampling only
+    std::optional<double> targetFlip_;  // of an automatic number of samples
+    double levelErrorSum_ = 0;          // level errors of blocks, weighted by their samples
+    ErrorEstimate estimate_;            // error due to sampling only
     std::uint32_t samples_ = 0;
     std::uint32_t nextEstimate_ = 0;  // sample count of the next estimate
     double expected_ = 0;             // expected final sample count, not rounded

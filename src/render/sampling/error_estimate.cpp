@@ -44,13 +44,20 @@ std::vector<float> encodedPixels(const ImageView& image) {
     return encoded;
 }
 
-double meanSquaredDifference(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0;
+struct Differences {
+    double meanSquare = 0;
+    double meanAbsolute = 0;
+};
+
+Differences differences(const std::vector<float>& a, const std::vector<float>& b) {
+    Differences sum;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const double difference = static_cast<double>(a[i]) - b[i];
-        sum += difference * difference;
+        sum.meanSquare += difference * difference;
+        sum.meanAbsolute += std::abs(difference);
     }
-    return sum / static_cast<double>(std::max<std::size_t>(a.size(), 1));
+    const auto count = static_cast<double>(std::max<std::size_t>(a.size(), 1));
+    return {sum.meanSquare / count, sum.meanAbsolute / count};
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ double errorOverDifference(double m, double n, double exponent) {
 }
 
 double encodedDifference(const ImageView& a, const ImageView& b) {
-    return std::sqrt(meanSquaredDifference(encodedPixels(a), encodedPixels(b)));
+    return std::sqrt(differences(encodedPixels(a), encodedPixels(b)).meanSquare);
 }
 
 void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
@@ -78,23 +85,25 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     // Average the estimates from all earlier images with 25 to 75 % of the samples. If there is none, use the image
     // closest to 50 %.
     const auto share = [&](const Kept& kept) { return static_cast<double>(kept.samples) / samples; };
-    const auto squared = [&](const Kept& kept) {
-        const double factor = errorOverDifference(kept.samples, samples);
-        return factor * factor * meanSquaredDifference(kept.encoded, latest.encoded);
-    };
-    double sum = 0;
+    Differences sum;
     int count = 0;
+    const auto addFrom = [&](const Kept& kept) {
+        const double factor = errorOverDifference(kept.samples, samples);
+        const Differences difference = differences(kept.encoded, latest.encoded);
+        sum.meanSquare += factor * factor * difference.meanSquare;
+        sum.meanAbsolute += factor * difference.meanAbsolute;
+        ++count;
+    };
     for (const Kept& kept : kept_)
-        if (share(kept) >= 0.25 && share(kept) <= 0.75) {
-            sum += squared(kept);
-            ++count;
-        }
+        if (share(kept) >= 0.25 && share(kept) <= 0.75) addFrom(kept);
     if (count == 0 && !kept_.empty()) {
         const auto fromHalf = [&](const Kept& kept) { return std::abs(std::log(2 * share(kept))); };
-        sum = squared(*std::ranges::min_element(kept_, {}, fromHalf));
-        count = 1;
+        addFrom(*std::ranges::min_element(kept_, {}, fromHalf));
     }
-    if (count > 0) error_ = std::sqrt(sum / count);
+    if (count > 0) {
+        error_ = std::sqrt(sum.meanSquare / count);
+        flip_ = flipOverDifference * sum.meanAbsolute / count;
+    }
 
     // Keep the images with which later images may be compared.
     kept_.push_back(std::move(latest));

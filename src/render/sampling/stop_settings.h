@@ -18,8 +18,8 @@ struct StopSettings {
     // predicted end is after the limit.
     std::optional<double> timeLimit = {};
     std::uint32_t sampleLimit = maxSamples;
-    // True if the number of samples is chosen automatically; see automatic_samples.h.
-    bool automatic = false;
+    // If set, the number of samples is chosen automatically; see automatic_samples.h.
+    std::optional<Quality> automatic = {};
 
     // Returns whether a target error or a time limit is set.
     [[nodiscard]] bool given() const { return targetError || timeLimit; }

@@ -37,6 +37,20 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
+// Method "auto" has the bits of the method that it chooses: multirate where spheres are blurred by 8 px and more,
+// accumulation where they are sharp. One renderer draws both.
+TEST_F(LensCellImages, automaticMethodHasTheBitsOfItsChoice) {
+    const auto blurred = blurredSpheres();
+    const auto renderer = rendererOf(automaticMethod, blurred->world);
+    View sharp = blurred->view;
+    sharp.lens.fStop = 64;
+    for (const auto& [view, name] : {std::pair{blurred->view, "multirate"}, {sharp, "accumulation"}}) {
+        const FramePlan plan = planFrame(blurred->world, view, ratedSettings(32));
+        EXPECT_EQ(drawnMethod(parseMethodUse(automaticMethod), plan).text(), name);
+        EXPECT_TRUE(sameBits(imageOf(*renderer, plan), imageOf(*rendererOf(name, blurred->world), plan))) << name;
+    }
+}
+
 TEST_F(LensCellImages, keepAllGivesTheBitsOfAccumulation) {
     const auto small = blurredSpheres();
     for (const LodMode lod : {LodMode::fractional, LodMode::continuous, LodMode::off}) {

@@ -19,24 +19,46 @@ FramePlan planOf(double blur) {
     return plan;
 }
 
+constexpr Quality allQualities[] = {Quality::draft, Quality::good, Quality::fine};
+
+double gapOf(double blur, double samples) {
+    return blur * std::sqrt(std::numbers::pi / (4 * samples));
+}
+
 TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
-    EXPECT_EQ(samplesForBlur(planOf(0)), minAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(planOf(0), Quality::good), 32u);
     std::uint32_t before = 0;
     for (double blur = 1; blur < 200; blur *= 1.1) {
-        const std::uint32_t samples = samplesForBlur(planOf(blur));
+        const std::uint32_t samples = samplesForBlur(planOf(blur), Quality::good);
         EXPECT_GE(samples, before);
         before = samples;
-        const auto gap = [&](double count) { return blur * std::sqrt(std::numbers::pi / (4 * count)); };
-        EXPECT_TRUE(gap(samples) <= 2 || samples == maxAutomaticSamples) << blur;
-        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "one block fewer must be too few at " << blur;
+        EXPECT_TRUE(gapOf(blur, samples) <= 2 || samples == maxAutomaticSamples) << blur;
+        EXPECT_TRUE(samples <= 64 || gapOf(blur, samples - 64) > 2) << "one block fewer must be too few at " << blur;
     }
     EXPECT_EQ(before, maxAutomaticSamples);
 }
 
 TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
-    for (double blur = 1; blur < 200; blur *= 1.1) {
-        const std::uint32_t samples = samplesForBlur(planOf(blur));
-        EXPECT_TRUE(samples == 32 || samples % 64 == 0) << samples;
+    for (const Quality quality : allQualities)
+        for (double blur = 1; blur < 200; blur *= 1.1)
+            for (const std::uint32_t samples :
+                 {samplesForBlur(planOf(blur), quality), firstSamples(planOf(blur), quality)})
+                EXPECT_TRUE(samples == 16 || samples == 32 || samples % 64 == 0) << samples;
+}
+
+// Better qualities aim at smaller errors and begin with at least as many samples. An estimate can only add samples, so
+// the first number is at most the one that is used without an estimate.
+TEST(SamplesForBlur, followTheQuality) {
+    EXPECT_GT(flipOf(Quality::draft), flipOf(Quality::good));
+    EXPECT_GT(flipOf(Quality::good), flipOf(Quality::fine));
+    for (double blur = 1; blur < 200; blur *= 1.3) {
+        std::uint32_t before = 0;
+        for (const Quality quality : allQualities) {
+            const std::uint32_t first = firstSamples(planOf(blur), quality);
+            EXPECT_GE(first, before);
+            EXPECT_LE(first, samplesForBlur(planOf(blur), quality));
+            before = first;
+        }
     }
 }
 
@@ -45,15 +67,15 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     plan.objects.push_back(plan.objects.front());
     plan.objects.back().nearestDepth = 0;
     plan.objects.back().coc.largest = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(samplesForBlur(plan), minAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
     plan.view.lens.dofEnabled = false;
-    EXPECT_EQ(samplesForBlur(plan), minAutomaticSamples);
+    EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
 TEST(SamplesForBlur, followMotion) {
     FramePlan plan = planOf(0);
     plan.moments.resize(1);
-    EXPECT_EQ(samplesForBlur(plan), 256u);
+    for (const Quality quality : allQualities) EXPECT_EQ(firstSamples(plan, quality), 64u);
 }
 
 }  // namespace
