@@ -93,8 +93,12 @@ private:
 // ---- writing --------------------------------------------------------------------------------------------------------
 
 struct ImageRowWriter::State {
-    State(const std::filesystem::path& path, const WriteOptions& write)
-        : name(path.string()), kind(fileKind(path)), options(write), pending(path), file(pending.temporaryPath()) {}
+    State(const std::filesystem::path& path, const WriteOptions& write, NamedBy namer)
+        : name(path.string()),
+          kind(fileKind(path)),
+          options(write),
+          pending(path, namer),
+          file(pending.temporaryPath()) {}
 
     [[noreturn]] void failed() {
         const std::string reason = file.failure() != 0 ? std::strerror(file.failure()) : firstLine(output->geterror());
@@ -122,8 +126,9 @@ struct ImageRowWriter::State {
 };
 
 ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels,
-                               const Metadata& metadata, const WriteOptions& options, const RowPlace& place)
-    : state_(std::make_unique<State>(path, options)) {
+                               const Metadata& metadata, const WriteOptions& options, const RowPlace& place,
+                               NamedBy namer)
+    : state_(std::make_unique<State>(path, options, namer)) {
     State& s = *state_;
     s.channels = channels;
     s.spec = imageSpec(s.kind, width, height, channels, metadata);

@@ -19,8 +19,10 @@ fs::path rowsPath(const fs::path& folder, const RowRange& rows) {
     return folder / fmt::format("rows-{:05}-{:05}.exr", rows.first, rows.end);
 }
 
-bool namesRows(const fs::path& path) {
-    return path.filename().string().starts_with("rows-");
+// Returns whether a folder's entry can be a tile that the program has written. A link or a pipe is none.
+bool canBeTile(const fs::directory_entry& entry) {
+    std::error_code none;
+    return entry.path().filename().string().starts_with("rows-") && fs::is_regular_file(entry.symlink_status(none));
 }
 
 struct FoundTiles {
@@ -34,7 +36,7 @@ FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
         if (entry.path().filename().string().starts_with(".rows-")) removeAbandoned(entry.path());
-        if (!namesRows(entry.path()) || !isRowFile(entry.path())) continue;
+        if (!canBeTile(entry) || !isRowFile(entry.path())) continue;
         found.all.push_back(entry.path());
         const RowFileHeader header = readRowHeader(entry.path());
         if (header.settings == wanted.settings && header.width == wanted.width && header.height == wanted.height)
@@ -190,7 +192,7 @@ void FrameOutput::join() {
     const fs::path folder = tilesFolder();
     std::vector<fs::path> paths;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (namesRows(entry.path())) paths.push_back(entry.path());
+        if (canBeTile(entry)) paths.push_back(entry.path());
     std::vector<JoinedOutput> outputs;
     for (const fs::path& path : files_.outputs) outputs.push_back({path, driver_.writeOptions()});
     joinRows(completeRows(paths), outputs, driver_.metadata());
