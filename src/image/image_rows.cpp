@@ -19,20 +19,13 @@
 #include "image/image_encoding.h"
 #include "image/image_read.h"
 #include "image/oiio_names.h"
+#include "image/packed_pixels.h"
 
 namespace defocus::engine {
 
 namespace {
 
 constexpr int rowsAtOnce = 64;  // max rows encoded per call; a multiple of EXR's 16-row blocks
-
-ImageView rowsOf(const ImageView& image, int first, int count) {
-    const std::size_t row = image.strides.row;
-    ImageView rows = image;
-    rows.height = count;
-    rows.pixels = image.pixels.subspan(static_cast<std::size_t>(first) * row, static_cast<std::size_t>(count) * row);
-    return rows;
-}
 
 // Returns the first 64 KiB of a file, enough for checkExrHeader.
 std::vector<std::byte> beginOf(const std::filesystem::path& path) {
