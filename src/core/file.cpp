@@ -12,6 +12,8 @@
 #include <cstring>
 #include <iterator>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -103,6 +105,33 @@ std::string temporaryName(const fs::path& target, std::string_view number) {
     return fmt::format(".{}.{}{}", target.stem().string(), number, target.extension().string());
 }
 
+// Temporary files of this process.
+class PendingNames {
+public:
+    void add(const fs::path& path) {
+        const std::scoped_lock lock(mutex_);
+        names_.insert(path);
+    }
+    void remove(const fs::path& path) {
+        const std::scoped_lock lock(mutex_);
+        names_.erase(path);
+    }
+    void removeFiles() {
+        const std::scoped_lock lock(mutex_);
+        std::error_code ignored;
+        for (const fs::path& name : names_) fs::remove(name, ignored);
+    }
+
+private:
+    std::mutex mutex_;
+    std::set<fs::path> names_;
+};
+
+PendingNames& pendingNames() {
+    static PendingNames names;
+    return names;
+}
+
 // Removes the temporary files of `target` that killed processes have left.
 void removeAbandonedOf(const fs::path& target) {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
@@ -190,11 +219,13 @@ PendingFile::PendingFile(fs::path target, NamedBy namer)
         if (descriptor_ < 0 && errno != EEXIST) fail("cannot write {}: {}", target_.string(), reason(errno));
         if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));
     }
+    pendingNames().add(temporary_);
 }
 
 PendingFile::~PendingFile() {
     std::error_code ignored;
     if (!committed_) fs::remove(temporary_, ignored);
+    pendingNames().remove(temporary_);
     ::close(descriptor_);
 }
 
@@ -216,6 +247,10 @@ void PendingFile::commit() {
     if (status) fail("cannot write {}: {}", target_.string(), status.message());
     committed_ = true;
     syncFolder(target_.parent_path());
+}
+
+void removePendingFiles() {
+    pendingNames().removeFiles();
 }
 
 void removeAbandoned(const fs::path& temporary) {

@@ -65,6 +65,9 @@ private:
     bool committed_ = false;
 };
 
+// Removes the temporary files of all PendingFile objects of this process, which ends without destructors afterwards.
+void removePendingFiles();
+
 // Removes a temporary file that a killed process left behind. Does nothing while a process still writes the file.
 void removeAbandoned(const std::filesystem::path& temporary);
 

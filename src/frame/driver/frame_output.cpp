@@ -63,6 +63,8 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
         if (!oneExr || !files.whole.empty())
             fail("--sample-range writes sums of samples to a single EXR file; give one output, such as -o part.exr");
     }
+    if (files.keepPartial && (files.samples || files.share))
+        throw UsageError("--keep-partial keeps an image; it cannot be combined with --sample-range or --tile");
     if (!files.share && !files.resume) return;
     const std::string option = files.share ? "--tile" : "--resume";
     const Method& method = *chosenMethod(request).method;
@@ -128,7 +130,7 @@ void FrameOutput::start(const Progress& progress) {
     check(files_, request);
     static_cast<void>(driver_.writeOptions());  // meter the exposure before the frame allocates memory
     wanted_ = {0, request.size.height};
-    parts_ = {.samples = files_.samples, .whole = files_.whole};
+    parts_ = {.samples = files_.samples, .whole = files_.whole, .shortDraws = files_.keepPartial};
     if (files_.whole.empty() && !files_.samples)
         parts_.takeRows = [this](const RowRange& rows, Image&& pixels) { takeRows(rows, std::move(pixels)); };
     const bool resumesTiles = files_.resume && fs::is_directory(tilesFolder());
@@ -176,6 +178,12 @@ bool FrameOutput::advance() {
 double FrameOutput::share() const {
     const double rows = wanted_.end - wanted_.first;
     return (rowsKept_ + driver_.driver().share() * (rows - rowsKept_)) / rows;
+}
+
+std::optional<Image> FrameOutput::partialImage() {
+    const FrameDriver& driver = driver_.driver();
+    if (!files_.keepPartial || files_.samples || files_.share || driver.inTiles() || driver.samples() == 0) return {};
+    return driver_.image();
 }
 
 std::string FrameOutput::stopMessage() const {
