@@ -225,8 +225,8 @@ int runProgram(int argc, char** argv) {
     claimClosedOutputs();
     try {
         const int code = run(argc, argv);
-        std::cout.flush();  // flush the text of --help or --version
         errno = 0;
+        std::cout.flush();  // flush the text of --help or --version
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
         const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
         if (lost && code == 0) return printFault(failed, "cannot write to standard output" + reason);

@@ -31,8 +31,8 @@ void createOwnFolder(const std::filesystem::path& folder);
 // is absolute, leaves the folder, or is a device, pipe or directory. A missing file is not an error.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
-// Who has chosen a file's name. A link, pipe or device at the program's own name wasn't put there by the program: it is
-// replaced by the file, and nothing is written through it.
+// Origin of a file's name. The program never creates links, pipes or devices, so those at a name of the program are
+// replaced by the file, and nothing is written through them.
 enum class NamedBy { user, program };
 
 // Creates or atomically replaces the file at `path`. Throws Error, with the path in its message, if writing fails.

@@ -1,4 +1,4 @@
-// A signal or the time limit ends a render soon, whatever a block of samples costs.
+// A signal or the time limit ends a render soon, even within a costly block of samples.
 
 #include <fcntl.h>
 #include <fmt/format.h>
