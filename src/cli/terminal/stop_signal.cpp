@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr auto patience = std::chrono::milliseconds(700);
+constexpr auto patience = std::chrono::milliseconds(500);
 constexpr int stopped = 1;  // exit code
 
 volatile std::sig_atomic_t asked = 0;

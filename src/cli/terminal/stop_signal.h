@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 enum class StopWithin {
-    aSecond,      // a second thread ends the process if it still runs after 0.7 s, even within a long draw
+    aSecond,      // a second thread ends the process if it still runs after 0.5 s, even within a long draw
     currentDraw,  // the process ends by itself, after it has saved what is finished
 };
 
