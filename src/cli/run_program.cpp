@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <iterator>
@@ -223,9 +225,11 @@ int runProgram(int argc, char** argv) {
     claimClosedOutputs();
     try {
         const int code = run(argc, argv);
+        errno = 0;
         std::cout.flush();  // flush the text of --help or --version
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
-        if (lost && code == 0) return printFault(failed, "cannot write to standard output");
+        const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
+        if (lost && code == 0) return printFault(failed, "cannot write to standard output" + reason);
         return code;
     } catch (const std::bad_alloc&) {
         return printFault(failed, "out of memory; try a smaller --size or --wave, or a scene with fewer triangles");

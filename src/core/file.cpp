@@ -12,6 +12,8 @@
 #include <cstring>
 #include <iterator>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -72,6 +74,15 @@ bool isStream(const fs::path& path) {
     return type != fs::file_type::regular || isDescriptor(path);
 }
 
+std::vector<std::byte> allBytes(std::FILE* file, const fs::path& path) {
+    std::vector<std::byte> bytes;
+    std::byte chunk[1 << 16];
+    while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file))
+        bytes.insert(bytes.end(), chunk, chunk + count);
+    if (std::ferror(file) != 0) fail("cannot read {}: {}", path.string(), reason(errno));
+    return bytes;
+}
+
 void writeStream(const fs::path& from, const fs::path& to) {
     const std::vector<std::byte> bytes = readFile(from);
     FileHandle stream = openFile(to, "wb");
@@ -92,6 +103,33 @@ void syncFolder(const fs::path& folder) {
 // Returns the name of a temporary file for `target`: ".STEM.PROCESS-COUNT.EXTENSION".
 std::string temporaryName(const fs::path& target, std::string_view number) {
     return fmt::format(".{}.{}{}", target.stem().string(), number, target.extension().string());
+}
+
+// Temporary files of this process.
+class PendingNames {
+public:
+    void add(const fs::path& path) {
+        const std::scoped_lock lock(mutex_);
+        names_.insert(path);
+    }
+    void remove(const fs::path& path) {
+        const std::scoped_lock lock(mutex_);
+        names_.erase(path);
+    }
+    void removeFiles() {
+        const std::scoped_lock lock(mutex_);
+        std::error_code ignored;
+        for (const fs::path& name : names_) fs::remove(name, ignored);
+    }
+
+private:
+    std::mutex mutex_;
+    std::set<fs::path> names_;
+};
+
+PendingNames& pendingNames() {
+    static PendingNames names;
+    return names;
 }
 
 // Removes the temporary files of `target` that killed processes have left.
@@ -118,12 +156,33 @@ std::vector<std::byte> readFile(const fs::path& path) {
         fail("{} is a device or a pipe, not a file", path.string());
     const FileHandle file = openFile(path, "rb");
     if (!file) fail("cannot read {}: {}", path.string(), reason(errno));
-    std::vector<std::byte> bytes;
-    std::byte chunk[1 << 16];
-    while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file.get()))
-        bytes.insert(bytes.end(), chunk, chunk + count);
-    if (std::ferror(file.get()) != 0) fail("cannot read {}: {}", path.string(), reason(errno));
-    return bytes;
+    return allBytes(file.get(), path);
+}
+
+std::optional<std::vector<std::byte>> readOwnFile(const fs::path& path) {
+    // O_NONBLOCK: opening a pipe would wait for its writer. The type is that of the opened file, so that no other
+    // process can exchange the file between test and reading.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const FileHandle file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "rb"), &std::fclose);
+    if (!file) {
+        const bool absent = errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO;
+        if (absent) return {};
+        fail("cannot read {}: {}", path.string(), reason(errno));
+    }
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return {};
+    return allBytes(file.get(), path);
+}
+
+void createOwnFolder(const fs::path& folder) {
+    std::error_code status;
+    if (fs::is_directory(folder, status)) return;
+    fs::path full = fs::absolute(folder).lexically_normal();
+    if (!full.has_filename()) full = full.parent_path();  // of "folder/"
+    fs::create_directories(full.parent_path(), status);
+    if (status) fail("cannot create {}: {}", folder.string(), status.message());
+    if (::mkdir(full.c_str(), 0700) != 0 && !fs::is_directory(full, status))
+        fail("cannot create {}: {}", folder.string(), reason(errno));
 }
 
 fs::path fileWithin(const fs::path& folder, const fs::path& relative) {
@@ -137,25 +196,21 @@ fs::path fileWithin(const fs::path& folder, const fs::path& relative) {
     return path;
 }
 
-void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
-    PendingFile pending(path);
-    FileHandle file = openFile(pending.temporaryPath(), "wb");
-    if (!file) fail("cannot write {}: {}", path.string(), reason(errno));
-    const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    if (!written || std::fclose(file.release()) != 0) fail("cannot write {}: {}", path.string(), reason(errno));
+void writeFile(const fs::path& path, std::span<const std::byte> bytes, NamedBy namer) {
+    PendingFile pending(path, namer);
+    pending.write(bytes);
     pending.commit();
 }
 
-void writeFile(const fs::path& path, std::string_view text) {
-    writeFile(path, std::as_bytes(std::span(text)));
+void writeFile(const fs::path& path, std::string_view text, NamedBy namer) {
+    writeFile(path, std::as_bytes(std::span(text)), namer);
 }
 
-PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(isStream(target_)) {
+PendingFile::PendingFile(fs::path target, NamedBy namer)
+    : target_(std::move(target)), stream_(namer == NamedBy::user && isStream(target_)) {
     static std::atomic<unsigned> counter = 0;
-    if (!stream_) {
-        target_ = followed(target_);
-        removeAbandonedOf(target_);
-    }
+    if (namer == NamedBy::user && !stream_) target_ = followed(target_);
+    if (!stream_) removeAbandonedOf(target_);
     while (descriptor_ < 0) {
         temporary_ = stream_ ? fs::temp_directory_path() / target_.filename() : target_;
         temporary_.replace_filename(temporaryName(target_, fmt::format("{}-{}", ::getpid(), counter++)));
@@ -164,12 +219,22 @@ PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(
         if (descriptor_ < 0 && errno != EEXIST) fail("cannot write {}: {}", target_.string(), reason(errno));
         if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));
     }
+    pendingNames().add(temporary_);
 }
 
 PendingFile::~PendingFile() {
     std::error_code ignored;
     if (!committed_) fs::remove(temporary_, ignored);
+    pendingNames().remove(temporary_);
     ::close(descriptor_);
+}
+
+void PendingFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) fail("cannot write {}: {}", target_.string(), reason(errno));
+        bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    }
 }
 
 void PendingFile::commit() {
@@ -182,6 +247,10 @@ void PendingFile::commit() {
     if (status) fail("cannot write {}: {}", target_.string(), status.message());
     committed_ = true;
     syncFolder(target_.parent_path());
+}
+
+void removePendingFiles() {
+    pendingNames().removeFiles();
 }
 
 void removeAbandoned(const fs::path& temporary) {

@@ -1,12 +1,13 @@
 #pragma once
 // Atomic reads and writes of complete files. Data goes to a temporary file beside the target, is flushed to disk, and
 // is renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
-// Concurrent writers use separate temporary files; the last rename wins. Symbolic links are followed: the linked file
-// is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a copy of the complete data
-// instead.
+// Concurrent writers use separate temporary files; the last rename wins. Symbolic links at a name that the user gives
+// are followed: the linked file is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a
+// copy of the complete data instead. Neither holds for files that the program names itself: see NamedBy.
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,13 +18,26 @@ namespace defocus::engine {
 // file is missing, unreadable, a directory, a device or a pipe.
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
+// Returns the bytes of a file that the program names itself, such as a cache entry. Returns nullopt if the file is
+// missing or isn't a regular file: links are not followed, and a pipe is never waited for. Throws Error if it is
+// unreadable.
+std::optional<std::vector<std::byte>> readOwnFile(const std::filesystem::path& path);
+
+// Creates a folder for files that the program names itself; only the user may enter it (mode 0700). Missing parents get
+// the default mode. Does nothing if the folder, or a link to one, exists. Throws Error on failure.
+void createOwnFolder(const std::filesystem::path& folder);
+
 // Returns the path of `relative` inside `folder`, for a path that comes from another file. Throws Error if `relative`
 // is absolute, leaves the folder, or is a device, pipe or directory. A missing file is not an error.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
+// Origin of a file's name. The program never creates links, pipes or devices, so those at a name of the program are
+// replaced by the file, and nothing is written through them.
+enum class NamedBy { user, program };
+
 // Creates or atomically replaces the file at `path`. Throws Error, with the path in its message, if writing fails.
-void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
-void writeFile(const std::filesystem::path& path, std::string_view text);
+void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes, NamedBy namer = NamedBy::user);
+void writeFile(const std::filesystem::path& path, std::string_view text, NamedBy namer = NamedBy::user);
 
 // New empty temporary file beside `target` with the same extension, for writers that need a path, such as ffmpeg. The
 // destructor removes the temporary file unless `commit()` has renamed it over the target. Temporary files that killed
@@ -31,12 +45,14 @@ void writeFile(const std::filesystem::path& path, std::string_view text);
 class PendingFile {
 public:
     // Throws Error, with the target's path in its message, if the temporary file cannot be created.
-    explicit PendingFile(std::filesystem::path target);
+    explicit PendingFile(std::filesystem::path target, NamedBy namer = NamedBy::user);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     [[nodiscard]] const std::filesystem::path& temporaryPath() const { return temporary_; }
+    // Appends to the temporary file. Throws Error on failure.
+    void write(std::span<const std::byte> bytes);
     // Flushes the temporary file to disk and renames it over the target. Copies the data instead if the target is a
     // device or pipe. Throws Error on failure.
     void commit();
@@ -48,6 +64,9 @@ private:
     int descriptor_ = -1;  // holds the lock on the temporary file until destruction
     bool committed_ = false;
 };
+
+// Removes the temporary files of all PendingFile objects of this process, which ends without destructors afterwards.
+void removePendingFiles();
 
 // Removes a temporary file that a killed process left behind. Does nothing while a process still writes the file.
 void removeAbandoned(const std::filesystem::path& temporary);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "gl/shader_cache.h"
 
 namespace defocus::engine {
 
@@ -215,6 +216,7 @@ bool currentIsSoftware() {
 }
 
 std::unique_ptr<GlContext> createHeadlessContext() {
+    protectShaderCache();
     auto context = std::make_unique<HeadlessContext>();
     std::string reasons;
     for (const Candidate& candidate : candidates()) {

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "gl/shader_cache.h"
 #include "image/tone_map.h"
 
 namespace defocus::engine {
@@ -75,6 +76,7 @@ int heldModifiers(GLFWwindow* window) {
 }  // namespace
 
 Window::Window(const WindowOptions& options) {
+    protectShaderCache();
     if (glfwInit() != GLFW_TRUE) fail("cannot open a window: {}; {}", lastFault(), withoutWindow);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

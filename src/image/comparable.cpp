@@ -20,7 +20,7 @@ bool copyColour(const float* pixel, int channels, float* rgb) {
 
 }  // namespace
 
-ComparablePair comparablePair(const ImageView& reference, const ImageView& test) {
+void checkComparable(const ImageView& reference, const ImageView& test) {
     if (reference.width != test.width || reference.height != test.height)
         fail("images of different sizes cannot be compared: {}x{} and {}x{}", reference.width, reference.height,
              test.width, test.height);
@@ -29,7 +29,10 @@ ComparablePair comparablePair(const ImageView& reference, const ImageView& test)
         if (!coversItsPixels(image))
             fail("an image of {}x{} px with {} channels needs more than its {} values", image.width, image.height,
                  image.channels, image.pixels.size());
+}
 
+ComparablePair comparablePair(const ImageView& reference, const ImageView& test) {
+    checkComparable(reference, test);
     const int width = reference.width;
     ComparablePair pair{Image(width, reference.height, 3), Image(width, reference.height, 3), {}};
     pair.state.resize(pair.reference.pixels.size() / 3);

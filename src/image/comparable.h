@@ -18,6 +18,9 @@ struct ComparablePair {
     std::vector<PixelState> state;  // width · height entries, top row first
 };
 
+// Throws Error if the sizes differ, or if an image is empty or has the wrong number of values.
+void checkComparable(const ImageView& reference, const ImageView& test);
+
 // Returns the prepared images. Throws Error if the sizes differ, or if an image is empty or has the wrong number of
 // values.
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test);

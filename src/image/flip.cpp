@@ -301,6 +301,12 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
 
 }  // namespace
 
+int flipRadius(double pixelsPerDegree) {
+    const std::size_t widest =
+        std::max(spatialFilters(pixelsPerDegree).achromatic.size(), featureFilters(pixelsPerDegree).smooth.size());
+    return static_cast<int>(widest / 2);  // all kernels of a kind have the same size
+}
+
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr,
                    double pixelsPerDegree) {
     checkOptions(hdr, pixelsPerDegree);

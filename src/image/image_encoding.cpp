@@ -1,9 +1,11 @@
 #include "image/image_encoding.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
+#include "core/source_date.h"
 #include "image/oiio_names.h"
 #include "image/quantise.h"
 
@@ -85,6 +87,10 @@ OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, co
     if (kind == FileKind::jpeg) spec.attribute("Compression", "jpeg:95");
     for (const auto& [attribute, value] : metadata)
         if (kind != FileKind::jpeg || attribute == "comments") std::visit(MetadataWriter{spec, kind, attribute}, value);
+    // OpenImageIO adds the current time to an EXR file without a date.
+    if (const std::optional<std::time_t> date = sourceDate();
+        date && kind == FileKind::exr && !metadata.contains("capDate"))
+        spec.attribute(oiioNameOf("capDate"), utcText(*date, "%Y:%m:%d %H:%M:%S"));
     return spec;
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -33,6 +34,26 @@ using defocus::writeImage;
 // Same as readImage of the public API, and sets `metadata` to the file's attributes under EXR names. Numbers from PNG
 // files are strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
+
+// Reads an image in strips of rows, as readImage does, for images that do not fit into memory. Formats whose decoder
+// only returns complete images (interlaced PNG, tiled TIFF and EXR) are kept in memory.
+class StripReader {
+public:
+    // Throws Error if the file cannot be read.
+    explicit StripReader(const std::filesystem::path& path);
+    ~StripReader();
+    StripReader(StripReader&&) noexcept;
+
+    [[nodiscard]] int width() const;
+    [[nodiscard]] int height() const;
+    // Returns rows [first, first + count), valid until the next call. A strip may begin within the previous strip, but
+    // not before its first row. Throws Error if the rows cannot be read.
+    ImageView rows(int first, int count);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 // Same as writeImage of the public API, with metadata. EXR files store all metadata and add capDate if it is missing.
 // PNG files store metadata as text; JPEG files store only `comments`.

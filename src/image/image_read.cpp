@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -21,6 +22,7 @@
 #include "image/exr_structure.h"
 #include "image/image_io.h"
 #include "image/oiio_names.h"
+#include "image/packed_pixels.h"
 #include "image/png_structure.h"
 
 namespace defocus::engine {
@@ -139,16 +141,20 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
     return channels;
 }
 
-// Returns the given channels of all pixels, interleaved.
+// Returns the given channels of rows [firstRow, firstRow + rowCount), interleaved.
 template <typename T>
-std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
+std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name, int firstRow,
+                            int rowCount) {
     const int first = *std::ranges::min_element(channels);
     const int end = *std::ranges::max_element(channels) + 1;
     const std::size_t stride = static_cast<std::size_t>(end - first);
-    const std::size_t pixels = std::size_t(image.spec.width) * std::size_t(image.spec.height);
+    const std::size_t pixels = std::size_t(image.spec.width) * std::size_t(rowCount);
     std::vector<T> read(pixels * stride);
-    const bool complete =
-        image.input->read_image(0, 0, first, end, OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value), read.data());
+    const OIIO::TypeDesc type(OIIO::BaseTypeFromC<T>::value);
+    const int top = image.spec.y + firstRow;
+    const bool complete = rowCount == image.spec.height ? image.input->read_image(0, 0, first, end, type, read.data())
+                                                        : image.input->read_scanlines(0, 0, top, top + rowCount, 0,
+                                                                                      first, end, type, read.data());
     // For truncated data, libjpeg only warns and fills the missing pixels.
     const std::string message = image.input->geterror();
     if (!complete || message.find("Premature end") != std::string::npos)
@@ -162,6 +168,12 @@ std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, 
         for (std::size_t c = 0; c < channels.size(); ++c)
             chosen[i * channels.size() + c] = read[i * stride + std::size_t(channels[c] - first)];
     return chosen;
+}
+
+// Returns the given channels of all pixels, interleaved.
+template <typename T>
+std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
+    return readChannels<T>(image, channels, name, 0, image.spec.height);
 }
 
 bool isEncoded(const OIIO::ImageSpec& spec) {
@@ -181,6 +193,36 @@ void linearise(Image& image, bool encoded, bool straightAlpha) {
         }
     });
 }
+
+// Opened image file whose rows are read as linear, premultiplied colours.
+class ColourFile {
+public:
+    explicit ColourFile(const std::filesystem::path& path) : name_(path.string()) {
+        const std::vector<std::byte> encoded = readFile(path);
+        if (encoded.empty()) fail("cannot read {}: the file is empty", name_);
+        const auto format = formatOf(encoded);
+        if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name_);
+        file_ = openImage(encoded, *format, name_);
+        channels_ = colourChannels(file_.spec, name_);
+    }
+
+    [[nodiscard]] const OIIO::ImageSpec& spec() const { return file_.spec; }
+    [[nodiscard]] int channels() const { return static_cast<int>(channels_.size()); }
+    Image read(int first, int count) {
+        Image image;
+        image.width = spec().width;
+        image.height = count;
+        image.channels = channels();
+        image.pixels = readChannels<float>(file_, channels_, name_, first, count);
+        linearise(image, isEncoded(spec()), spec().get_int_attribute("oiio:UnassociatedAlpha") != 0);
+        return image;
+    }
+
+private:
+    std::string name_;
+    OpenImage file_;
+    std::vector<int> channels_;
+};
 
 std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     const OIIO::TypeDesc type = attribute.type();
@@ -209,27 +251,55 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
     return metadata;
 }
 
+struct StripReader::State {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    bool tiled = false;
+    std::function<Image(int first, int count)> read;
+    Image strip;    // rows of the latest call; the complete image if the file has tiles
+    int begin = 0;  // first row of the strip
+};
+
+StripReader::StripReader(const std::filesystem::path& path) {
+    const auto file = std::make_shared<ColourFile>(path);
+    const OIIO::ImageSpec& spec = file->spec();
+    const auto read = [file](int first, int count) { return file->read(first, count); };
+    state_ = std::make_unique<State>(State{spec.width, spec.height, file->channels(), spec.tile_width > 0, read, {}});
+}
+StripReader::~StripReader() = default;
+StripReader::StripReader(StripReader&&) noexcept = default;
+
+int StripReader::width() const {
+    return state_->width;
+}
+
+int StripReader::height() const {
+    return state_->height;
+}
+
+ImageView StripReader::rows(int first, int count) {
+    State& s = *state_;
+    if (s.tiled && s.strip.empty()) s.strip = s.read(0, s.height);
+    if (s.tiled) return rowsOf(s.strip, first, count);
+
+    // Move the rows that the strips share to the front; then append the others.
+    const int end = s.begin + s.strip.height;
+    assert(first >= s.begin && first <= end && count >= 1 && first + count <= s.height);
+    const int kept = std::min(count, end - first);
+    Image strip(s.width, count, s.channels);
+    const ImageView shared = rowsOf(s.strip, first - s.begin, kept);
+    std::ranges::copy(shared.pixels, strip.pixels.begin());
+    if (kept < count) std::ranges::copy(s.read(end, count - kept).pixels, strip.at(0, kept));
+    s.strip = std::move(strip);
+    s.begin = first;
+    return s.strip;
+}
+
 Image readImage(const std::filesystem::path& path, Metadata& metadata) {
-    // Read the file and detect its format.
-    const std::string name = path.string();
-    const std::vector<std::byte> encoded = readFile(path);
-    if (encoded.empty()) fail("cannot read {}: the file is empty", name);
-    const auto format = formatOf(encoded);
-    if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name);
-
-    // Decode the pixels as floats.
-    OpenImage file = openImage(encoded, *format, name);
-    const std::vector<int> channels = colourChannels(file.spec, name);
-    Image image;
-    image.width = file.spec.width;
-    image.height = file.spec.height;
-    image.channels = static_cast<int>(channels.size());
-    image.pixels = readChannels<float>(file, channels, name);
-
-    // Convert to linear, premultiplied colours.
-    linearise(image, isEncoded(file.spec), file.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0);
-    metadata = metadataOf(file.spec);
-    return image;
+    ColourFile file(path);
+    metadata = metadataOf(file.spec());
+    return file.read(0, file.spec().height);
 }
 
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata) {

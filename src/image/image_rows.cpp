@@ -19,20 +19,13 @@
 #include "image/image_encoding.h"
 #include "image/image_read.h"
 #include "image/oiio_names.h"
+#include "image/packed_pixels.h"
 
 namespace defocus::engine {
 
 namespace {
 
 constexpr int rowsAtOnce = 64;  // max rows encoded per call; a multiple of EXR's 16-row blocks
-
-ImageView rowsOf(const ImageView& image, int first, int count) {
-    const std::size_t row = image.strides.row;
-    ImageView rows = image;
-    rows.height = count;
-    rows.pixels = image.pixels.subspan(static_cast<std::size_t>(first) * row, static_cast<std::size_t>(count) * row);
-    return rows;
-}
 
 // Returns the first 64 KiB of a file, enough for checkExrHeader.
 std::vector<std::byte> beginOf(const std::filesystem::path& path) {
@@ -93,8 +86,12 @@ private:
 // ---- writing --------------------------------------------------------------------------------------------------------
 
 struct ImageRowWriter::State {
-    State(const std::filesystem::path& path, const WriteOptions& write)
-        : name(path.string()), kind(fileKind(path)), options(write), pending(path), file(pending.temporaryPath()) {}
+    State(const std::filesystem::path& path, const WriteOptions& write, NamedBy namer)
+        : name(path.string()),
+          kind(fileKind(path)),
+          options(write),
+          pending(path, namer),
+          file(pending.temporaryPath()) {}
 
     [[noreturn]] void failed() {
         const std::string reason = file.failure() != 0 ? std::strerror(file.failure()) : firstLine(output->geterror());
@@ -122,8 +119,9 @@ struct ImageRowWriter::State {
 };
 
 ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels,
-                               const Metadata& metadata, const WriteOptions& options, const RowPlace& place)
-    : state_(std::make_unique<State>(path, options)) {
+                               const Metadata& metadata, const WriteOptions& options, const RowPlace& place,
+                               NamedBy namer)
+    : state_(std::make_unique<State>(path, options, namer)) {
     State& s = *state_;
     s.channels = channels;
     s.spec = imageSpec(s.kind, width, height, channels, metadata);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/file.h"
 #include "image/image_io.h"
 
 namespace defocus::engine {
@@ -19,7 +20,7 @@ class ImageRowWriter {
 public:
     // Throws Error, with the path in its message, if the file cannot be created. `place` is ignored except for EXR.
     ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels, const Metadata& metadata,
-                   const WriteOptions& options = {}, const RowPlace& place = {});
+                   const WriteOptions& options = {}, const RowPlace& place = {}, NamedBy namer = NamedBy::user);
     ~ImageRowWriter();  // deletes the temporary file unless finish() was called
     ImageRowWriter(ImageRowWriter&&) noexcept;
 

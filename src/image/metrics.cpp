@@ -1,13 +1,16 @@
 #include "image/metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "image/comparable.h"
+#include "image/packed_pixels.h"
 #include "image/separable_filter.h"
 #include "image/tone_map.h"
 
@@ -41,50 +44,51 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
                       static_cast<std::size_t>(x)];
 }
 
-// Sets MAE, RMSE, PSNR, the maximum error and the pixel counts of `difference`. Sums are formed per row and added in
-// row order, so that the result does not depend on the number of cores.
-void measureErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask,
-                   Difference& difference) {
-    std::vector<ErrorSums> rows(static_cast<std::size_t>(displayA.height));
-    forEachRow(displayA.height, [&](int y) {
-        ErrorSums& row = rows[static_cast<std::size_t>(y)];
-        for (int x = 0; x < displayA.width; ++x) {
-            if (!counts(mask, x, y)) continue;
-            const PixelState state = stateAt(pair, x, y);
-            ++row.pixels;
-            if (state != PixelState::finite) ++row.nonFinite;
-            for (int c = 0; c < 3; ++c) {
-                const double error = state == PixelState::nonFiniteInOne
-                                         ? 1.0
-                                         : std::abs(double(displayA.at(x, y)[c]) - double(displayB.at(x, y)[c]));
-                row.absolute += error;
-                row.squared += error * error;
-                if (error > row.largest) {
-                    row.largest = error;
-                    row.largestColumn = x;
-                }
+// Rows of the image that are compared together, and the margin above and below that the filters need.
+struct Strip {
+    int first = 0;  // compared rows
+    int end = 0;
+    int from = 0;  // rows with margins
+    int to = 0;
+};
+
+// Divides the image into strips that fit into memory together with all intermediate planes.
+std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
+    constexpr double bytesPerPixel = 160;  // measured maximum: HDR-FLIP
+    const int margin = std::max(windowRadius, flipRadius());
+    const double fitting = static_cast<double>(maxBytes) / (bytesPerPixel * width);
+    const int rows = std::max(static_cast<int>(std::min(fitting, 1e9)) - 2 * margin, margin);
+    std::vector<Strip> strips;
+    for (int first = 0; first < height; first += rows) {
+        const int end = height - first > rows ? first + rows : height;
+        strips.push_back({first, end, std::max(0, first - margin), std::min(height - margin, end) + margin});
+    }
+    for (Strip& strip : strips) strip.to = std::min(strip.to, height);
+    return strips;
+}
+
+// Returns the errors of one row of the strip. `row` counts within the strip, `maskRow` within the image.
+ErrorSums rowErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask, int y,
+                    int maskRow) {
+    ErrorSums row;
+    for (int x = 0; x < displayA.width; ++x) {
+        if (!counts(mask, x, maskRow)) continue;
+        const PixelState state = stateAt(pair, x, y);
+        ++row.pixels;
+        if (state != PixelState::finite) ++row.nonFinite;
+        for (int c = 0; c < 3; ++c) {
+            const double error = state == PixelState::nonFiniteInOne
+                                     ? 1.0
+                                     : std::abs(double(displayA.at(x, y)[c]) - double(displayB.at(x, y)[c]));
+            row.absolute += error;
+            row.squared += error * error;
+            if (error > row.largest) {
+                row.largest = error;
+                row.largestColumn = x;
             }
         }
-    });
-
-    ErrorSums total;
-    for (std::size_t y = 0; y < rows.size(); ++y) {
-        total.absolute += rows[y].absolute;
-        total.squared += rows[y].squared;
-        total.pixels += rows[y].pixels;
-        total.nonFinite += rows[y].nonFinite;
-        if (rows[y].largest <= total.largest) continue;
-        total.largest = rows[y].largest;
-        difference.maxError = total.largest;
-        difference.maxErrorPixel = {rows[y].largestColumn, static_cast<int>(y)};
     }
-    const double values = 3.0 * static_cast<double>(std::max<std::uint64_t>(total.pixels, 1));
-    difference.mae = total.absolute / values;
-    difference.rmse = std::sqrt(total.squared / values);
-    difference.psnr =
-        total.squared > 0 ? 10 * std::log10(values / total.squared) : std::numeric_limits<double>::infinity();
-    difference.pixelCount = total.pixels;
-    difference.nonFinite = total.nonFinite;
+    return row;
 }
 
 DoublePlane luma(const Image& display) {
@@ -142,57 +146,137 @@ DoublePlane similarityMap(const ComparablePair& pair, const Image& displayA, con
     return similarity;
 }
 
-double meanSimilarity(const DoublePlane& similarity, const Image* mask) {
-    const auto meanInside = [&](int margin) -> std::optional<double> {
-        double total = 0;
-        std::uint64_t pixels = 0;
-        for (int y = margin; y < similarity.height - margin; ++y)
-            for (int x = margin; x < similarity.width - margin; ++x)
-                if (counts(mask, x, y)) {
-                    total += similarity.row(y)[x];
-                    ++pixels;
-                }
-        if (pixels == 0) return std::nullopt;
-        return total / static_cast<double>(pixels);
-    };
-    if (const auto inside = meanInside(windowRadius)) return *inside;
-    return meanInside(0).value_or(1.0);
-}
-
-double meanValue(const Image& map, const Image* mask) {
+struct Mean {
     double total = 0;
     std::uint64_t pixels = 0;
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x)
-            if (counts(mask, x, y)) {
-                total += *map.at(x, y);
-                ++pixels;
+    void add(double value) {
+        total += value;
+        ++pixels;
+    }
+    [[nodiscard]] double orElse(double empty) const { return pixels > 0 ? total / static_cast<double>(pixels) : empty; }
+};
+
+// Sums over the strips of an image. Values are added row by row, so that the result depends neither on the number of
+// cores nor on the strips.
+class DifferenceSums {
+public:
+    DifferenceSums(int width, int height, const CompareOptions& options)
+        : width_(width), height_(height), options_(options) {}
+
+    // `reference` and `test` are the strip's rows with margins.
+    void add(const Strip& strip, const ImageView& reference, const ImageView& test) {
+        // Convert both images to finite RGB over black, then to display-encoded values.
+        const ComparablePair pair = comparablePair(reference, test);
+        const Image displayA = displayEncoded(pair.reference);
+        const Image displayB = displayEncoded(pair.test);
+        addErrors(strip, pair, displayA, displayB);
+        addSimilarity(strip, similarityMap(pair, displayA, displayB));
+    }
+
+    void addFlip(const Strip& strip, const ImageView& reference, const ImageView& test) {
+        const Image map = flipErrorMap(reference, test, options_.hdrFlip);
+        for (int y = strip.first; y < strip.end; ++y)
+            for (int x = 0; x < width_; ++x)
+                if (counts(options_.mask, x, y)) flip_.add(*map.at(x, y - strip.from));
+        if (!options_.takeFlip) return;
+        const auto row = static_cast<std::size_t>(width_);
+        const std::span<const float> values(map.at(0, strip.first - strip.from),
+                                            row * static_cast<std::size_t>(strip.end - strip.first));
+        options_.takeFlip(ImageView(width_, strip.end - strip.first, 1, values));
+    }
+
+    [[nodiscard]] Difference difference() const {
+        Difference difference;
+        const double values = 3.0 * static_cast<double>(std::max<std::uint64_t>(errors_.pixels, 1));
+        difference.mae = errors_.absolute / values;
+        difference.rmse = std::sqrt(errors_.squared / values);
+        difference.psnr =
+            errors_.squared > 0 ? 10 * std::log10(values / errors_.squared) : std::numeric_limits<double>::infinity();
+        if (largestRow_ >= 0) {
+            difference.maxError = errors_.largest;
+            difference.maxErrorPixel = {errors_.largestColumn, largestRow_};
+        }
+        difference.pixelCount = errors_.pixels;
+        difference.nonFinite = errors_.nonFinite;
+        difference.ssim = inside_.orElse(all_.orElse(1));
+        difference.flip = flip_.orElse(0);
+        return difference;
+    }
+
+private:
+    void addErrors(const Strip& strip, const ComparablePair& pair, const Image& displayA, const Image& displayB) {
+        std::vector<ErrorSums> rows(static_cast<std::size_t>(strip.end - strip.first));
+        forEachRow(strip.end - strip.first, [&](int i) {
+            const int y = strip.first + i;
+            rows[static_cast<std::size_t>(i)] = rowErrors(pair, displayA, displayB, options_.mask, y - strip.from, y);
+        });
+        for (int y = strip.first; y < strip.end; ++y) {
+            const ErrorSums& row = rows[static_cast<std::size_t>(y - strip.first)];
+            errors_.absolute += row.absolute;
+            errors_.squared += row.squared;
+            errors_.pixels += row.pixels;
+            errors_.nonFinite += row.nonFinite;
+            if (row.largest <= errors_.largest) continue;
+            errors_.largest = row.largest;
+            errors_.largestColumn = row.largestColumn;
+            largestRow_ = y;
+        }
+    }
+
+    void addSimilarity(const Strip& strip, const DoublePlane& similarity) {
+        for (int y = strip.first; y < strip.end; ++y) {
+            const bool rowInside = y >= windowRadius && y < height_ - windowRadius;
+            for (int x = 0; x < width_; ++x) {
+                if (!counts(options_.mask, x, y)) continue;
+                const double value = similarity.row(y - strip.from)[x];
+                all_.add(value);
+                if (rowInside && x >= windowRadius && x < width_ - windowRadius) inside_.add(value);
             }
-    return pixels > 0 ? total / static_cast<double>(pixels) : 0.0;
-}
+        }
+    }
+
+    int width_, height_;
+    const CompareOptions& options_;
+    ErrorSums errors_;
+    int largestRow_ = -1;
+    Mean inside_;  // SSIM of pixels whose window lies inside the image
+    Mean all_;     // SSIM of all pixels
+    Mean flip_;
+};
 
 }  // namespace
 
-Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
-    // Convert both images to finite RGB over black, then to display-encoded values.
-    const ComparablePair pair = comparablePair(reference, test);
+Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
+                         std::uint64_t maxBytes) {
     const Image* mask = options.mask;
     if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height || mask->channels != 1))
         fail("comparison mask: {}x{} with {} channels, but the images need {}x{} with 1", mask->width, mask->height,
              mask->channels, reference.width, reference.height);
-    const Image displayA = displayEncoded(pair.reference);
-    const Image displayB = displayEncoded(pair.test);
+    DifferenceSums sums(reference.width, reference.height, options);
+    for (const Strip& strip : stripsOf(reference.width, reference.height, maxBytes)) {
+        const ImageView a = reference.rows(strip.from, strip.to - strip.from);
+        const ImageView b = test.rows(strip.from, strip.to - strip.from);
+        sums.add(strip, a, b);
+        sums.addFlip(strip, a, b);
+    }
+    return sums.difference();
+}
 
-    // Compute per-channel errors.
-    Difference difference;
-    measureErrors(pair, displayA, displayB, mask, difference);
-
-    // Compute the metrics that use a neighbourhood of each pixel.
-    difference.ssim = meanSimilarity(similarityMap(pair, displayA, displayB), mask);
-    Image flip = flipErrorMap(reference, test, options.hdrFlip);
-    difference.flip = meanValue(flip, mask);
-    if (options.flipMap != nullptr) *options.flipMap = std::move(flip);
-    return difference;
+Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
+    checkComparable(reference, test);
+    const auto strips = [](const ImageView& image) {
+        return ImageStrips{image.width, image.height,
+                           [image](int first, int count) { return rowsOf(image, first, count); }};
+    };
+    CompareOptions own = options;
+    if (options.flipMap != nullptr) {
+        *options.flipMap = Image(reference.width, reference.height, 1);
+        own.takeFlip = [&, taken = std::size_t{0}](const ImageView& rows) mutable {
+            std::ranges::copy(rows.pixels, options.flipMap->pixels.begin() + static_cast<std::ptrdiff_t>(taken));
+            taken += rows.pixels.size();
+        };
+    }
+    return compareStrips(strips(reference), strips(test), own);
 }
 
 }  // namespace defocus::engine

@@ -14,6 +14,8 @@
 // SSIM 0, FLIP 1). If it is non-finite in both images, it counts as equal. Such pixels do not affect the windows of
 // their neighbours. Their number is reported.
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "image/flip.h"
@@ -25,7 +27,23 @@ struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
     const Image* mask = nullptr;            // 1 channel; only pixels where the mask is > 0 are compared
     Image* flipMap = nullptr;               // if set: receives FLIP per pixel, regardless of the mask; 1 channel
+    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: receives the same in strips, from the top
 };
+
+// Image that is read in strips of rows, from the top. rows(first, count) returns linear rows, which are valid until the
+// next call. A strip may begin within the previous strip, but not before its first row.
+struct ImageStrips {
+    int width = 0;
+    int height = 0;
+    std::function<ImageView(int first, int count)> rows;
+};
+
+inline constexpr std::uint64_t defaultCompareBytes = std::uint64_t{512} << 20;
+
+// Same as compareImages below, bit for bit, with about `maxBytes` of memory beside the strips; more if 30 rows need
+// more. Both images must have the same size.
+Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
+                         std::uint64_t maxBytes = defaultCompareBytes);
 
 // Same as compareImages of the public API, with options. If no mask pixel is > 0, returns the values of equal images
 // and pixelCount 0.

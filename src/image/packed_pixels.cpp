@@ -13,6 +13,16 @@ bool coversItsPixels(const ImageView& view) {
     return last + static_cast<std::size_t>(view.channels) <= view.pixels.size();
 }
 
+ImageView rowsOf(const ImageView& image, int first, int count) {
+    const std::size_t begin = static_cast<std::size_t>(first) * image.strides.row;
+    const std::size_t size = static_cast<std::size_t>(count) * image.strides.row;
+    ImageView rows = image;
+    rows.height = count;
+    // Strides may leave a gap behind the last row, which the view doesn't cover.
+    rows.pixels = image.pixels.subspan(begin, std::min(size, image.pixels.size() - begin));
+    return rows;
+}
+
 PackedPixels::PackedPixels(const ImageView& view) : view_(view) {
     if (view.isPacked()) return;
     if (!coversItsPixels(view))

@@ -9,6 +9,9 @@ namespace defocus::engine {
 // below 1.
 bool coversItsPixels(const ImageView& view);
 
+// Returns a view of rows [first, first + count) of an image.
+ImageView rowsOf(const ImageView& image, int first, int count);
+
 // Pixels of a view, without gaps between rows or pixels. Pixels are copied only if the view has gaps; otherwise the
 // view's pixels must outlive this object.
 class PackedPixels {

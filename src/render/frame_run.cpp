@@ -1,5 +1,6 @@
 #include "render/frame_run.h"
 
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,8 +34,9 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
     planMilliseconds_ = 0;
     schedule_.reset();
     trial_.reset();
+    timed_ = stop.timeLimit.has_value();
     if (stop.given()) {
-        schedule_.emplace(settings, stop, measuredLevels(settings));
+        schedule_.emplace(settings, stop, measuredLevels(settings, stop));
         return startBlock(true);
     }
     if (stop.automatic) return startAutomatic(settings, *stop.automatic);
@@ -58,13 +60,13 @@ void FrameRun::startAutomatic(RenderSettings settings, Quality quality) {
 }
 
 // Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
-// detail, and compares the images. Returns nullopt with --lod off.
-std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
+// detail, and compares the images. Returns nullopt with --lod off, and if this takes half of the time limit.
+std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings, const StopSettings& stop) {
     if (settings.lod == LodMode::off) return {};
-    const auto drawn = [&] {
+    const auto drawn = [&]() -> std::optional<Image> {
         renderer_->start(planned(settings));
-        while (renderer_->advance()) {
-        }
+        while (advanceRenderer())
+            if (stop.timeLimit && millisecondsSince(begin_) > 500 * *stop.timeLimit) return {};
         return renderer_->image();
     };
     const auto withThresholdsFor = [&](std::uint32_t samples) {
@@ -76,13 +78,13 @@ std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
     const RenderSettings coarse = withThresholdsFor(LevelError::coarse);
     const RenderSettings fine = withThresholdsFor(LevelError::fine);
     settings.lod = LodMode::off;
-    const Image full = drawn();
-    LevelError error;
+    const std::optional<Image> full = drawn();
     settings = coarse;
-    error.atCoarse = encodedDifference(full, drawn());
+    const std::optional<Image> atCoarse = full ? drawn() : std::nullopt;
     settings = fine;
-    error.atFine = encodedDifference(full, drawn());
-    return error;
+    const std::optional<Image> atFine = atCoarse ? drawn() : std::nullopt;
+    if (!atFine) return {};
+    return LevelError{encodedDifference(*full, *atCoarse), encodedDifference(*full, *atFine)};
 }
 
 FramePlan FrameRun::planned(const RenderSettings& settings) {
@@ -93,6 +95,7 @@ FramePlan FrameRun::planned(const RenderSettings& settings) {
 }
 
 void FrameRun::startBlock(bool first) {
+    blockBegin_ = Clock::now();
     FramePlan plan = planned(schedule_->nextBlock());
     if (first)
         renderer_->start(plan);
@@ -105,14 +108,25 @@ void FrameRun::startBlock(bool first) {
     plan_ = std::move(plan);
 }
 
+// Draws one wave. A driver queues draws, so the frame's time is only known once they are finished.
+bool FrameRun::advanceRenderer() {
+    const bool more = renderer_->advance();
+    if (timed_) glFinish();
+    return more;
+}
+
 bool FrameRun::advance() {
-    if (renderer_->advance()) {
+    if (schedule_ && schedule_->stopped()) return false;
+    if (advanceRenderer()) {
         if (trial_ && 2 * samples() == plan_.samples.size()) trial_->estimate.add(renderer_->image(), samples());
         if (schedule_ && schedule_->wantsImage(samples())) schedule_->addImage(renderer_->image(), samples());
-        return true;
+        if (!timed_ || !schedule_->outOfTime(millisecondsSince(begin_) / 1000)) return true;
+        schedule_->endWithinBlock(renderer_->samples() - schedule_->samples());
+        before_.renderMilliseconds += millisecondsSince(blockBegin_);
+        return false;
     }
     if (trial_) return endTrial();
-    if (!schedule_ || schedule_->stopped()) return false;
+    if (!schedule_) return false;
     const bool more =
         schedule_->endBlock(plan_, millisecondsSince(begin_) / 1000, [this] { return renderer_->image(); });
     if (!more) return false;
@@ -124,6 +138,7 @@ bool FrameRun::advance() {
 // Returns false if the trial is good enough. Otherwise starts the frame again, in blocks.
 bool FrameRun::endTrial() {
     Trial& trial = *trial_;
+    if (trial.estimate.samples() == samples()) return false;  // the frame was complete before
     const bool halved = trial.estimate.samples() > 0;
     if (halved) trial.estimate.add(renderer_->image(), samples());
     const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);

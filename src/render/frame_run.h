@@ -24,7 +24,8 @@ public:
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
     // Starts a new frame. `stop` must pass checkStop. An automatic number of samples also needs a method that sums
-    // blocks (Method::sumsBlocks), and motion must not need one pose per sample.
+    // blocks (Method::sumsBlocks), and motion must not need one pose per sample. A time limit needs a current GL
+    // context.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave of samples. Returns false once the frame is complete.
     bool advance();
@@ -46,7 +47,8 @@ public:
 
 private:
     FramePlan planned(const RenderSettings& settings);
-    std::optional<LevelError> measuredLevels(RenderSettings settings);
+    std::optional<LevelError> measuredLevels(RenderSettings settings, const StopSettings& stop);
+    bool advanceRenderer();
     void startAutomatic(RenderSettings settings, Quality quality);
     void startBlock(bool first);
     bool endTrial();
@@ -67,6 +69,8 @@ private:
     FramePlan plan_;
     double planMilliseconds_ = 0;
     RenderStats before_;  // sums over all blocks before the latest
+    bool timed_ = false;  // the frame has a time limit
+    std::chrono::steady_clock::time_point blockBegin_;
     std::chrono::steady_clock::time_point begin_;
 };
 

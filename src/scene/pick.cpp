@@ -68,9 +68,8 @@ double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const P
 // Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
 // ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
 // space.
-double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject, const Ray& world,
-                       double nearest) {
-    const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);
+double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject,
+                       const glm::dmat4& objectFromWorld, const Ray& world, double nearest) {
     const Ray ray{glm::dvec3(objectFromWorld * glm::dvec4(world.origin, 1)),
                   glm::dvec3(objectFromWorld * glm::dvec4(world.direction, 0))};
     const bool invertible = std::isfinite(glm::dot(ray.origin, ray.origin)) &&
@@ -120,11 +119,13 @@ public:
             for (const glm::dvec3& position : positions_) bounds_.extend(position);
         }
         ball_ = ballAround(bounds_, deformed_ ? glm::dmat4(1) : object.worldFromObject);
+        objectFromWorld_ = deformed_ ? glm::dmat4(1) : glm::inverse(object.worldFromObject);
     }
 
     [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
         if (misses(world, ball_)) return nearest;
-        if (!deformed_) return engine::nearestCrossing(mesh_, bounds_, object_.worldFromObject, world, nearest);
+        if (!deformed_)
+            return engine::nearestCrossing(mesh_, bounds_, object_.worldFromObject, objectFromWorld_, world, nearest);
         if (!reaches(world, bounds_, nearest)) return nearest;
         return engine::nearestCrossing(mesh_, world, nearest, [&](std::uint32_t vertex) { return positions_[vertex]; });
     }
@@ -133,6 +134,7 @@ private:
     const Mesh& mesh_;
     Bounds bounds_;  // object space; world space if the object is deformed
     Ball ball_{};
+    glm::dmat4 objectFromWorld_{1};
     const Object& object_;
     bool deformed_;
     std::vector<glm::dvec3> positions_;  // world space; empty unless the object is deformed

@@ -62,6 +62,8 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "1 to 65536", {"--samples", "10000000"});
     expectFault(2, "1 to 65536", {"--samples", "-4"});
     expectFault(2, "1 to 65536", {"--samples", "1.5"});
+    expectFault(2, "1 to 65536, or auto", {"--samples", "-1"});
+    expectFault(2, "-60 to 60, or auto", {"--exposure", "foo"});
     expectFault(2, "--fstop", {"--fstop", "0"});
     expectFault(2, "--fstop", {"--fstop", "-1"});
     expectFault(2, "--focus-distance", {"--focus-distance", "0"});

@@ -17,12 +17,13 @@ using nlohmann::json;
 
 // ---- every option has a case ----------------------------------------------------------------------------------------
 
-// Options that have a test of their own below.
+// Options that have a test of their own, below if no file is named.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",
     " --verbose",
     " --shader-dir",
+    "render --keep-partial",  // stopping_gl_slow_test.cpp
     "bench speedup --allow-changed",
     "bench popping --allow-changed",
     "bench prediction --allow-changed",

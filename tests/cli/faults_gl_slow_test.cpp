@@ -234,6 +234,25 @@ TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
     }
 }
 
+// Mesa maps the index of its shader cache. Without room for the index, writing to it would end the program by SIGBUS.
+TEST_F(Faults, aFullDiskUnderTheShaderCacheIsNoCrash) {
+    fs::create_directory(folder() / "small");
+    std::ofstream(folder() / "inside.sh")
+        << "mount -t tmpfs -o size=16k tmpfs small || exit 9\n"
+           "XDG_CACHE_HOME=\"$PWD/small\" '" DEFOCUS_PROGRAM
+           "' render quads.gltf --size 64x48 --samples 2 -o a.png 2> said\necho $? > code\n";
+    const std::string command =
+        "cd '" + folder().string() + "' && unshare --map-root-user --user --mount sh inside.sh > /dev/null 2>&1";
+    if (std::system(command.c_str()) != 0 || !fs::exists(folder() / "code"))
+        GTEST_SKIP() << "no small file system can be mounted here (unshare)";
+    EXPECT_EQ(bytesOf("code"), "0\n") << bytesOf("said");
+    EXPECT_TRUE(fs::exists(folder() / "a.png"));
+    const std::string text = bytesOf("said");
+    const std::size_t warning = text.find("the driver's shader cache is off for this run");
+    EXPECT_NE(warning, std::string::npos) << text;
+    EXPECT_EQ(text.find("shader cache is off", warning + 30), std::string::npos) << text;
+}
+
 TEST_F(Faults, aReaderThatGoesAwayIsNoCrash) {
     for (const Words& words : {Words{"info", "quads.gltf"},
                                {"plan", "quads.gltf", "--json"},

@@ -116,6 +116,37 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
+// Files that the program names itself never lead elsewhere: a link, a link to nothing and a pipe are replaced.
+TEST_F(Files, ownFilesReplaceLinksAndPipes) {
+    fs::create_directory(folder_ / "far");
+    const fs::path victim = folder_ / "far" / "victim.txt";
+    writeFile(victim, std::string_view("before"));
+    fs::create_symlink(victim, folder_ / "link.txt");
+    fs::create_symlink(folder_ / "far" / "new.txt", folder_ / "dangling.txt");
+    ASSERT_EQ(::mkfifo((folder_ / "pipe.txt").c_str(), 0600), 0);
+    for (const char* name : {"link.txt", "dangling.txt", "pipe.txt", "missing.txt"}) {
+        const fs::path own = folder_ / name;
+        EXPECT_EQ(readOwnFile(own), std::nullopt) << name;
+        writeFile(own, std::string_view("after"), NamedBy::program);
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(own))) << name;
+        ASSERT_TRUE(readOwnFile(own)) << name;
+        EXPECT_EQ(textOf(own), "after");
+    }
+    EXPECT_EQ(textOf(victim), "before");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Files, ownFoldersAreForTheUserOnlyAndMayBeLinks) {
+    createOwnFolder(folder_ / "parent" / "own/");
+    EXPECT_EQ(fs::status(folder_ / "parent" / "own").permissions(), fs::perms::owner_all);
+    EXPECT_NE(fs::status(folder_ / "parent").permissions(), fs::perms::owner_all);
+    fs::create_directory_symlink("parent", folder_ / "link");
+    createOwnFolder(folder_ / "link");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+    writeFile(folder_ / "file", std::string_view("not a folder"));
+    EXPECT_NE(messageOf([&] { createOwnFolder(folder_ / "file" / "own"); }), "");
+}
+
 TEST_F(Files, aPipeGetsAllBytesAndStaysAPipe) {
     const fs::path pipe = folder_ / "pipe.json";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

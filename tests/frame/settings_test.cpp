@@ -130,7 +130,7 @@ TEST(Settings, unknownNamesSuggestTheNearest) {
         setByName(request, "samples", "0");
         FAIL() << "zero samples must be refused";
     } catch (const UsageError& error) {
-        EXPECT_STREQ(error.what(), "samples: '0' is not an integer from 1 to 65536");
+        EXPECT_STREQ(error.what(), "samples: '0' is not an integer from 1 to 65536, or auto");
     }
 }
 

@@ -205,6 +205,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     // With a time limit, render at least one frame, so that repeated runs eventually finish.
     const Clock::time_point start = Clock::now();
     bool first = true;
+    setStopMessage("stopped within a frame: finished frames are kept; repeat the command with --resume to continue");
     const auto stop = [&] {
         const std::optional<double> limit = arguments.request.timeLimit;
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;

@@ -1,11 +1,13 @@
 // defocus compare: measures the difference between two images.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "core/file.h"
 #include "image/colour_map.h"
 #include "image/image_io.h"
+#include "image/image_rows.h"
 #include "image/metrics.h"
 
 namespace defocus::engine {
@@ -97,10 +100,24 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
     row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
 }
 
-// Writes an error map: raw values to an EXR file, false colours to other formats.
-void writeErrorMap(const std::filesystem::path& path, const Image& flip) {
-    writeImage(path, path.extension() == ".exr" ? flip : colourMapped(flip));
-}
+// Writes an error map in strips: raw values to an EXR file, false colours to other formats.
+class ErrorMap {
+public:
+    ErrorMap(const std::filesystem::path& path, int width, int height)
+        : coloured_(path.extension() != ".exr"), writer_(path, width, height, coloured_ ? 3 : 1, {}) {}
+
+    void write(const ImageView& flip) {
+        if (!coloured_) return writer_.write(flip);
+        Image values(flip.width, flip.height, 1);
+        std::ranges::copy(flip.pixels, values.pixels.begin());
+        writer_.write(colourMapped(values));
+    }
+    void finish() { writer_.finish(); }
+
+private:
+    bool coloured_;
+    ImageRowWriter writer_;
+};
 
 void checkLimits(const CompareArguments& arguments, const Difference& difference) {
     std::string faults;
@@ -123,19 +140,26 @@ void runCompare(const CompareArguments& arguments) {
     }
 
     // Read and compare the images.
-    const Image reference = readImage(arguments.reference);
-    const Image test = readImage(arguments.test);
-    if (reference.width != test.width || reference.height != test.height)
-        fail("{} has {}x{} pixels, but {} has {}x{}; give images of the same size", arguments.reference.string(),
-             reference.width, reference.height, arguments.test.string(), test.width, test.height);
-    Image flip;
+    StripReader reference(arguments.reference);
+    StripReader test(arguments.test);
+    const int width = reference.width(), height = reference.height();
+    if (width != test.width() || height != test.height())
+        fail("{} has {}x{} pixels, but {} has {}x{}; give images of the same size", arguments.reference.string(), width,
+             height, arguments.test.string(), test.width(), test.height());
+    std::optional<ErrorMap> map;
     CompareOptions options;
     if (arguments.hdr) options.hdrFlip = arguments.hdrFlip;
-    options.flipMap = &flip;
-    const Difference difference = compareImages(reference, test, options);
+    if (!arguments.errorMap.empty()) {
+        map.emplace(arguments.errorMap, width, height);
+        options.takeFlip = [&](const ImageView& rows) { map->write(rows); };
+    }
+    const auto strips = [&](StripReader& reader) {
+        return ImageStrips{width, height, [&reader](int first, int count) { return reader.rows(first, count); }};
+    };
+    const Difference difference = compareStrips(strips(reference), strips(test), options);
 
-    // Write the error map and print the result.
-    if (!arguments.errorMap.empty()) writeErrorMap(arguments.errorMap, flip);
+    // Complete the error map and print the result.
+    if (map) map->finish();
     if (arguments.json)
         printJson(difference);
     else

@@ -82,7 +82,7 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
     writeFile(output, std::regex_replace(text, pair, "[$1, $2]") + "\n");
 
     // Write the schema, which the shot's first line refers to, to the same folder.
-    if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText());
+    if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText(), NamedBy::program);
     if (!global.quiet) printMessage("wrote {0}; render it with: defocus capture {0}\n", output.string());
 }
 

@@ -71,6 +71,11 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                   "Continue an interrupted run with the same settings: keep its finished tiles (folder out.tiles "
                   "beside the first output), or the finished file of --tile")
         ->group(group);
+    command
+        .add_flag("--keep-partial", arguments.keepPartial,
+                  "On Ctrl-C or SIGTERM, finish the current lens sample and write the image of the samples so far; "
+                  "the exit code is 1. A second signal ends the program at once")
+        ->group(group);
     advanced(addParsed(command, "--stats", "FILE",
                        "Write render times, triangle counts, memory use and the requested settings as JSON; - writes "
                        "to standard output",
@@ -100,7 +105,8 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
 }
 
 FrameFiles filesOf(const RenderArguments& arguments) {
-    FrameFiles files{arguments.outputs, arguments.sampleRange, arguments.tile, arguments.resume, {}};
+    FrameFiles files{arguments.outputs,    arguments.sampleRange, arguments.tile, arguments.resume, {},
+                     arguments.keepPartial};
     if (arguments.aovs.any())
         files.whole = "--aov needs the whole image";
     else if (std::ranges::any_of(arguments.outputs, isStandardOutput))
@@ -164,16 +170,19 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Draws the frame. Parts that go to files are written as soon as they are finished.
-void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress) {
+// Draws the frame. Parts that go to files are written as soon as they are finished. Returns false if a signal stops it.
+bool draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress, bool keepPartial) {
     const FrameDriver& frame = driver.driver();
     const auto step = [&] {
-        if (stopAsked()) fail("{}", output.stopMessage());
+        setStopMessage(output.stopMessage());
         report(progress, frame.inTiles() ? "rows" : "samples", static_cast<std::uint64_t>(1000 * output.share()), 1000);
     };
-    stopWhenAsked();
-    do step();
-    while (output.advance());
+    stopWhenAsked(keepPartial ? StopWithin::currentDraw : StopWithin::aSecond);
+    do {
+        step();
+        if (stopAsked()) return false;
+    } while (output.advance());
+    return true;
 }
 
 void writeImages(const RenderArguments& arguments, const Image& image, SceneDriver& driver, WarningPrinter& warnings) {
@@ -184,6 +193,16 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
     const Metadata metadata = driver.metadata();
     for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
+}
+
+// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+[[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver,
+                             WarningPrinter& warnings) {
+    const std::optional<Image> image = output.partialImage();
+    if (!image) fail("{}", output.stopMessage());
+    writeImages(arguments, *image, driver, warnings);
+    const FrameDriver& frame = driver.driver();
+    fail("stopped after {} of {} samples: the image of these samples is written", frame.samples(), frame.sampleTotal());
 }
 
 void writeAllAovs(const RenderArguments& arguments, SceneDriver& driver, bool quiet) {
@@ -208,8 +227,9 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printCacheUse(driver.frame(), global);
     warnings.print(driver.warnings());
     progress = terminalProgress(global);
-    draw(output, driver, progress);
+    const bool complete = draw(output, driver, progress, arguments.keepPartial);
     progress = {};
+    if (!complete) endStopped(arguments, output, driver, warnings);
     warnings.print(driver.warnings());
 
     if (const std::optional<Image> image = output.finish()) writeImages(arguments, *image, driver, warnings);

@@ -28,6 +28,7 @@ struct RenderArguments {
     std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; none: all
     std::optional<TileShare> tile;           // draw only these rows, for `merge`; none: all
     bool resume = false;                     // keep finished parts of an interrupted run
+    bool keepPartial = false;                // write the image of the samples so far if a signal stops the run
 };
 
 // Adds all options of the command. `arguments` must outlive the parsing.

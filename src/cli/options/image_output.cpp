@@ -86,6 +86,7 @@ void checkImageOutputs(const std::vector<fs::path>& images, const std::vector<fs
                        const std::vector<fs::path>& inputs) {
     std::vector<fs::path> all = images;
     all.insert(all.end(), more.begin(), more.end());
+    if (std::ranges::any_of(all, &fs::path::empty)) fail("an output has an empty name; give a file, such as out.png");
     if (std::ranges::count_if(all, isStandardOutput) > 1) fail("only one output can go to standard output");
     for (const fs::path& path : all)
         if (!isStandardOutput(path)) checkWritable(path);

@@ -1,18 +1,64 @@
 #include "cli/terminal/stop_signal.h"
 
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <csignal>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "core/file.h"
+#include "core/message.h"
 
 namespace defocus::engine {
 
 namespace {
 
+constexpr auto patience = std::chrono::milliseconds(500);
+constexpr int stopped = 1;  // exit code
+
 volatile std::sig_atomic_t asked = 0;
+sem_t wake;  // posted by the signal handler: of the waiting primitives, only sem_post is safe there
+
+std::mutex& messageMutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+std::string& message() {
+    static std::string text = "stopped";
+    return text;
+}
+
+// Ends the process some time after a signal. Main thread and driver may be inside a draw, so destructors cannot run.
+void endWhenAsked() {
+    while (sem_wait(&wake) != 0) {
+    }
+    std::this_thread::sleep_for(patience);
+    removePendingFiles();
+    const std::scoped_lock lock(messageMutex());
+    if (isatty(STDERR_FILENO) == 1) writeMessage("\r\x1b[K");  // erase the progress line
+    printMessage("defocus: {}\n", message());
+    ::_exit(stopped);
+}
 
 }  // namespace
 
-void stopWhenAsked() {
+void stopWhenAsked(StopWithin within) {
+    if (within == StopWithin::aSecond) {
+        static std::once_flag once;
+        std::call_once(once, [] {
+            sem_init(&wake, 0, 0);
+            std::thread(endWhenAsked).detach();
+        });
+    }
     struct sigaction action {};
-    action.sa_handler = [](int) { asked = 1; };
+    action.sa_handler = [](int) {
+        asked = 1;
+        sem_post(&wake);
+    };
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
@@ -20,6 +66,11 @@ void stopWhenAsked() {
 
 bool stopAsked() {
     return asked != 0;
+}
+
+void setStopMessage(std::string text) {
+    const std::scoped_lock lock(messageMutex());
+    message() = std::move(text);
 }
 
 }  // namespace defocus::engine

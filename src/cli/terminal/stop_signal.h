@@ -1,12 +1,21 @@
 #pragma once
-// Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job): lets long work stop after the current
-// step.
+// Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job). The first signal asks long work to stop
+// after its current draw; the next one ends the process at once.
+
+#include <string>
 
 namespace defocus::engine {
 
-// Installs the handlers. The first signal only requests a stop; the next one ends the process.
-void stopWhenAsked();
+enum class StopWithin {
+    aSecond,      // a second thread ends the process if it still runs after 0.5 s, even within a long draw
+    currentDraw,  // the process ends by itself, after it has saved what is finished
+};
+
+// Installs the handlers.
+void stopWhenAsked(StopWithin within = StopWithin::aSecond);
 // Returns whether a signal has requested a stop.
 bool stopAsked();
+// Sets the line that is printed if the second thread ends the process, such as "stopped: 3 of 9 rows are kept".
+void setStopMessage(std::string message);
 
 }  // namespace defocus::engine

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/stopwatch.h"
+#include "gl/context.h"
 #include "plan/sample_range.h"
 #include "render/frame_run.h"
 #include "render/gpu_scene/frame_uniforms.h"
@@ -194,8 +195,17 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.stop.given(),
             order.samples.has_value(),
             static_cast<bool>(order.takeRows),
+            order.shortDraws || order.stop.timeLimit,
             order.whole,
             order.rows};
+}
+
+// Returns the samples per wave of a frame that must be able to stop soon: one on a CPU, where a sample may take long.
+// On a GPU, a small number of samples costs little time and doesn't leave it idle. Returns 0, any number, for other
+// frames.
+std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
+    if (!fitOf(order).shortDraws || options_.limits.wave > 0) return 0;
+    return currentIsSoftware() ? 1 : 8;
 }
 
 // Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.
@@ -213,7 +223,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
     if (!order.rows && surelyFits(order.view.width, order.view.height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
-        return renderer_->setWave(0);
+        return renderer_->setWave(shortWave(order));
     }
 
     // Free the memory of the previous frame before the remaining memory is measured.
@@ -229,8 +239,10 @@ void FrameDriver::fit(const FrameOrder& order) {
         return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
     TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);
     makeRenderer();
+    const std::uint32_t shortest = shortWave(order);
+    renderer_->setWave(shortest);
     if (!limits.memory) return;
-    renderer_->setWave(waveWithin(needs));
+    if (shortest == 0) renderer_->setWave(waveWithin(needs));
     needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
     crowded_ = !fitsInOnePiece(needs);
 }

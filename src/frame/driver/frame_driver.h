@@ -41,6 +41,7 @@ struct FrameOrder {
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
     std::string whole = {};                          // reason why tiles are forbidden; empty: they are allowed
+    bool shortDraws = false;                         // advance() draws few samples; always true with a time limit
 };
 
 class FrameDriver {
@@ -95,6 +96,7 @@ private:
         bool stops = false;
         bool sums = false;
         bool hasSink = false;
+        bool shortDraws = false;
         std::string whole;
         std::optional<std::vector<RowRange>> rows;
         bool operator==(const Fit&) const = default;
@@ -102,6 +104,7 @@ private:
 
     static Fit fitOf(const FrameOrder& order);
     void makeRenderer();
+    [[nodiscard]] std::uint32_t shortWave(const FrameOrder& order) const;
     void fit(const FrameOrder& order);
     void fitTiles(const FrameOrder& order, const FramePlan& plan, const std::vector<RowRange>& rows);
 

@@ -19,8 +19,10 @@ fs::path rowsPath(const fs::path& folder, const RowRange& rows) {
     return folder / fmt::format("rows-{:05}-{:05}.exr", rows.first, rows.end);
 }
 
-bool namesRows(const fs::path& path) {
-    return path.filename().string().starts_with("rows-");
+// Returns whether a folder's entry can be a tile that the program has written. A link or a pipe is none.
+bool canBeTile(const fs::directory_entry& entry) {
+    std::error_code none;
+    return entry.path().filename().string().starts_with("rows-") && fs::is_regular_file(entry.symlink_status(none));
 }
 
 struct FoundTiles {
@@ -34,7 +36,7 @@ FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
         if (entry.path().filename().string().starts_with(".rows-")) removeAbandoned(entry.path());
-        if (!namesRows(entry.path()) || !isRowFile(entry.path())) continue;
+        if (!canBeTile(entry) || !isRowFile(entry.path())) continue;
         found.all.push_back(entry.path());
         const RowFileHeader header = readRowHeader(entry.path());
         if (header.settings == wanted.settings && header.width == wanted.width && header.height == wanted.height)
@@ -61,6 +63,8 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
         if (!oneExr || !files.whole.empty())
             fail("--sample-range writes sums of samples to a single EXR file; give one output, such as -o part.exr");
     }
+    if (files.keepPartial && (files.samples || files.share))
+        throw UsageError("--keep-partial keeps an image; it cannot be combined with --sample-range or --tile");
     if (!files.share && !files.resume) return;
     const std::string option = files.share ? "--tile" : "--resume";
     const Method& method = *chosenMethod(request).method;
@@ -126,7 +130,7 @@ void FrameOutput::start(const Progress& progress) {
     check(files_, request);
     static_cast<void>(driver_.writeOptions());  // meter the exposure before the frame allocates memory
     wanted_ = {0, request.size.height};
-    parts_ = {.samples = files_.samples, .whole = files_.whole};
+    parts_ = {.samples = files_.samples, .whole = files_.whole, .shortDraws = files_.keepPartial};
     if (files_.whole.empty() && !files_.samples)
         parts_.takeRows = [this](const RowRange& rows, Image&& pixels) { takeRows(rows, std::move(pixels)); };
     const bool resumesTiles = files_.resume && fs::is_directory(tilesFolder());
@@ -176,6 +180,12 @@ double FrameOutput::share() const {
     return (rowsKept_ + driver_.driver().share() * (rows - rowsKept_)) / rows;
 }
 
+std::optional<Image> FrameOutput::partialImage() {
+    const FrameDriver& driver = driver_.driver();
+    if (!files_.keepPartial || files_.samples || files_.share || driver.inTiles() || driver.samples() == 0) return {};
+    return driver_.image();
+}
+
 std::string FrameOutput::stopMessage() const {
     const FrameDriver& driver = driver_.driver();
     if (files_.share) return fmt::format("stopped: tile {} is not written", header().share);
@@ -190,7 +200,7 @@ void FrameOutput::join() {
     const fs::path folder = tilesFolder();
     std::vector<fs::path> paths;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (namesRows(entry.path())) paths.push_back(entry.path());
+        if (canBeTile(entry)) paths.push_back(entry.path());
     std::vector<JoinedOutput> outputs;
     for (const fs::path& path : files_.outputs) outputs.push_back({path, driver_.writeOptions()});
     joinRows(completeRows(paths), outputs, driver_.metadata());

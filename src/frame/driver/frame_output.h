@@ -25,6 +25,7 @@ struct FrameFiles {
     std::optional<TileShare> share;              // write only this share of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string whole;                           // reason why tiles are forbidden; empty: they are allowed
+    bool keepPartial = false;                    // the samples so far make an image if the run stops
 };
 
 class FrameOutput {
@@ -45,6 +46,9 @@ public:
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
+    // Returns the image of the samples so far if the run stops and FrameFiles::keepPartial is set; nullopt before the
+    // first sample, and for parts of a frame and frames in tiles.
+    [[nodiscard]] std::optional<Image> partialImage();
     // Returns the message about the files that remain if the run stops: "stopped: 96 of 768 rows are kept in out.tiles;
     // …"
     [[nodiscard]] std::string stopMessage() const;

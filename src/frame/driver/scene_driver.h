@@ -26,6 +26,7 @@ struct FrameParts {
     std::optional<std::vector<RowRange>> rows = {};
     RowSink takeRows = {};
     std::string whole = {};
+    bool shortDraws = false;
 };
 
 class SceneDriver {

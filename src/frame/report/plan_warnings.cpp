@@ -11,6 +11,7 @@
 #include "core/number_text.h"
 #include "defocus/settings.h"
 #include "frame/settings/unused_settings.h"
+#include "gl/shader_cache.h"
 #include "lens/lens_fields.h"
 #include "plan/lens_cells/lens_cells.h"
 #include "render/sampling/automatic_samples.h"
@@ -135,6 +136,7 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
 
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame) {
     std::vector<std::string> lines = frameWarnings(frame);
+    if (std::string full = shaderCacheWarning(); !full.empty()) lines.push_back(std::move(full));
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame.scene));
     for (const std::string& name : namedNodes(request)) add(sharedName(name, frame));

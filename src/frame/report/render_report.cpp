@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parse.h"
+#include "core/source_date.h"
 #include "frame/program_facts.h"
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
@@ -65,14 +66,9 @@ void addSettings(Metadata& metadata, const Request& request) {
     }
 }
 
-// Returns the current time in UTC, such as "2026-01-31T12:00:00Z".
+// Returns the date for files in UTC, such as "2026-01-31T12:00:00Z": the current time, or SOURCE_DATE_EPOCH.
 std::string dateNow() {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[sizeof "2026-01-31T12:00:00Z"] = {};
-    const std::size_t length = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return {text, length};
+    return utcText(sourceDate().value_or(std::time(nullptr)), "%Y-%m-%dT%H:%M:%SZ");
 }
 
 std::string inMillions(std::uint64_t count) {
@@ -94,9 +90,9 @@ Metadata renderMetadata(const RenderReport& report) {
         {"worldToCamera", glm::mat4(cameraFromWorld(view))},
         {"worldToNDC", glm::mat4(ndcFromWorld(report.plan))},
         {"defocus:scene", report.frame.sceneName},
-        {"defocus:seconds", report.stats.renderMilliseconds / 1000},
         {"defocus:device", report.stats.device},
     };
+    if (!sourceDate()) metadata["defocus:seconds"] = report.stats.renderMilliseconds / 1000;
     addSettings(metadata, report.options);
     // Values that the renderer chose for settings that the request leaves unset.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);

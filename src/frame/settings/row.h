@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/parse.h"
 #include "frame/settings/settings.h"
 
@@ -59,6 +60,16 @@ public:
     template <typename Set, typename Text>
     Row&& values(Set set, Text text) && {
         setting_.set = set;
+        const bool hasWords = setting_.kind == SettingKind::number || setting_.kind == SettingKind::integer;
+        if (hasWords && !setting_.choices.empty())
+            setting_.set = [set, words = fmt::format("{}", fmt::join(setting_.choices, ", "))](
+                               Request& request, const std::string& value) {
+                try {
+                    set(request, value);
+                } catch (const Error& error) {
+                    fail("{}, or {}", error.what(), words);
+                }
+            };
         setting_.text = text;
         return std::move(*this);
     }

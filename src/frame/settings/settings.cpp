@@ -44,7 +44,9 @@ void setByName(Request& request, std::string_view name, const std::string& text)
         try {
             return setting->set(request, text);
         } catch (const Error& error) {
-            throw UsageError(fmt::format("{}: {}", name, error.what()));
+            const std::string what = error.what();
+            const bool named = what.starts_with(std::string(name) + " ");  // "method circular has no settings …"
+            throw UsageError(named ? what : fmt::format("{}: {}", name, what));
         }
     }
     if (const std::string dashes = dashed(name); methodSettingNamed(dashes) != nullptr) {

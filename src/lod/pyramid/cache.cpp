@@ -75,21 +75,17 @@ std::optional<CacheFile> cacheFile(const fs::directory_entry& entry) {
 }
 
 std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
-    const fs::path path = folder / fileName(key);
-    std::error_code status;
-    if (!fs::is_regular_file(path, status)) return {};
     try {
-        return decodePyramid(readFile(path), mesh, key);
+        const std::optional<std::vector<std::byte>> bytes = readOwnFile(folder / fileName(key));
+        return bytes ? decodePyramid(*bytes, mesh, key) : std::nullopt;
     } catch (const Error&) {
         return {};  // a cache miss, not an error
     }
 }
 
 void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
-    std::error_code status;
-    fs::create_directories(folder, status);
-    if (status) fail("cannot create {}: {}", folder.string(), status.message());
-    writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key));
+    createOwnFolder(folder);
+    writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key), NamedBy::program);
 }
 
 // Stores the pyramid. Returns the reason for a failure; empty on success.

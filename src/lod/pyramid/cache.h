@@ -1,6 +1,6 @@
 #pragma once
 // Disk cache of pyramids: one file per mesh, named after its key (file.h). Several processes may use a folder at the
-// same time. A defective file is a cache miss: the pyramid is rebuilt and replaces the file.
+// same time. A defective file, a link or a pipe is a cache miss: the pyramid is rebuilt and replaces it.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,8 +24,8 @@ struct CachedPyramids {
 };
 
 // Loads pyramids from `folder`; builds and stores the missing ones. With an empty `folder`, all are built and none is
-// stored. Creates the folder if it is missing. A failure to store is not an error; after the first failure, no further
-// pyramid is stored. Meshes that are too small to be simplified are not stored.
+// stored. Creates the folder if it is missing, with mode 0700. A failure to store is not an error; after the first
+// failure, no further pyramid is stored. Meshes that are too small to be simplified are not stored.
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double levelShare = 0.5;       // max level error relative to the intended error; √(1 + 0.5²) = 1.12
 constexpr double withoutLevelError = 4;  // factor on the expected samples, if the level error is unknown
+constexpr double blockTolerance = 0.7;   // s
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.
@@ -149,6 +150,15 @@ bool BlockSchedule::endBlock(const FramePlan& plan, double seconds, const std::f
     secondsBefore_ = seconds;
     if (stopped_ && estimate_.samples() < samples_) estimate_.add(mean(), samples_);
     return !stopped_;
+}
+
+bool BlockSchedule::outOfTime(double seconds) const {
+    return stop_.timeLimit && seconds > *stop_.timeLimit + blockTolerance;
+}
+
+void BlockSchedule::endWithinBlock(std::uint32_t drawn) {
+    samples_ += drawn;
+    stopped_ = StopReason::timeLimit;
 }
 
 std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, double seconds) const {

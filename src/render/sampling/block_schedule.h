@@ -58,7 +58,12 @@ public:
     // is called only if an error estimate is due.
     bool endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // of all blocks drawn
+    // Returns whether the time limit, including a tolerance of 0.7 s for the end of a block, is over.
+    [[nodiscard]] bool outOfTime(double seconds) const;
+    // Ends the frame within a block of which `drawn` samples are drawn.
+    void endWithinBlock(std::uint32_t drawn);
+
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // drawn before the current block
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }

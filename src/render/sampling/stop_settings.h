@@ -14,8 +14,8 @@ struct StopSettings {
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. The error is estimated from differences between
     // blocks.
     std::optional<double> targetError = {};
-    // Seconds from the start of the frame, 0.001 … 1e6. At least one block is drawn. A block is not started if its
-    // predicted end is after the limit.
+    // Seconds from the start of the frame, 0.001 … 1e6. A block is not started if its predicted end is after the limit.
+    // A block that takes longer than predicted ends 0.7 s after the limit; at least one sample is drawn.
     std::optional<double> timeLimit = {};
     std::uint32_t sampleLimit = maxSamples;
     // If set, the number of samples is chosen automatically; see automatic_samples.h.

@@ -85,8 +85,14 @@ ImageRowWriter rowFileWriter(const fs::path& path, const RowFileHeader& header, 
     metadata["capDate"] = std::string();  // otherwise, OpenImageIO writes the current time
     metadata[settingsAttribute] = header.settings;
     metadata[tileAttribute] = header.share.empty() ? byMemory : header.share;
-    return {path,     header.width,   header.rows.end - header.rows.first,       channels,
-            metadata, WriteOptions{}, RowPlace{header.rows.first, header.height}};
+    return {path,
+            header.width,
+            header.rows.end - header.rows.first,
+            channels,
+            metadata,
+            WriteOptions{},
+            RowPlace{header.rows.first, header.height},
+            header.share.empty() ? NamedBy::program : NamedBy::user};
 }
 
 std::vector<RowRange> missingRows(const std::vector<RowFile>& tiles, int height) {

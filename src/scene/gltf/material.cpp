@@ -186,6 +186,23 @@ AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::
     fault(source.document, "{}: unknown alphaMode '{}'", label, name);
 }
 
+// Sums over 65,536 lens samples of the largest emission stay finite in 32 bits.
+void readEmission(Source& source, const nlohmann::json& json, const std::string& label, Material& material) {
+    constexpr double maxEmission = 1e30;
+    material.emissive = textureUse(source, json, "emissiveTexture");
+    double strength = 1.0;
+    if (const nlohmann::json* extension = findExtension(json, "KHR_materials_emissive_strength"))
+        strength = extension->value("emissiveStrength", 1.0);
+    if (!json.contains("emissiveFactor")) return;
+    bool limited = false;
+    for (int i = 0; i < 3; ++i) {
+        const double emission = strength * json["emissiveFactor"][static_cast<std::size_t>(i)].get<double>();
+        limited |= emission > maxEmission;
+        material.emissiveFactor[i] = toFloat(std::min(emission, maxEmission));
+    }
+    if (limited) ignore(source, "emission of " + label, "it is limited to 1e30");
+}
+
 Material readMaterial(Source& source, std::size_t index) {
     const nlohmann::json& json = source.document.json["materials"][index];
     Material material;
@@ -201,15 +218,7 @@ Material readMaterial(Source& source, std::size_t index) {
     if (json.contains("occlusionTexture"))
         material.occlusionStrength = numberOf(json["occlusionTexture"], "strength", 1.0);
 
-    material.emissive = textureUse(source, json, "emissiveTexture");
-    double strength = 1.0;
-    if (const nlohmann::json* extension = findExtension(json, "KHR_materials_emissive_strength"))
-        strength = extension->value("emissiveStrength", 1.0);
-    if (json.contains("emissiveFactor"))
-        for (int i = 0; i < 3; ++i)
-            material.emissiveFactor[i] =
-                toFloat(strength * json["emissiveFactor"][static_cast<std::size_t>(i)].get<double>());
-
+    readEmission(source, json, labelOf("material", index, material.name), material);
     material.alphaMode =
         alphaModeOf(source, json.value("alphaMode", std::string("OPAQUE")), labelOf("material", index, material.name));
     material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);

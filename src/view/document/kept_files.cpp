@@ -25,21 +25,18 @@ fs::path userFile(const char* variable, const char* folderInHome, const char* na
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / folderInHome / "defocus" / name;
 }
 
-// Returns the JSON in a file; null if there is no file, a discarded value if it isn't JSON. Throws Error if the file is
-// unreadable.
+// Returns the JSON in a file; null if there is no regular file, a discarded value if it isn't JSON. Throws Error if the
+// file is unreadable.
 json readKept(const fs::path& file) {
-    std::error_code ignored;
-    if (file.empty() || !fs::exists(file, ignored)) return nullptr;
-    const std::vector<std::byte> bytes = readFile(file);
-    const auto* const text = reinterpret_cast<const char*>(bytes.data());
-    return json::parse(text, text + bytes.size(), nullptr, false);
+    const std::optional<std::vector<std::byte>> bytes = readOwnFile(file);
+    if (!bytes) return nullptr;
+    const auto* const text = reinterpret_cast<const char*>(bytes->data());
+    return json::parse(text, text + bytes->size(), nullptr, false);
 }
 
 void writeKept(const fs::path& file, const nlohmann::ordered_json& value) {
-    std::error_code fault;
-    fs::create_directories(file.parent_path(), fault);
-    if (fault) fail("cannot create the folder {}: {}", file.parent_path().string(), fault.message());
-    writeFile(file, value.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+    createOwnFolder(file.parent_path());
+    writeFile(file, value.dump(2, ' ', false, json::error_handler_t::replace) + "\n", NamedBy::program);
 }
 
 std::optional<double> numberIn(const json& object, const char* name, double min, double max) {

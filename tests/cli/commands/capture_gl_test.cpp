@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "capture/frame_files.h"
 #include "cli/shots.h"
@@ -274,6 +276,31 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     EXPECT_EQ(textOf(facts), "66,8/1,6\n");
     expectOneLine(capture({"--video", "film.avi"}), 1);
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
+}
+
+// With SOURCE_DATE_EPOCH, two runs leave files with the same bytes.
+TEST_F(Capture, filmsAndPicturesAreReproducible) {
+    if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+    ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
+    for (const char* name : {"film.mp4", "film.webm"}) {
+        std::vector<std::string> runs;
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_EQ(capture({"--video", name, "--range", "0:1", "--size", "32x24"}).exitCode, 0);
+            runs.push_back(textOf(folder() / name));
+            fs::remove_all(folder() / "frames");
+        }
+        EXPECT_TRUE(runs[0] == runs[1]) << name;
+    }
+    for (const char* name : {"a.exr", "a.png"}) {
+        std::vector<std::string> runs;
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_EQ(run({"render", "quads.gltf", "--size", "32x24", "--samples", "2", "-o", name}).exitCode, 0);
+            runs.push_back(textOf(folder() / name));
+            if (i == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // dates have whole seconds
+        }
+        EXPECT_TRUE(runs[0] == runs[1]) << name;
+    }
+    ::unsetenv("SOURCE_DATE_EPOCH");
 }
 
 // Colours of films follow ITU-R BT.709 and say so. The column and row that fill odd sides have

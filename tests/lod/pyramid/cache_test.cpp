@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -494,6 +495,34 @@ TEST(PyramidCache, damageIsReplaced) {
         EXPECT_EQ(readFile(path), good);
     }
     EXPECT_TRUE(loadPyramid(meshes[0], scratch.path()));
+}
+
+// An entry that leads elsewhere is a miss and is replaced; the file behind a link keeps its bytes. A linked folder is
+// used.
+TEST(PyramidCache, entriesAreNeverLinksOrPipes) {
+    const ScratchFolder scratch, elsewhere;
+    fs::create_directory_symlink(scratch.path(), elsewhere / "cache");
+    const fs::path folder = elsewhere / "cache";
+    const std::vector<Mesh> meshes = {sphere(24, 16)};
+    (void)cachedPyramids(meshes, folder);
+    const fs::path entry = fs::directory_iterator(scratch.path())->path();
+    const fs::path victim = elsewhere / "victim";
+    fs::rename(entry, victim);
+    const Bytes before = readFile(victim);
+    for (const bool linked : {true, false}) {
+        if (linked)
+            fs::create_symlink(victim, entry);
+        else
+            ASSERT_EQ(::mkfifo(entry.c_str(), 0600), 0);
+        const CachedPyramids cached = cachedPyramids(meshes, folder);
+        expectBuilt(cached, meshes);
+        EXPECT_EQ(cached.loaded, 0u) << linked;
+        EXPECT_EQ(cached.failure, "");
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(entry)));
+        EXPECT_EQ(readFile(victim), before);
+        EXPECT_EQ(cachedPyramids(meshes, folder).loaded, 1u);
+        fs::remove(entry);
+    }
 }
 
 TEST(PyramidCache, withoutAFolderEverythingIsBuilt) {

@@ -117,6 +117,17 @@ TEST(BlockSchedule, noBlockIsBegunThatWouldEndTooLate) {
     EXPECT_NEAR(schedule.estimatedError().value(), 0.02 * std::pow(33, -lensSampleExponent), 0.0005);
 }
 
+TEST(BlockSchedule, aBlockEndsSoonAfterTheTimeLimit) {
+    BlockSchedule schedule(RenderSettings{}, {.targetError = {}, .timeLimit = 5, .sampleLimit = 8192});
+    EXPECT_FALSE(schedule.outOfTime(5.1));
+    EXPECT_TRUE(schedule.outOfTime(5.8));
+    schedule.endWithinBlock(7);
+    EXPECT_EQ(schedule.samples(), 7u);
+    EXPECT_EQ(schedule.expectedSamples(), 7u);
+    EXPECT_EQ(schedule.stopped(), StopReason::timeLimit);
+    EXPECT_FALSE(BlockSchedule(RenderSettings{}, targetOf(0.01)).outOfTime(1e9));
+}
+
 TEST(BlockSchedule, theTargetEndsItBeforeTheTime) {
     StopSettings stop = targetOf(0.01);
     stop.timeLimit = 1000;

@@ -273,6 +273,17 @@ TEST(GltfMaterial, factorsAndModes) {
     EXPECT_TRUE(material.unlit);
 }
 
+TEST(GltfMaterial, emissionThatOverflowsSumsIsLimited) {
+    GltfBuilder builder;
+    builder.json["materials"] = {{{"name", "Sun"},
+                                  {"emissiveFactor", {1, 0, 0.5}},
+                                  {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e38}}}}}}};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.materials.at(0).emissiveFactor, glm::vec3(1e30f, 0, 1e30f));
+    ASSERT_EQ(scene.ignored.size(), 1u);
+    EXPECT_EQ(scene.ignored[0].what, "emission of material 0 'Sun'");
+}
+
 TEST(GltfMaterial, layersOfTheExtensions) {
     GltfBuilder builder;
     const auto material = [](const nlohmann::json& extensions) -> nlohmann::json {

@@ -46,6 +46,19 @@ TEST_F(WindowMemory, theLatestSceneComesFirstAndOnce) {
     EXPECT_EQ(readRecentFiles(list()).front(), scene(39));
 }
 
+TEST_F(WindowMemory, linksAreReplacedAndNotFollowed) {
+    namespace fs = std::filesystem;
+    rememberRecentFile(list(), scene(1));
+    const fs::path victim = folder_ / "victim.json";
+    fs::rename(list(), victim);
+    fs::create_symlink(victim, list());
+    EXPECT_TRUE(readRecentFiles(list()).empty());
+    rememberRecentFile(list(), scene(2));
+    EXPECT_FALSE(fs::is_symlink(list()));
+    EXPECT_EQ(readRecentFiles(list()), std::vector{scene(2)});
+    EXPECT_EQ(readRecentFiles(victim), std::vector{scene(1)});
+}
+
 TEST_F(WindowMemory, aListThatIsNoneIsBegunAnew) {
     std::filesystem::create_directories(list().parent_path());
     for (const char* text : {"", "{", "3", "{\"a\": 1}", "[3, null]"}) {

@@ -1,0 +1,70 @@
+#include "gl/shader_cache.h"
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t room = std::uint64_t{16} << 20;  // bytes; the index and the shaders of a frame need a third
+
+fs::path pathIn(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value == nullptr ? fs::path() : fs::path(value);
+}
+
+// Returns the folder that Mesa uses (src/util/disk_cache_os.c); empty if there is none.
+fs::path cacheFolder() {
+    for (const char* variable : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"})
+        if (const fs::path folder = pathIn(variable); !folder.empty()) return folder / "mesa_shader_cache";
+    const fs::path home = pathIn("HOME");
+    return home.empty() ? home : home / ".cache" / "mesa_shader_cache";
+}
+
+// Returns the folder, or its nearest parent that exists.
+fs::path existing(fs::path folder) {
+    std::error_code fault;
+    while (!fs::exists(folder, fault) && folder.has_parent_path() && folder != folder.parent_path())
+        folder = folder.parent_path();
+    return folder;
+}
+
+std::string protectedFolder() {
+    const fs::path folder = cacheFolder();
+    if (folder.empty() || std::getenv("MESA_SHADER_CACHE_DISABLE") != nullptr) return {};
+    struct statvfs system {};
+    if (::statvfs(existing(folder).c_str(), &system) != 0) return {};
+    if (std::uint64_t{system.f_bavail} * system.f_frsize >= room) return {};
+    ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    return folder.string();
+}
+
+// Folder whose cache is off; empty otherwise.
+std::string& folderWithoutRoom() {
+    static std::string folder;
+    return folder;
+}
+
+}  // namespace
+
+void protectShaderCache() {
+    static std::once_flag once;
+    std::call_once(once, [] { folderWithoutRoom() = protectedFolder(); });
+}
+
+std::string shaderCacheWarning() {
+    if (folderWithoutRoom().empty()) return {};
+    return fmt::format(
+        "the disk of {} is almost full; the driver's shader cache is off for this run, so shaders are compiled again",
+        folderWithoutRoom());
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,15 @@
+#pragma once
+// Mesa's shader cache on disk. Mesa maps the cache's index into memory, so a full disk ends the process with SIGBUS.
+
+#include <string>
+
+namespace defocus::engine {
+
+// Turns the cache off for this process if its folder has less than 16 MiB of room. Call it before the process creates
+// its first context; later calls do nothing.
+void protectShaderCache();
+
+// Returns the warning that protectShaderCache has turned the cache off; empty if it hasn't.
+std::string shaderCacheWarning();
+
+}  // namespace defocus::engine
