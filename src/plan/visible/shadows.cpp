@@ -12,21 +12,23 @@
 #include <optional>
 
 #include "plan/motion/object_pose.h"
+#include "plan/visible/light_shares.h"
+#include "plan/visible/seen_points.h"
 
 namespace defocus::engine {
 
 namespace {
 
-constexpr int minMapSize = 128;  // px
-constexpr int maxMapSize = 2048;
-constexpr double minShare = 0.01;           // lights below this fraction of all light cast no shadow
-constexpr double widestTangent = 3;         // max tan of half a map's field of view
-constexpr double levelErrorTexels = 0.5;    // texels, max simplification error of a caster
-constexpr std::size_t maxBoxes = 64;        // with more casters, a single box bounds them all
-constexpr double nearShare = 1e-4;          // near plane of point and spot lights, relative to the scene's size
-constexpr std::uint32_t smoothPoints = 64;  // points on a light that hide the steps of a penumbra
-
-const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
+constexpr int minMapSize = 128;               // px
+constexpr double resolvedShare = 0.95;        // of the visible points, at which a texel is at most a pixel wide
+constexpr double minTexelLimit = 1 << 20;     // of a map; larger images allow twice their number of pixels
+constexpr double maxSampleTexels = 64 << 20;  // of all maps of a lens sample: 256 MiB
+constexpr double minShare = 0.01;             // lights below this fraction of the visible light cast no shadow
+constexpr double widestTangent = 3;           // max tan of half a map's field of view
+constexpr double levelErrorTexels = 0.5;      // texels, max simplification error of a caster
+constexpr std::size_t maxBoxes = 64;          // with more casters, a single box bounds them all
+constexpr double nearShare = 1e-4;            // near plane of point and spot lights, relative to the scene's size
+constexpr std::uint32_t smoothPoints = 64;    // points on a light that hide the steps of a penumbra
 
 struct Rectangle {
     glm::dvec2 min{std::numeric_limits<double>::infinity()};
@@ -83,15 +85,6 @@ std::uint32_t casterLevel(const Pyramid& pyramid, double scale, double error) {
     return level;
 }
 
-// Returns the illuminance by a light, in lux, weighted over colours by luminance. `middle` is the centre of the
-// casters. Their bounding radius `radius` (m) is the min distance.
-double strength(const PlacedLight& placed, const glm::dvec3& middle, double radius) {
-    const double brightness = placed.light.intensity * glm::dot(glm::dvec3(placed.light.color), luminanceWeights);
-    if (placed.light.type == LightType::directional) return brightness;
-    const double distance = std::max(glm::distance(placed.position, middle), std::max(radius, 1e-9));
-    return brightness / (distance * distance);
-}
-
 // Returns true if a single shadow map can contain everything that a point or spot light illuminates.
 bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const std::vector<glm::dvec3>& corners) {
     if (placed.light.type == LightType::spot &&
@@ -106,39 +99,27 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct Candidate {
     int light = 0;
-    double strength = 0;
+    double share = 0;  // of the visible light
     int faces = 1;
 };
 
-std::vector<Candidate> candidates(const World& world, const FramePlan& plan, const std::vector<glm::dvec3>& corners) {
+// Returns the maps of the strongest lights that fit into maxShadowMaps, in the order of the lights. `shares` are the
+// lightShares().
+std::vector<ShadowMap> chosenMaps(const World& world, const FramePlan& plan, const std::vector<glm::dvec3>& corners,
+                                  const std::vector<double>& shares) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);
-    const Bounds bounds = boundsOfCorners(corners);
-    const double radius = 0.5 * glm::length(bounds.size());
-    std::vector<Candidate> found;
-    for (std::size_t i = 0; i < world.lights.size(); ++i) {
-        const PlacedLight& placed = world.lights[i];
-        const bool far = placed.light.type == LightType::directional;
-        found.push_back({static_cast<int>(i), strength(placed, bounds.centre() + camera, radius),
-                         far || oneMapShows(placed, placed.position - camera, corners) ? 1 : 6});
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const bool local = i < world.lights.size() && world.lights[i].light.type != LightType::directional;
+        const bool several = local && !oneMapShows(world.lights[i], world.lights[i].position - camera, corners);
+        candidates.push_back(
+            {i < world.lights.size() ? static_cast<int>(i) : surroundings, shares[i], several ? 6 : 1});
     }
-    const Environment& environment = world.environment;
-    const EnvironmentDirections directions(environment);
-    if (!directions.empty() && environment.lighting > 0) {
-        const EnvironmentDirections::Choice choice = directions.at({0.5, 0.5});
-        found.push_back({surroundings, glm::dot(choice.radiance, luminanceWeights) * environment.lighting / 4, 1});
-    }
-    return found;
-}
-
-// Returns the maps of the strongest lights that fit into maxShadowMaps, in the order of the lights.
-std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
-    std::ranges::stable_sort(found, std::greater<>(), &Candidate::strength);
-    const double all = std::accumulate(found.begin(), found.end(), 0.0,
-                                       [](double sum, const Candidate& one) { return sum + one.strength; });
+    std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::share);
     std::size_t count = 0;
     std::vector<Candidate> chosen;
-    for (const Candidate& one : found) {
-        if (!(one.strength >= minShare * all) || !(one.strength > 0) || !std::isfinite(one.strength)) continue;
+    for (const Candidate& one : candidates) {
+        if (!(one.share >= minShare)) continue;
         if (count + static_cast<std::size_t>(one.faces) > maxShadowMaps) continue;
         count += static_cast<std::size_t>(one.faces);
         chosen.push_back(one);
@@ -210,29 +191,28 @@ void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& o
     projection.texel = static_cast<float>(std::max(texel.x, texel.y));
 }
 
-ShadowProjection parallelProjection(const FramePlan& plan, const glm::dvec3& toLight,
-                                    const std::vector<glm::dvec3>& seen, const glm::dvec2& shift) {
+ShadowProjection parallelProjection(const ShadowPlan& shadows, const glm::dvec3& toLight, const glm::dvec2& shift) {
     const Axes axes(toLight);
     Rectangle area;
     double nearest = -std::numeric_limits<double>::infinity();
     double farthest = std::numeric_limits<double>::infinity();
-    for (const glm::dvec3& corner : plan.shadows.corners) {
+    for (const glm::dvec3& corner : shadows.corners) {
         const glm::dvec3 place = axes.of(corner);
         area.extend(glm::dvec2(place));
         nearest = std::max(nearest, place.z);
         farthest = std::min(farthest, place.z);
     }
     Rectangle visible;
-    for (const glm::dvec3& corner : seen) visible.extend(glm::dvec2(axes.of(corner)));
-    if (!seen.empty()) area.intersect(visible);
-    const double diagonal = glm::length(boundsOfCorners(plan.shadows.corners).size());
+    for (const glm::dvec3& corner : shadows.seen) visible.extend(glm::dvec2(axes.of(corner)));
+    if (!shadows.seen.empty()) area.intersect(visible);
+    const double diagonal = glm::length(boundsOfCorners(shadows.corners).size());
     const double margin = 1e-3 * diagonal;
     const double depth = nearest - farthest + 2 * margin;
     ShadowProjection projection;
     projection.toLight = glm::vec3(axes.z);
     projection.clipRows[2] = glm::vec4(axes.z / depth, (margin - farthest) / depth);
     projection.clipRows[3] = glm::vec4(0, 0, 0, 1);
-    setRows(projection, axes, glm::dvec3(0), area, plan.shadows.size, shift, 1e-6 * diagonal);
+    setRows(projection, axes, glm::dvec3(0), area, shadows.size, shift, 1e-6 * diagonal);
     return projection;
 }
 
@@ -255,11 +235,12 @@ std::optional<Rectangle> inFront(const Axes& axes, const glm::dvec3& origin, con
     return area;
 }
 
-ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& placed, int face, const glm::dvec2& point,
-                                 const std::vector<glm::dvec3>& seen, const glm::dvec2& shift) {
-    const Bounds bounds = boundsOfCorners(plan.shadows.corners);
+// Projects from the `point` of the unit disk on a point or spot light. `camera` is the camera's position in m.
+ShadowProjection localProjection(const ShadowPlan& shadows, const glm::dvec3& camera, const PlacedLight& placed,
+                                 int face, const glm::dvec2& point, const glm::dvec2& shift) {
+    const Bounds bounds = boundsOfCorners(shadows.corners);
     const double diagonal = glm::length(bounds.size());
-    const glm::dvec3 centre = placed.position - glm::dvec3(plan.view.worldFromCamera[3]);
+    const glm::dvec3 centre = placed.position - camera;
     const bool spot = placed.light.type == LightType::spot && face < 0;
     const Axes disk(spot ? placed.direction : bounds.centre() - centre + glm::dvec3(0, 1e-12, 0));
     const glm::dvec3 origin = centre + double{placed.light.radius} * (point.x * disk.x + point.y * disk.y);
@@ -270,24 +251,82 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     Rectangle area;
     if (face >= 0 || spot) {
         const double tangent =
-            face >= 0 ? 1 + 4.0 / plan.shadows.size : 1.02 * std::tan(double{placed.light.outerConeAngle});
+            face >= 0 ? 1 + 4.0 / shadows.size : 1.02 * std::tan(double{placed.light.outerConeAngle});
         area.extend(glm::dvec2(-tangent));
         area.extend(glm::dvec2(tangent));
     }
-    const auto casters = inFront(axes, origin, plan.shadows.corners, nearest);
+    const auto casters = inFront(axes, origin, shadows.corners, nearest);
     if (face < 0 && casters) {
         if (spot)
             area.intersect(*casters);
         else
             area = *casters;
     }
-    if (face < 0 && !seen.empty())
-        if (const auto visible = inFront(axes, origin, seen, nearest)) area.intersect(*visible);
+    if (face < 0 && !shadows.seen.empty())
+        if (const auto visible = inFront(axes, origin, shadows.seen, nearest)) area.intersect(*visible);
     ShadowProjection projection;
     projection.clipRows[2] = glm::vec4(0, 0, 0, nearest);
     projection.clipRows[3] = glm::vec4(axes.z, -glm::dot(axes.z, origin));
-    setRows(projection, axes, origin, area, plan.shadows.size, shift, 1e-6);
+    setRows(projection, axes, origin, area, shadows.size, shift, 1e-6);
     return projection;
+}
+
+// Returns the projection of a map for the position `place` in [0, 1)² on the light.
+ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, const ShadowPlan& shadows,
+                               const EnvironmentDirections& directions, const ShadowMap& map, const glm::dvec2& place,
+                               const glm::dvec2& shift) {
+    if (map.light == surroundings) {
+        const EnvironmentDirections::Choice choice = directions.at(place);
+        ShadowProjection projection = parallelProjection(shadows, choice.toLight, shift);
+        projection.radiance = glm::vec3(choice.radiance / std::numbers::pi);
+        return projection;
+    }
+    const glm::dvec2 onDisk = diskPoint(place);
+    const PlacedLight& placed = world.lights[static_cast<std::size_t>(map.light)];
+    if (placed.light.type != LightType::directional)
+        return localProjection(shadows, camera, placed, map.face, onDisk, shift);
+    const Axes axes(-placed.direction);
+    const double tangent = std::tan(0.5 * placed.light.angularDiameter);
+    return parallelProjection(shadows, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), shift);
+}
+
+// ---- size of the maps -----------------------------------------------------------------------------------------------
+
+// Returns the number of texels across the map for which a texel at `seen` is as wide as what the image resolves there:
+// a pixel, or half the blur. 0 if the point is outside the map.
+double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
+    const glm::vec4 place(glm::vec3(seen.place), 1);
+    const double w = glm::dot(projection.clipRows[3], place);
+    const glm::dvec2 clip(glm::dot(projection.clipRows[0], place), glm::dot(projection.clipRows[1], place));
+    if (!(std::max(std::abs(clip.x), std::abs(clip.y)) <= w)) return 0;
+    const double pixel = 2 * plan.tanHalfHorizontal / plan.view.width * seen.depth;
+    return w * projection.texel * size / (pixel * std::max(1.0, 0.5 * seen.blur));
+}
+
+// Returns the size that suffices for all but a small fraction of what the image shows, within the limits of memory and
+// time. Sizes are rounded up to a power of two or 1.5 times one, because shaders are compiled for a size.
+int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows,
+            const EnvironmentDirections& directions, const std::vector<std::vector<SeenPoint>>& rays) {
+    const glm::dvec3 camera(plan.view.worldFromCamera[3]);
+    std::vector<ShadowProjection> projections;
+    for (const ShadowMap& map : shadows.maps)
+        projections.push_back(mapProjection(world, camera, shadows, directions, map, glm::dvec2(0.5), glm::dvec2(0.5)));
+    std::vector<double> needed;
+    for (const std::vector<SeenPoint>& ray : rays)
+        for (const SeenPoint& seen : ray) {
+            needed.push_back(0);
+            for (const ShadowProjection& projection : projections)
+                needed.back() = std::max(needed.back(), texelsNeeded(plan, projection, shadows.size, seen));
+        }
+    const auto wanted =
+        needed.begin() + static_cast<std::ptrdiff_t>(resolvedShare * static_cast<double>(needed.size() - 1));
+    std::ranges::nth_element(needed, wanted);
+    const double pixels = static_cast<double>(plan.view.width) * plan.view.height;
+    const double ofSample = maxSampleTexels / static_cast<double>(shadows.maps.size() * shadows.points);
+    const double most = std::sqrt(std::min(ofSample, std::max(minTexelLimit, 2 * pixels)));
+    int size = minMapSize;
+    while (size < std::min(*wanted, most)) size = size % 3 == 0 ? size / 3 * 4 : size / 2 * 3;
+    return std::min(size, static_cast<int>(most));
 }
 
 // Returns the position in [0, 1)² of a sample's `point` on the lights. The points of one sample are consecutive in the
@@ -313,90 +352,6 @@ glm::dvec2 diskPoint(const glm::dvec2& point) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// ---- surroundings ---------------------------------------------------------------------------------------------------
-
-namespace {
-
-constexpr int gridColumns = 64;
-constexpr int gridRows = 32;
-
-glm::dvec3 gridDirection(double u, double v) {
-    const double polar = std::numbers::pi * v;
-    const double azimuth = 2 * std::numbers::pi * (u - 0.5);
-    return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
-}
-
-// Returns the mean radiance of the environment map's pixels in a grid cell, or the radiance of one pixel if cells are
-// smaller than pixels.
-glm::dvec3 meanRadiance(const Image& map, int column, int row) {
-    const auto pixel = [&](int x, int y) {
-        const float* value = map.at(std::min(x, map.width - 1), std::min(y, map.height - 1));
-        glm::dvec3 color(value[0], value[map.channels >= 3 ? 1 : 0], value[map.channels >= 3 ? 2 : 0]);
-        for (int c = 0; c < 3; ++c) color[c] = std::min(std::max(0.0, std::isnan(color[c]) ? 0.0 : color[c]), 65504.0);
-        return color;
-    };
-    const int left = column * map.width / gridColumns,
-              right = std::max(left + 1, (column + 1) * map.width / gridColumns);
-    const int top = row * map.height / gridRows, bottom = std::max(top + 1, (row + 1) * map.height / gridRows);
-    glm::dvec3 sum(0);
-    for (int y = top; y < bottom; ++y)
-        for (int x = left; x < right; ++x) sum += pixel(x, y);
-    return sum / (static_cast<double>(right - left) * (bottom - top));
-}
-
-glm::dvec3 cellRadiance(const Environment& environment, int column, int row) {
-    if (environment.type == EnvironmentType::map) return meanRadiance(*environment.map, column, row);
-    if (environment.type == EnvironmentType::uniform) return glm::dvec3(environment.zenith);
-    const double height = std::cos(std::numbers::pi * (row + 0.5) / gridRows);
-    const glm::dvec3 pole(height > 0 ? environment.zenith : environment.nadir);
-    return glm::mix(glm::dvec3(environment.horizon), pole, std::abs(height));
-}
-
-// Inverts cumulative sums. Returns the index of the interval that contains `place`, a fraction of the last sum, and the
-// position [0, 1] inside the interval.
-std::pair<std::size_t, double> inverted(std::span<const double> sums, double place) {
-    const double target = place * sums.back();
-    const auto found = std::ranges::upper_bound(sums, target);
-    const auto index = std::min(static_cast<std::size_t>(found - sums.begin()), sums.size() - 1);
-    const double before = index > 0 ? sums[index - 1] : 0;
-    const double width = sums[index] - before;
-    return {index, width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
-}
-
-}  // namespace
-
-EnvironmentDirections::EnvironmentDirections(const Environment& environment) {
-    if (environment.type == EnvironmentType::none) return;
-    double all = 0;
-    for (int row = 0; row < gridRows; ++row) {
-        const double solidAngle =
-            2 * std::numbers::pi / gridColumns *
-            (std::cos(std::numbers::pi * row / gridRows) - std::cos(std::numbers::pi * (row + 1) / gridRows));
-        double inRow = 0;
-        for (int column = 0; column < gridColumns; ++column) {
-            radiances_.push_back(cellRadiance(environment, column, row));
-            inRow += glm::dot(radiances_.back(), luminanceWeights) * solidAngle;
-            cellSums_.push_back(inRow);
-        }
-        all += inRow;
-        rowSums_.push_back(all);
-    }
-}
-
-EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point) const {
-    const auto [row, down] = inverted(rowSums_, point.y);
-    const auto cells = std::span(cellSums_).subspan(row * gridColumns, gridColumns);
-    const auto [column, across] = inverted(cells, point.x);
-    // Points at uniform heights on the unit sphere cover the cell's solid angle uniformly.
-    const double top = std::cos(std::numbers::pi * static_cast<double>(row) / gridRows);
-    const double bottom = std::cos(std::numbers::pi * (static_cast<double>(row) + 1) / gridRows);
-    const double polar = std::acos(std::clamp(glm::mix(top, bottom, down), -1.0, 1.0));
-    const glm::dvec3& radiance = radiances_[row * gridColumns + column];
-    const double luminance = glm::dot(radiance, luminanceWeights);
-    return {gridDirection((static_cast<double>(column) + across) / gridColumns, polar / std::numbers::pi),
-            luminance > 0 ? radiance * (rowSums_.back() / luminance) : glm::dvec3(0)};
-}
-
 // ---- plan and projections -------------------------------------------------------------------------------------------
 
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
@@ -420,7 +375,8 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     for (const Bounds& box : boxes)
         for (const glm::dvec3& corner : box.corners()) shadows.corners.emplace_back(fromView * glm::dvec4(corner, 1));
     if (shadows.casters.empty() || plan.objects.empty()) return {};
-    shadows.maps = chosenMaps(candidates(world, plan, shadows.corners));
+    const std::vector<std::vector<SeenPoint>> rays = seenPoints(plan);
+    shadows.maps = chosenMaps(world, plan, shadows.corners, lightShares(world, plan, rays));
     for (ShadowMap& map : shadows.maps) {
         if (map.light == surroundings) continue;
         const Light& light = world.lights[static_cast<std::size_t>(map.light)].light;
@@ -430,9 +386,9 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     shadows.points = pointsFor(plan.settings, shadows.maps.size());
     shadows.seen = seenCorners(plan);
 
-    // The map has as many texels across the scene as the image has pixels. Casters use levels whose error is at most
-    // levelErrorTexels.
-    shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), minMapSize, maxMapSize);
+    shadows.size = minMapSize;
+    shadows.size = mapSize(world, plan, shadows, environmentDirections(world), rays);
+    // Casters use levels whose error is at most levelErrorTexels.
     const double texel = glm::length(boundsOfCorners(shadows.corners).size()) / shadows.size;
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
     for (ObjectPlan& caster : shadows.casters) {
@@ -447,33 +403,21 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     return shadows;
 }
 
+EnvironmentDirections environmentDirections(const World& world) {
+    return EnvironmentDirections(world.environment, std::ranges::any_of(world.pose.objects, &Object::ground));
+}
+
 std::vector<ShadowProjection> shadowProjections(const World& world, const FramePlan& plan,
                                                 const EnvironmentDirections& directions) {
-    const std::vector<glm::dvec3>& seen = plan.shadows.seen;
+    const glm::dvec3 camera(plan.view.worldFromCamera[3]);
     std::vector<ShadowProjection> projections;
     projections.reserve(plan.samples.size() * plan.shadows.points * plan.shadows.maps.size());
     for (const LensSample& sample : plan.samples)
         for (std::uint32_t point = 0; point < plan.shadows.points; ++point) {
             const glm::dvec2 place = lightPoint(plan, sample, point);
-            const glm::dvec2 onDisk = diskPoint(place);
             const glm::dvec2 shift = texelShift(sample, point);
-            for (const ShadowMap& map : plan.shadows.maps) {
-                if (map.light == surroundings) {
-                    const EnvironmentDirections::Choice choice = directions.at(place);
-                    projections.push_back(parallelProjection(plan, choice.toLight, seen, shift));
-                    projections.back().radiance = glm::vec3(choice.radiance / std::numbers::pi);
-                    continue;
-                }
-                const PlacedLight& placed = world.lights[static_cast<std::size_t>(map.light)];
-                if (placed.light.type != LightType::directional) {
-                    projections.push_back(localProjection(plan, placed, map.face, onDisk, seen, shift));
-                    continue;
-                }
-                const Axes axes(-placed.direction);
-                const double tangent = std::tan(0.5 * placed.light.angularDiameter);
-                projections.push_back(
-                    parallelProjection(plan, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), seen, shift));
-            }
+            for (const ShadowMap& map : plan.shadows.maps)
+                projections.push_back(mapProjection(world, camera, plan.shadows, directions, map, place, shift));
         }
     return projections;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plan/frame_plan.h"
+#include "plan/visible/environment_directions.h"
 
 namespace defocus::engine {
 
@@ -19,27 +20,6 @@ inline constexpr int surroundings = -1;  // value of ShadowMap::light for the en
 // Max number of shadow maps per sample. The weakest lights beyond this number cast no shadow. In frames with few
 // samples, spare maps give each light several points.
 inline constexpr std::size_t maxShadowMaps = 8;
-
-// Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
-// their light.
-class EnvironmentDirections {
-public:
-    EnvironmentDirections() = default;
-    explicit EnvironmentDirections(const Environment& environment);
-
-    struct Choice {
-        glm::dvec3 toLight{0, 1, 0};  // unit vector
-        glm::dvec3 radiance{0.0};     // radiance over the direction's probability density, W/m²
-    };
-    // Maps `point` ∈ [0, 1)² to a direction.
-    [[nodiscard]] Choice at(const glm::dvec2& point) const;
-    [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
-
-private:
-    std::vector<glm::dvec3> radiances_;
-    std::vector<double> rowSums_;   // cumulative luminance times solid angle, from the top row down
-    std::vector<double> cellSums_;  // cumulative luminance times solid angle within each row
-};
 
 // Projection of a shadow map. Positions are in metres from the camera along the world's axes.
 struct ShadowProjection {
@@ -54,9 +34,13 @@ struct ShadowProjection {
 // number of maps for one point per light.
 std::uint32_t maxPointsPerSample(std::size_t maps);
 
-// Chooses the lights that cast shadows, the points on each light, the map size and the casters. `objects` are all
-// objects of the world in the plan's pose, including objects outside the image.
+// Chooses the lights that cast shadows, the points on each light, the map size and the casters. Lights that cause less
+// than 1 % of the light that the image shows cast no shadow. A texel at what is in focus is about a pixel wide.
+// `objects` are all objects of the world in the plan's pose, including objects outside the image.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
+
+// Returns the directions from which the environment lights the world.
+EnvironmentDirections environmentDirections(const World& world);
 
 // Returns the projections of all maps, ordered by sample, then by point (plan.shadows.points per sample), then by map.
 std::vector<ShadowProjection> shadowProjections(const World& world, const FramePlan& plan,

@@ -83,7 +83,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     }
     const World& world = scene_->world();
     const Environment& environment = world.environment;
-    if (!environment.map || environment.map.get() != directionsOf_) directions_ = EnvironmentDirections(environment);
+    if (!environment.map || environment.map.get() != directionsOf_) directions_ = environmentDirections(world);
     directionsOf_ = environment.map.get();
     frame_ = &frame;
     plan_ = castersOf(plan);

@@ -1,0 +1,40 @@
+#pragma once
+// Directions to the environment, for shadows of its light.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace defocus::engine {
+
+// Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
+// their light and to their importance.
+class EnvironmentDirections {
+public:
+    EnvironmentDirections() = default;
+    // `onGround`: shadows fall mostly on a horizontal ground. Importance is then 0.25 + 0.75·max(0, cos θ), where θ is
+    // the angle to the zenith; otherwise it is 1. The first term serves the surfaces of other orientations.
+    explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
+
+    struct Choice {
+        glm::dvec3 toLight{0, 1, 0};  // unit vector
+        glm::dvec3 radiance{0.0};     // radiance over the direction's probability density, W/m²
+    };
+    // Maps `point` ∈ [0, 1)² to a direction.
+    [[nodiscard]] Choice at(const glm::dvec2& point) const;
+    // Returns the illuminance averaged over the orientations of a surface, weighted over colours by luminance.
+    [[nodiscard]] double meanIlluminance() const { return meanIlluminance_; }
+    [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
+
+private:
+    bool onGround_ = false;
+    std::vector<glm::dvec3> radiances_;
+    double meanIlluminance_ = 0;
+    // Importance times luminance times solid angle, cumulative from the top row down and within each row.
+    std::vector<double> rowSums_;
+    std::vector<double> cellSums_;
+};
+
+}  // namespace defocus::engine
