@@ -24,7 +24,7 @@ static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
 // Share of the contrast before grey at which levels meet their limit. With 1, FLIP of a smooth surface in focus rises
-// by more than a fifth (bench/results/llvmpipe-thin-parts.txt).
+// by more than a fifth.
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast before grey, relative to the mean light
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
