@@ -7,7 +7,7 @@ import math
 import struct
 import zlib
 
-FLOAT, UBYTE, USHORT = 5126, 5121, 5123
+FLOAT, UBYTE, USHORT, UINT = 5126, 5121, 5123, 5125
 
 
 class Document:
@@ -20,7 +20,7 @@ class Document:
         self.binary = bytearray()
 
     def accessor(self, rows, component, kind, target=None, normalized=False, bounds=False):
-        code = {FLOAT: "f", UBYTE: "B", USHORT: "H"}[component]
+        code = {FLOAT: "f", UBYTE: "B", USHORT: "H", UINT: "I"}[component]
         values = [value for row in rows for value in row]
         data = struct.pack(f"<{len(values)}{code}", *values)
         view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
@@ -59,7 +59,8 @@ class Document:
         return attributes
 
     def indices(self, surface):
-        return self.accessor([(index,) for index in surface.indices], USHORT, "SCALAR", 34963)
+        component = USHORT if len(surface.positions) <= 1 << 16 else UINT
+        return self.accessor([(index,) for index in surface.indices], component, "SCALAR", 34963)
 
     def mesh(self, name, surface, material):
         return self.mesh_of(name, {"attributes": self.attributes(surface), "indices": self.indices(surface),

@@ -15,6 +15,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "artefacts": "render known artefacts of image-space methods for a report",
     "cycles": "compare lit, textured scenes with Blender's Cycles",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
+    "levels": "compare levels with full detail on copies of thin parts or of models",
     "latency": "measure how fast the window answers the mouse",
 }
 

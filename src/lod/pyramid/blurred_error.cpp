@@ -23,6 +23,10 @@ constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTabl
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
+// Share of the contrast before grey at which levels meet their limit. With 1, FLIP of a smooth surface in focus rises
+// by more than a fifth.
+constexpr double greyShare = 0.9;
+constexpr double minGreyContrast = 0.004;  // min contrast before grey, relative to the mean light
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
 // the error grows with the squared edge length. Twice this factor gives a lower bound for levels whose triangles are
 // smaller than picture cells.
@@ -32,6 +36,7 @@ constexpr float maxUnseenGrowth = 4;
 
 // Sums of squares over all cells and channels, one per patch size: of the cells' values (entry 0), then of patch means.
 using SquareSums = std::array<double, blurSizes>;
+using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
 // A picture with its means over patches of 2, 4, … cells. Each patch has two means: over the white cells of a
 // checkerboard and over the black cells.
@@ -132,6 +137,14 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
+// Returns the light minus that of a grey background, so that the background becomes black.
+LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
+    if (background != 0)
+        for (glm::vec3& value : light)
+            if (value != glm::vec3(0)) value -= background;
+    return light;
+}
+
 // Adds the squared differences between `seen` and `reference` to `sums`. If `reference` is null, the row `dark` of
 // black cells replaces each of its rows.
 //
@@ -153,9 +166,27 @@ void addSquares(const Patches* reference, const Patches& seen, std::span<const g
     }
 }
 
-// Restricts the noisy sums to possible values. The mean square never grows with the patch size. It falls at most as
-// fast as for two spots that cancel each other.
+// Adds the standard deviations within the patches of a picture to `sums`, over all channels and weighted by the
+// patches' cells. `squares` has the means of the squared light.
+void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums) {
+    for (std::size_t i = 1; i < seen.count(); ++i) {
+        const CellBox& box = seen.box(i);
+        double sum = 0;
+        for (int y = box.bottom; y < box.top; ++y)
+            for (int x = 0; x < box.width(); ++x) {
+                const glm::vec3 mean = 0.5f * (squares.row(i, false, y)[x] + squares.row(i, true, y)[x]);
+                const glm::vec3 variance = mean - seen.row(i, false, y)[x] * seen.row(i, true, y)[x];
+                const glm::vec3 deviation = glm::sqrt(glm::max(variance, 0.0f));
+                sum += double{deviation.x} + double{deviation.y} + double{deviation.z};
+            }
+        sums[i] += sum * std::pow(4.0, static_cast<double>(i));
+    }
+}
+
+// Restricts the noisy sums to possible values. The mean square never grows with the patch size, so that the sum of a
+// larger patch bounds those of smaller ones. It falls at most as fast as for two spots that cancel each other.
 void smooth(SquareSums& sums, std::size_t measured) {
+    for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
@@ -189,30 +220,48 @@ private:
 // The pictures and measurements from one direction.
 struct Sight {
     Eye eye;
-    SparseCells reference;            // picture of level 0
-    double covered = 0, sum = 0;      // Picture::covered and sum of level 0
-    SquareSums light{};               // sums of squared radiance of level 0, per patch size
-    std::vector<SquareSums> changes;  // sums of squared radiance differences from level 0, per level
+    SparseCells reference;              // picture of level 0
+    double covered = 0, sum = 0;        // Picture::covered and sum of level 0
+    SquareSums light{};                 // sums of squared radiance of level 0 before black, per patch size
+    SquareSums deviations{};            // sums of standard deviations of level 0 before grey, per patch size
+    std::vector<SurroundSums> changes;  // sums of squared radiance differences from level 0, per level
 
-    void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
+    // Measures the levels. `unit` is the mean light of the mesh.
+    void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
         const LargeVector<glm::vec3> cells = reference.all();
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
-        Patches before(eye), after(eye);
-        before.measure(cells);
+        const auto brightest = static_cast<float>(shownWhite) * unit;
         // A lens sample shows one point, and clamping each point bounds any average. Points are therefore clamped
         // before averaging.
-        Picture picture;
-        picture.light = cells;
-        for (glm::vec3& value : picture.light) value = glm::min(value, brightest);
-        after.measure(picture.light);
-        addSquares(nullptr, after, dark, brightest, light);
+        LargeVector<glm::vec3> points = cells;
+        for (glm::vec3& value : points) value = glm::min(value, brightest);
+        std::array<LargeVector<glm::vec3>, surrounds.size()> references;
+        std::vector<Patches> full(surrounds.size(), Patches(eye));
+        Patches seen(eye);
+        const auto backgroundOf = [&](std::size_t b) { return surrounds[b] == Surround::grey ? unit : 0; };
+        for (std::size_t b = 0; b < surrounds.size(); ++b) {
+            references[b] = before(backgroundOf(b), cells);
+            full[b].measure(references[b]);
+        }
+        seen.measure(points);
+        addSquares(nullptr, seen, dark, brightest, light);
+        LargeVector<glm::vec3> squares = points = before(unit, points);
+        for (glm::vec3& value : squares) value *= value;
+        seen.measure(points);
+        Patches squared(eye);
+        squared.measure(squares);
+        addDeviations(seen, squared, deviations);
         changes.resize(pyramid.levels.size());
         Painter painter(pyramid, eye, finishes);
+        Picture picture;
         for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
             painter.draw(l, picture);
-            after.measure(picture.light);
-            addSquares(&before, after, dark, brightest, changes[l]);
+            for (std::size_t b = 0; b < surrounds.size(); ++b) {
+                const LargeVector<glm::vec3> own = before(backgroundOf(b), picture.light);
+                seen.measure(own);
+                addSquares(&full[b], seen, dark, brightest - backgroundOf(b), changes[l][b]);
+            }
         }
     }
 };
@@ -236,6 +285,10 @@ double interpolated(double smallest, double side, const At& at) {
     }
     const double f = std::clamp((side - low) / (high - low), 0.0, 1.0);
     return (1 - f) * at(i) + f * at(i + 1);
+}
+
+std::size_t indexOf(Surround surround) {
+    return static_cast<std::size_t>(surround);
 }
 
 double squared(float value) {
@@ -291,9 +344,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const double scale = 1 / (3 * covered * unit * unit);
 
     // Compare the other levels with level 0.
-    fromAll([&](Sight& sight, const glm::dvec3&) {
-        sight.judge(pyramid, finishes, static_cast<float>(shownWhite * unit));
-    });
+    fromAll([&](Sight& sight, const glm::dvec3&) { sight.judge(pyramid, finishes, static_cast<float>(unit)); });
     const auto measured = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(resolution)));
     const auto total = [&](const auto& sumsOf) {
         SquareSums sums{};
@@ -304,25 +355,34 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     };
     pyramid.smallestPatch = 2 * size / resolution;
     const SquareSums all = total([](const Sight& sight) -> const SquareSums& { return sight.light; });
-    for (std::size_t i = 0; i < blurSizes; ++i) pyramid.contrast[i] = static_cast<float>(std::sqrt(all[0] - all[i]));
-    BlurTable before{};
-    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
-        const SquareSums sums = total([&](const Sight& sight) -> const SquareSums& { return sight.changes[l]; });
-        BlurTable& own = pyramid.levels[l].blurredError;
-        for (std::size_t i = 0; i < blurSizes; ++i)
-            own[i] = static_cast<float>(std::max({std::sqrt(sums[i]), minBlurredGrowth * double{before[i]}, minError}));
-        before = own;
+    auto& [contrast, greyContrast] = pyramid.contrast;
+    for (std::size_t i = 0; i < blurSizes; ++i) contrast[i] = static_cast<float>(std::sqrt(all[0] - all[i]));
+    for (std::size_t i = 1; i < blurSizes; ++i) {
+        double sum = 0;
+        for (const Sight& sight : sights) sum += sight.deviations[i];
+        greyContrast[i] = std::max(greyContrast[i - 1], static_cast<float>(sum * scale * unit));
     }
-    for (std::size_t l = pyramid.levels.size() - 1; --l > 0;) {
-        if (pyramid.levels[l].triangleCount * viewCount <= covered) continue;
-        BlurTable& own = pyramid.levels[l].blurredError;
-        const BlurTable& coarser = pyramid.levels[l + 1].blurredError;
-        for (std::size_t i = 0; i < blurSizes; ++i) own[i] = std::max(own[i], coarser[i] / maxUnseenGrowth);
+    for (std::size_t b = 0; b < surrounds.size(); ++b) {
+        BlurTable finer{};
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+            const SquareSums sums = total([&](const Sight& sight) -> const SquareSums& { return sight.changes[l][b]; });
+            BlurTable& own = pyramid.levels[l].blurredError[b];
+            for (std::size_t i = 0; i < blurSizes; ++i)
+                own[i] =
+                    static_cast<float>(std::max({std::sqrt(sums[i]), minBlurredGrowth * double{finer[i]}, minError}));
+            finer = own;
+        }
+        for (std::size_t l = pyramid.levels.size() - 1; --l > 0;) {
+            if (pyramid.levels[l].triangleCount * viewCount <= covered) continue;
+            BlurTable& own = pyramid.levels[l].blurredError[b];
+            const BlurTable& coarser = pyramid.levels[l + 1].blurredError[b];
+            for (std::size_t i = 0; i < blurSizes; ++i) own[i] = std::max(own[i], coarser[i] / maxUnseenGrowth);
+        }
     }
 }
 
-double squaredError(const Pyramid& pyramid, std::size_t level, double side) {
-    const BlurTable& table = pyramid.levels[level].blurredError;
+double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround) {
+    const BlurTable& table = pyramid.levels[level].blurredError[indexOf(surround)];
     if (!(pyramid.smallestPatch > 0) || !(table.back() > 0)) return 0;
     const double largest = pyramid.smallestPatch * std::exp2(double{blurSizes - 2});
     const double beyond = side > largest ? largest / side : 1;
@@ -330,9 +390,14 @@ double squaredError(const Pyramid& pyramid, std::size_t level, double side) {
            interpolated(pyramid.smallestPatch, side, [&](std::size_t i) { return 1 / squared(table[i]); });
 }
 
-double squaredContrast(const Pyramid& pyramid, double side) {
+double squaredContrast(const Pyramid& pyramid, double side, Surround surround) {
     if (!(pyramid.smallestPatch > 0)) return 0;
-    return interpolated(pyramid.smallestPatch, side, [&](std::size_t i) { return squared(pyramid.contrast[i]); });
+    const BlurTable& table = pyramid.contrast[indexOf(surround)];
+    if (surround == Surround::black)
+        return interpolated(pyramid.smallestPatch, side, [&](std::size_t i) { return squared(table[i]); });
+    const double mean = interpolated(pyramid.smallestPatch, side, [&](std::size_t i) { return double{table[i]}; });
+    const double shown = std::max(greyShare * mean, minGreyContrast);
+    return shown * shown;
 }
 
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light) {
@@ -341,14 +406,22 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
         for (const double side : sides) sum += squared(side);
         return std::sqrt(sum);
     };
-    const double contrast = rootOfSum([&](double side) { return squaredContrast(pyramid, side); });
-    if (!(contrast > 0) || !(light > 0)) return 0;
-    const auto limit = [&](std::size_t l) {
-        return contrast * measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
+    std::array<double, surrounds.size()> contrast{};
+    for (const Surround surround : surrounds)
+        contrast[indexOf(surround)] = rootOfSum([&](double side) { return squaredContrast(pyramid, side, surround); });
+    if (!(contrast[indexOf(Surround::black)] > 0) || !(light > 0)) return 0;
+    // Returns the error of a level minus its limit, in units of the contrast.
+    const auto excess = [&](std::size_t l) {
+        double error = 0;
+        for (const Surround surround : surrounds) {
+            const double own = rootOfSum([&](double side) { return squaredError(pyramid, l, side, surround); });
+            error = std::max(error, own / contrast[indexOf(surround)]);
+        }
+        return error - measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
     };
-    double fine = -limit(0);  // error of the finer level minus its limit
+    double fine = excess(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
-        const double coarse = rootOfSum([&](double side) { return squaredError(pyramid, l, side); }) - limit(l);
+        const double coarse = excess(l);
         if (coarse > 0) return static_cast<double>(l) - coarse / (coarse - fine);
         fine = coarse;
     }

@@ -9,6 +9,11 @@
 // sequence have the error V(s) · N^−p. E and V have the same unit, so that their ratio is independent of the object's
 // brightness and of the exposure. After averaging, light is clamped to four times the mean light of the mesh, because
 // an image shows such light as white.
+//
+// The background of the pictures is black, and again a grey of the mesh's mean light. Before black, outlines dominate
+// both E and V. A real background may hide the outlines, so that the samples err by the shading's contrast alone. A
+// level must meet its limit before both backgrounds. Before grey, V is the mean instead of the RMS of the standard
+// deviations within patches: samples err at few edges, but a level errs all over a smooth surface, where it shows more.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -33,14 +38,15 @@ std::vector<glm::dvec3> blurredErrorViews();
 inline constexpr double shownWhite = 4;
 
 // Return the squared error E² of a level and the squared contrast V² of level 0 for a patch of side `side` (object
-// units, ≥ 0). Both are continuous in the side. Beyond the largest patch of the table, E falls as 1/side, like the
-// error of a single spot.
-double squaredError(const Pyramid& pyramid, std::size_t level, double side);
-double squaredContrast(const Pyramid& pyramid, double side);
+// units, ≥ 0). Both are continuous in the side. V before grey never falls below 0.4 % of the mean light. Beyond the
+// largest patch of the table, E falls as 1/side, like the error of a single spot.
+double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
+double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the λ at which the error E of the level equals measuredLimit(light, edge) · V. E and V are RMS over patches
-// of the given sides (object units). `edge` is the level's mean edge in px, projected with `pixelsPerUnit` (> 0) px per
-// object unit. λ is continuous in all arguments. Returns 0 if no errors were measured.
+// Returns the λ at which the error E of the level equals measuredLimit(light, edge) · V before one surround and is at
+// most as large before the other. E and V are RMS over patches of the given sides (object units). `edge` is the level's
+// mean edge in px, projected with `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all arguments. Returns 0
+// if no errors were measured.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 // as a reminder to add the member to the key or the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
-static_assert(sizeof(PyramidFileHeader) == 168 && sizeof(PyramidFileLevel) == 80 && sizeof(Cluster) == 48,
+static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,
               "no padding, so that all is written");
 
 namespace {
@@ -129,8 +129,10 @@ bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey
            header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
 }
 
-bool isBlurTable(const BlurTable& table) {
-    return std::all_of(table.begin(), table.end(), [](float value) { return value >= 0; });
+bool areBlurTables(const BlurTables& tables) {
+    return std::ranges::all_of(tables, [](const BlurTable& table) {
+        return std::ranges::all_of(table, [](float value) { return value >= 0; });
+    });
 }
 
 // Returns whether the clusters' index ranges cover each primitive's range without gaps.
@@ -179,7 +181,7 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
         level.longestEdge = record.longestEdge;
         level.error = record.error;
         level.blurredError = record.blurredError;
-        if (!isBlurTable(level.blurredError)) return false;
+        if (!areBlurTables(level.blurredError)) return false;
     }
     if (next != header.indexCount) return false;
     for (std::size_t l = 0; l < levels.size(); ++l)
@@ -317,7 +319,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         pyramid.bounds.minimum[axis] = header->minimum[axis];
         pyramid.bounds.maximum[axis] = header->maximum[axis];
     }
-    if (!(header->smallestPatch >= 0) || !isBlurTable(header->contrast)) return {};
+    if (!(header->smallestPatch >= 0) || !areBlurTables(header->contrast)) return {};
     pyramid.smallestPatch = header->smallestPatch;
     pyramid.contrast = header->contrast;
     pyramid.repairedFaces = header->repairedFaces;

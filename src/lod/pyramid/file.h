@@ -33,7 +33,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // Changes only with the file format. Changes to buildPyramid are covered by the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 6;
+    static constexpr std::uint32_t expectedVersion = 7;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all bytes after this field
@@ -52,7 +52,7 @@ struct PyramidFileHeader {
     double minimum[3] = {};      // Pyramid::bounds
     double maximum[3] = {};
     double smallestPatch = 0;
-    BlurTable contrast{};
+    BlurTables contrast{};
 };
 
 struct PyramidFileLevel {
@@ -63,7 +63,7 @@ struct PyramidFileLevel {
     double meanEdge = 0;
     double longestEdge = 0;
     double error = 0;
-    BlurTable blurredError{};
+    BlurTables blurredError{};
 };
 
 // Encodes a pyramid. `pyramid` must be the result of buildPyramid for `mesh`.

@@ -45,9 +45,11 @@ struct Eye {
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    LargeVector<glm::vec3> light;  // linear radiance of the cells in the eye's box; 0 in cells without a surface
-    std::size_t covered = 0;       // number of covered cells
-    double sum = 0;                // sum over all cells of the mean of the three channels
+    // Linear radiance of the cells in the eye's box. 0 means a cell without a surface; black surfaces have a tiny
+    // value.
+    LargeVector<glm::vec3> light;
+    std::size_t covered = 0;  // number of covered cells
+    double sum = 0;           // sum over all cells of the mean of the three channels
 };
 
 // Renders several levels in succession and reuses its memory. `finishes` has one finish per primitive of the mesh.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -335,7 +336,7 @@ public:
 private:
     void put(std::size_t cell, const glm::vec3& light) {
         if (!std::isfinite(light.x + light.y + light.z)) return;
-        cells_[cell] = light;
+        cells_[cell] = light == glm::vec3(0) ? glm::vec3(std::numeric_limits<float>::min()) : light;
         sum += (double{light.x} + double{light.y} + double{light.z}) / 3;
         ++covered;
     }

@@ -56,6 +56,12 @@ inline constexpr std::uint32_t maxClusterTriangles = 64;
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
+// Background that the light of a mesh is measured against. The real background is between these two: it contrasts with
+// the outlines as black does, or as little as a grey of the mesh's mean light.
+enum class Surround { black, grey };
+inline constexpr std::array surrounds = {Surround::black, Surround::grey};
+using BlurTables = std::array<BlurTable, surrounds.size()>;  // one table per surround
+
 struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one range per primitive of the mesh, in mesh order
     std::uint32_t vertexCount = 0;       // length of the vertex-buffer prefix that the level uses
@@ -84,7 +90,7 @@ struct PyramidLevel {
     // box.
     double error = 0;
 
-    BlurTable blurredError{};  // see blurred_error.h; 0 for level 0
+    BlurTables blurredError{};  // see blurred_error.h; 0 for level 0
 };
 
 struct Pyramid {
@@ -102,7 +108,7 @@ struct Pyramid {
     std::vector<Bounds> morphBounds;
     double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
     // Standard deviation of level 0's light within patches; see blurred_error.h.
-    BlurTable contrast{};
+    BlurTables contrast{};
     std::uint32_t repairedFaces = 0;  // faces that had to be repaired for the half-edge structure; see manifold.h
     PyramidEnd end = PyramidEnd::maxLevels;
 };

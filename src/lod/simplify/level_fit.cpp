@@ -261,11 +261,14 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
-// Max triangle count for which outline and light are corrected. Finer levels match level 0 without correction.
-constexpr std::size_t maxConservedTriangles = 16'384;
+// Max triangle count for which the light is corrected. Finer levels reflect the light of level 0 without correction.
+constexpr std::size_t maxLitTriangles = 16'384;
+// Max triangle count for which the outline is corrected. Thin parts lose area at the first level already; meshes with
+// more triangles would take too long.
+constexpr std::size_t maxOutlinedTriangles = 131'072;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
-    if (level.triangles.count() > maxConservedTriangles) return;
+    if (level.triangles.count() > maxOutlinedTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
     std::vector<std::uint32_t> places;
@@ -283,7 +286,7 @@ void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fi
 }
 
 void conserveLight(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
-    if (level.triangles.count() > maxConservedTriangles) return;
+    if (level.triangles.count() > maxLitTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.smoothing[v]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, true);
     std::vector<std::uint32_t> numbers;

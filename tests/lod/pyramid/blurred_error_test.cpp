@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <set>
 
 #include "lod/pyramid/level_selection.h"
@@ -83,6 +86,95 @@ TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     EXPECT_GT(left(shift, 0.5), 0.75);
 }
 
+// Returns an unlit white pyramid of two levels without height: `both` is in both levels, `lost` only in level 0.
+Pyramid flatWithout(const std::vector<glm::vec3>& both, const std::vector<glm::vec3>& lost) {
+    Mesh mesh;
+    mesh.vertices.positions = both;
+    mesh.vertices.positions.insert(mesh.vertices.positions.end(), lost.begin(), lost.end());
+    mesh.primitives.emplace_back();
+    for (std::uint32_t v = 0; v < mesh.vertices.count(); ++v) mesh.primitives[0].indices.push_back(v);
+    Pyramid pyramid = fullDetail(mesh);
+    PyramidLevel level = pyramid.levels[0];
+    const auto isLost = [&](std::uint32_t v) { return std::ranges::count(lost, level.positions[v]) > 0; };
+    level.primitives[0] = {static_cast<std::uint32_t>(pyramid.indices.size()), 0};
+    for (std::size_t i = 0; i < 3 * std::size_t{level.triangleCount}; i += 3) {
+        const std::array corners{pyramid.indices[i], pyramid.indices[i + 1], pyramid.indices[i + 2]};
+        if (std::ranges::all_of(corners, isLost)) continue;
+        pyramid.indices.insert(pyramid.indices.end(), corners.begin(), corners.end());
+        level.primitives[0].count += 3;
+    }
+    level.triangleCount = level.primitives[0].count / 3;
+    pyramid.levels.push_back(level);
+    measureBlurredErrors(pyramid, std::array{Finish{.unlit = true}});
+    return pyramid;
+}
+
+std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
+    const glm::vec3 a(low, 0), b(high.x, low.y, 0), c(high, 0), d(low.x, high.y, 0);
+    return {a, b, c, a, c, d};
+}
+
+// Strips of width w and length l beside a plate err by their share of the area at each point. Under patches of side s
+// that are wider than a strip, its light spreads, so that the sum of squares is (w/s)² · l · s. Foreshortening along
+// each direction changes w and l. The strips are thinner than a cell of the pictures.
+TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
+    constexpr double width = 0.004, plate = 0.5;
+    constexpr int count = 12;
+    std::vector<glm::vec3> wires;
+    std::vector<glm::dvec3> ways;
+    for (int i = 0; i < count; ++i) {
+        const double low = plate + 0.06 * (i + 1), high = low + 0.01 * i;
+        const glm::vec3 a(low, 0, 0), b(low + width, 0, 0), c(high + width, 1, 0), d(high, 1, 0);
+        wires.insert(wires.end(), {a, b, c, a, c, d});
+        ways.emplace_back(high - low, 1, 0);
+    }
+    const Pyramid pyramid = flatWithout(rectangle({0, 0}, {plate, 1}), wires);
+    EXPECT_LT(width, pyramid.smallestPatch / 2);
+    double covered = 0, points = 0, lines = 0;
+    for (const glm::dvec3& towards : blurredErrorViews()) {
+        covered += (plate + count * width) * std::abs(towards.z);
+        for (const glm::dvec3& way : ways) {
+            const double length = glm::length(way - glm::dot(way, towards) * towards);
+            const double area = width * std::abs(towards.z);
+            points += area;
+            lines += area * area / length;
+        }
+    }
+    EXPECT_NEAR(squaredError(pyramid, 1, 0) * covered / points, 1, 0.1);
+    for (int i = 0; i < 2; ++i) {  // larger patches contain two wires
+        const double side = sideOf(pyramid, i);
+        const double truth = lines / (side * covered);
+        EXPECT_GT(squaredError(pyramid, 1, side), 0.5 * truth) << "side " << side;
+        EXPECT_LT(squaredError(pyramid, 1, side), 2 * truth) << "side " << side;
+    }
+}
+
+// A disk of 60 corners that becomes a hexagon loses a share of its area, and errs by that share.
+TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
+    std::vector<glm::vec3> hexagon, rest;
+    const auto corner = [](int i) {
+        const double turn = 2 * std::numbers::pi * i / 60;
+        return glm::vec3(std::cos(turn), std::sin(turn), 0);
+    };
+    for (int i = 0; i < 60; i += 10) {
+        hexagon.insert(hexagon.end(), {glm::vec3(0), corner(i), corner(i + 10)});
+        for (int k = 1; k < 10; ++k) rest.insert(rest.end(), {corner(i), corner(i + k), corner(i + k + 1)});
+    }
+    const Pyramid pyramid = flatWithout(hexagon, rest);
+    const double full = 30 * std::sin(2 * std::numbers::pi / 60);
+    EXPECT_NEAR(squaredError(pyramid, 1, 0), (full - 3 * std::sin(std::numbers::pi / 3)) / full, 0.01);
+}
+
+// Grey of the mean light hides a plate of even light: its outline has contrast before black only.
+TEST(BlurredError, greyHidesAnEvenPlate) {
+    const Pyramid pyramid = flatWithout(rectangle({0, 0}, {1, 1}), rectangle({1, 0}, {1.1, 1}));
+    for (const double side : {0.05, 0.5}) {
+        EXPECT_GT(squaredContrast(pyramid, side), 0.04);
+        EXPECT_LT(squaredContrast(pyramid, side, Surround::grey), 1e-4);
+        EXPECT_LT(squaredError(pyramid, 1, side, Surround::grey), 1e-4);
+    }
+}
+
 // Shrinking the ball by ε loses a rim of area 2πε, and the mean squared error is proportional to that area.
 TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     const auto white = [](const glm::vec3&) { return glm::vec4(1); };
@@ -144,9 +236,13 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    const double contrast = mean([&](double side) { return squaredContrast(pyramid, side); });
+    // Error in units of the contrast, before the background that shows it more.
     const auto error = [&](std::size_t l) {
-        return l == 0 ? 0 : mean([&](double side) { return squaredError(pyramid, l, side); });
+        double worst = 0;
+        for (const Surround surround : surrounds)
+            worst = std::max(worst, mean([&](double side) { return squaredError(pyramid, l, side, surround); }) /
+                                        mean([&](double side) { return squaredContrast(pyramid, side, surround); }));
+        return worst;
     };
     const auto last = static_cast<double>(pyramid.levels.size() - 1);
     std::set<std::size_t> met;
@@ -157,9 +253,8 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
             const auto at = [&](const auto& ofLevel) {
                 return std::lerp(ofLevel(fine), ofLevel(fine + 1), lambda - static_cast<double>(fine));
             };
-            const double limit = at([&](std::size_t l) {
-                return contrast * measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
-            });
+            const double limit =
+                at([&](std::size_t l) { return measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit); });
             if (lambda == last)
                 EXPECT_LE(at(error), limit);
             else
