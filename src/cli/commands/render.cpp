@@ -71,11 +71,11 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                   "Continue an interrupted run with the same settings: keep its finished tiles (folder out.tiles "
                   "beside the first output), or the finished file of --tile")
         ->group(group);
-    command
-        .add_flag("--keep-partial", arguments.keepPartial,
-                  "On Ctrl-C or SIGTERM, finish the current lens sample and write the image of the samples so far; "
-                  "the exit code is 1. A second signal ends the program at once")
-        ->group(group);
+    advanced(command
+                 .add_flag("--keep-partial", arguments.keepPartial,
+                           "On Ctrl-C or SIGTERM, finish the current lens sample and write the image of the samples so "
+                           "far; the exit code is 1. A second signal ends the program at once")
+                 ->group(group));
     advanced(addParsed(command, "--stats", "FILE",
                        "Write render times, triangle counts, memory use and the requested settings as JSON; - writes "
                        "to standard output",
