@@ -16,6 +16,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "cycles": "compare lit, textured scenes with Blender's Cycles",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "levels": "compare levels with full detail on copies of thin parts or of models",
+    "quality": "measure how well the automatic number of samples meets its quality",
     "latency": "measure how fast the window answers the mouse",
 }
 

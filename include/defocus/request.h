@@ -50,7 +50,7 @@ struct Request {
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first
-    bool loop = false;              // true: the animation repeats; false: first and last pose hold
+    bool loop = false;              // true: the animation repeats; false: before its start and after its end, it rests
     double shutter = 0;             // s, duration of the exposure; > 0 gives motion blur
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;

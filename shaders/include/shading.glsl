@@ -40,7 +40,7 @@ struct SurfacePoint {
     float spread;         // normalSpread(agreement)
     vec3 seen;            // seenNormal(…)
     float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
-    vec3 transmitted;     // radiance from behind the surface, before the loss by reflection at the surface
+    vec3 transmitted;     // radiance from behind the surface, without the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour
     float sheenRoughness; // perceptual
@@ -92,8 +92,8 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ² of the slopes of the normals that a coarse level's normal represents: σ² ≈ (1 − |n|)/|n| (Toksvig 2005,
-// Mipmapping Normal Maps).
+// Returns 2σ². σ² is the variance of the slopes of the fine normals that one normal of a coarse level averages: σ² ≈
+// (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
@@ -288,7 +288,7 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
     if (ownReflectance) {
-        // With reflectance F90 at grazing angles, Fresnel gives 1 − F = (1 − F90) + (F90 − F0)·(1 − g).
+        // Schlick: F = F0 + (F90 − F0)·g with g = (1 − cos θ)⁵, so 1 − F = (1 − F90) + (F90 − F0)·(1 − g).
         specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
         float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
         diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);

@@ -141,7 +141,7 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a sub-command is missing
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    // Report an unknown option first, because its value may be the cause of the other error.
+    // Report an unknown option first: the word that the parser rejects may be the value of that option.
     if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());

@@ -123,7 +123,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     return image;
 }
 
-// Returns the indices of the file's channels that form grey, RGB or RGBA, in this order.
+// Returns the indices of the file's channels that hold grey, or R, G, B, or R, G, B, A, in this order.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
         const auto found = std::ranges::find(spec.channelnames, channel);

@@ -59,7 +59,7 @@ struct ObjectPlan {
     int mesh = -1;
     std::string name;
     glm::dmat4 viewFromObject{1.0};  // relative to the camera, computed in double precision
-    ObjectPose pose;                 // in the middle of the exposure
+    ObjectPose pose;                 // pose in the middle of the exposure
     // Poses at the moments of the shutter; empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
     bool skinned = false;
@@ -98,7 +98,7 @@ struct ShadowMap {
 // Shadow casters and the lights that cast shadows; see shadows.h.
 struct ShadowPlan {
     std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
-    int size = 0;                     // px, side of each map
+    int size = 0;                     // px, width and height of each map
     std::uint32_t points = 1;         // sample points on each light per lens sample
     std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
     // Corners of boxes that contain all casters, in m along the world's axes; the camera is the origin.

@@ -25,8 +25,8 @@ struct RenderArguments {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; none: all
-    std::optional<TileShare> tile;           // draw only these rows, for `merge`; none: all
+    std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; nullopt: all
+    std::optional<TileShare> tile;           // draw only these rows, for `merge`; nullopt: all
     bool resume = false;                     // keep finished parts of an interrupted run
     bool keepPartial = false;                // write the image of the samples so far if a signal stops the run
 };

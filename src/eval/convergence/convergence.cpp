@@ -117,8 +117,8 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
     return cases;
 }
 
-// Returns the cases of one method. If `use` changes any of the method's settings, only these settings are measured;
-// otherwise all requested forms of the method are.
+// Returns the cases to measure for one method: one case if `use` changes any of the method's settings, otherwise one
+// for each requested form (published, best, standard) of the method.
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;

@@ -31,8 +31,8 @@ struct FrameParts {
 
 class SceneDriver {
 public:
-    // Loads the scene that the request names, or uses `scene` if it isn't null. Checks the values, scene, lens and
-    // device before any pyramid is built. Throws Error in the same cases as SceneRenderer.
+    // Loads the scene that the request names, or uses `scene` if it isn't null. Checks the request, scene, lens
+    // and device before any pyramid is built. Throws Error in the same cases as SceneRenderer.
     SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
     ~SceneDriver();
@@ -82,7 +82,7 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // one for full detail only, one for levels of each LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and levels with each value of LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);

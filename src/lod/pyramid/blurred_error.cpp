@@ -166,8 +166,8 @@ void addSquares(const Patches* reference, const Patches& seen, std::span<const g
     }
 }
 
-// Adds the standard deviations within the patches of a picture to `sums`, over all channels and weighted by the
-// patches' cells. `squares` has the means of the squared light.
+// For each patch and channel, adds the standard deviation of the radiance within the patch to `sums`, weighted by the
+// patch's number of cells. `seen` has the means of the radiance, `squares` the means of its square.
 void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums) {
     for (std::size_t i = 1; i < seen.count(); ++i) {
         const CellBox& box = seen.box(i);

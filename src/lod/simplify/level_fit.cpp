@@ -165,8 +165,8 @@ LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, 
     return std::move(fit.solution);
 }
 
-// Fits normals. A fitted normal that points away from the surrounding triangles at `positions` is replaced by the
-// triangles' mean unit normal.
+// Fits normals. A fitted normal on the back side of the surrounding triangles, whose vertices are at `positions`, is
+// replaced by the triangles' mean unit normal.
 Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
                                                   const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
                                                   const Numbered<LevelVertexNumber, glm::vec3>& positions) {

@@ -51,7 +51,8 @@ std::string reasonForNoCells(const FramePlan& plan);
 // each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// Moves the plan's samples to the middles of their cells and adds the pixel shift. Does nothing if cells.blur is 0.
+// Moves each of the plan's samples to the middle of its cell, and its position in the pixel by LensCells::pixelShift.
+// Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the resolution along an axis that the image of a sample needs at a CoC of `coc` px, as a fraction of full

@@ -235,7 +235,8 @@ std::optional<Rectangle> inFront(const Axes& axes, const glm::dvec3& origin, con
     return area;
 }
 
-// Projects from the `point` of the unit disk on a point or spot light. `camera` is the camera's position in m.
+// Returns the projection from one point of the disk of a point or spot light. `point` is its position on the unit disk,
+// `camera` the camera's position in m.
 ShadowProjection localProjection(const ShadowPlan& shadows, const glm::dvec3& camera, const PlacedLight& placed,
                                  int face, const glm::dvec2& point, const glm::dvec2& shift) {
     const Bounds bounds = boundsOfCorners(shadows.corners);

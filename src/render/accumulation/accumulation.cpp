@@ -45,7 +45,7 @@ bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
            a.sumHeight == b.sumHeight;
 }
 
-// When each sample's image is blurred by its lens cell.
+// Whether the image of each sample is blurred by its lens cell; automatic: where it pays (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {

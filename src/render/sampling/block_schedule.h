@@ -31,7 +31,7 @@ struct LevelError {
     double atFine = 0;
 
     [[nodiscard]] double at(double thresholdSamples) const;
-    // Returns the smallest sample count, at least `min`, for whose thresholds the RMSE is at most `error`.
+    // Returns the smallest sample count, at least `min`, whose default thresholds give an RMSE of at most `error`.
     [[nodiscard]] double samplesFor(double error, double min) const;
 };
 
@@ -63,7 +63,7 @@ public:
     // Ends the frame within a block of which `drawn` samples are drawn.
     void endWithinBlock(std::uint32_t drawn);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // drawn before the current block
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // of all complete blocks
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }

@@ -296,7 +296,9 @@ TEST_F(Capture, filmsAndPicturesAreReproducible) {
         for (int i = 0; i < 2; ++i) {
             EXPECT_EQ(run({"render", "quads.gltf", "--size", "32x24", "--samples", "2", "-o", name}).exitCode, 0);
             runs.push_back(textOf(folder() / name));
-            if (i == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // dates have whole seconds
+            if (i == 0)
+                std::this_thread::sleep_for(
+                    std::chrono::milliseconds(1100));  // so that dates, in whole seconds, would differ
         }
         EXPECT_TRUE(runs[0] == runs[1]) << name;
     }

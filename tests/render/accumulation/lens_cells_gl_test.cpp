@@ -109,7 +109,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
         RendererOptions exact;
         exact.layerFormat = LayerFormat::rgba32f;
         ASSERT_GT(lensCellsOf(small, ratedSettings(64)).classes(), 0);
-        // Returns the largest error of pixels near the common edge and away from the outer edges.
+        // Returns the largest error of pixels near the edge that both surfaces share, away from their outer edges.
         const auto worst = [&](const char* method) {
             const Image image = drawnBy(method, small, ratedSettings(64), exact);
             double largest = 0;
