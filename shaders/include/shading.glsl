@@ -107,16 +107,12 @@ float coarseSpread(SurfacePoint point) {
 // widens such a lobe to that variation, and later blocks to a fraction of it. Both widths depend only on the sample's
 // number, so blocks that are drawn separately add up to the same image. Both vanish as the number of samples grows, so
 // highlights converge. The footprint's part of the result is proportional to the pixel's area, and 0 on flat surfaces.
-//
-// Normals that face away from the eye are invisible, so the spread of the visible normals falls with their cosine to the
-// eye: 2σ² ≤ 0.4·(n·v)². A factor of 1, or no bound, gives rippled metal spheres a larger error.
-float slopeSpread(SurfacePoint point, float nv) {
+float slopeSpread(SurfacePoint point) {
     float ofPixel = 0.25 * point.footprint;
     float ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
     float width = point.roughness * point.roughness;
     float ofSample = min(ofPixel / (sampleNumber() + 1.0), 0.18);
-    float seen = max(nv, 0.0);
-    float spread = min(max(ofBlock - width * width, ofSample), 0.4 * seen * seen);
+    float spread = max(ofBlock - width * width, ofSample);
     return coarseLevel ? spread + coarseSpread(point) : spread;
 }
 
@@ -126,16 +122,12 @@ float slopeSpread(SurfacePoint point, float nv) {
 // tail α²/(π tan⁴).
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
-// like microfacets. Masking therefore uses α. GGX's part has the cosines n·l and n·v. Beckmann's part is reflected by
-// the normals at the half vector h, so its cosine to the light is v·h. Normals that face the eye cover more pixels, so
-// each is weighted by v·h divided by the mean of v·h over the normals. Beckmann's cosine to the eye is therefore this
-// mean, as n·v is for microfacets.
+// like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
+// of its cosines are v·h. GGX's part has the cosines n·l and n·v.
 //
-// Normals in the pixel: their mean projected area is 1, so their density is Beckmann's distribution times n·h. The factor
-// min(1, 2·(n·l)/(v·h)) fades their light out where the shading normal faces away, because a dark crease must not shine.
-//
-// Coarse levels: where the microfacets themselves are rough, a fraction α of the normals reflects from the underlying
-// normal, masked as usual.
+// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h.
+// Beckmann's cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are
+// rough, a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
@@ -149,7 +141,7 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
     float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
     if (!coarseLevel) {
         float share = min(spread / alpha2, 1.0);
-        return Lobe(width, sqrt(alpha2), share, meanCosine(nv, nv, spread / 3.14159265), 0.0);
+        return Lobe(width, sqrt(alpha2), share, 0.0, 1.0);
     }
     float coarse = min(coarseSpread(point) * (1.0 - width) / alpha2, 1.0);
     float share = min(coarse + (spread - coarseSpread(point)) / alpha2, 1.0);
@@ -179,7 +171,6 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float ggx = alpha2 / (base * base);
     float away = max(cosines2, 1e-4 * sum2);  // (n·h)²·|l + v|², bounded away from 0
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
-    if (!coarseLevel) beckmann *= sqrt(away / sum2) * clamp(2.0 * cosine / vh, 0.0, 1.0);
     float width2 = lobe.width * lobe.width;
     float reflected = mix(ggx * unmasked(cosine, nv, width2), beckmann * unmasked(vh, lobe.shown + lobe.shownOfH * vh, width2), lobe.spread);
     float specular = 0.5 * sum2 * sum2 * reflected;
@@ -268,7 +259,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
 // and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
-    float spread = slopeSpread(point, nv);
+    float spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, nv, spread);
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     float sheenToEye = sheen ? sheenAlbedo(max(nv, 0.0), point.sheenRoughness) : 0.0;

@@ -20,6 +20,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr int minMapSize = 128;               // px
+constexpr int maxImageMapSize = 2048;         // px, of maps whose size is that of the image
 constexpr double resolvedShare = 0.95;        // of the visible points, at which a texel is at most a pixel wide
 constexpr double minTexelLimit = 1 << 20;     // of a map; larger images allow twice their number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // of all maps of a lens sample: 256 MiB
@@ -387,8 +388,9 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
     shadows.points = pointsFor(plan.settings, shadows.maps.size());
     shadows.seen = seenCorners(plan);
 
-    shadows.size = minMapSize;
-    shadows.size = mapSize(world, plan, shadows, environmentDirections(world), rays);
+    // A map has at least as many texels across as the image has pixels, within limits.
+    shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), minMapSize, maxImageMapSize);
+    shadows.size = std::max(shadows.size, mapSize(world, plan, shadows, environmentDirections(world), rays));
     // Casters use levels whose error is at most levelErrorTexels.
     const double texel = glm::length(boundsOfCorners(shadows.corners).size()) / shadows.size;
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
