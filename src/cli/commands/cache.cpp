@@ -75,13 +75,20 @@ void addCacheCommand(CLI::App& program) {
     const char* example = "Examples:\n  defocus cache list\n  defocus cache clear --cache-dir /tmp/pyramids";
 
     CLI::App* listing = command->add_subcommand("list", "Print the size, date and triangle count of each file");
-    listing->callback([arguments] { list(*arguments); });
     CLI::App* clearing = command->add_subcommand("clear", "Remove the files of the cache");
-    clearing->callback([arguments] { clear(*arguments); });
     for (CLI::App* place : {command, listing, clearing}) {
         addSettings(*place, arguments->request, {"cacheFolder"});
         place->footer(example);
     }
+    // An empty name, as from an unset variable of a script, must not mean the default folder.
+    const auto checked = [arguments, command, listing, clearing](void (*act)(const CacheArguments&)) {
+        for (const CLI::App* place : {command, listing, clearing})
+            if (place->count("--cache-dir") > 0 && arguments->request.cacheFolder.empty())
+                throw UsageError("--cache-dir: the folder has an empty name");
+        act(*arguments);
+    };
+    listing->callback([checked] { checked(list); });
+    clearing->callback([checked] { checked(clear); });
 }
 
 }  // namespace defocus::engine

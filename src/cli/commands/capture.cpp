@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -99,23 +98,29 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     return options;
 }
 
-// Returns the method of all frames of the shot, so that the look doesn't change within it. Method "auto" becomes
-// multirate if up to 16 frames, spread over the complete shot, include one for which it chooses multirate.
-MethodUse methodOfShot(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
+// Replaces method "auto" by one method for all frames of the shot, so that the look doesn't change within it: multirate
+// if up to 16 frames, spread over the complete shot, include one for which auto chooses multirate. With --memory,
+// frames may need tiles, which multirate cannot draw; auto is then accumulation.
+void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
-    if (use.method->name != automaticMethod) return use;
+    if (use.method->name != automaticMethod) return;
+    arguments.request.method = "accumulation";
+    if (arguments.request.memory) return;
+    // The choice depends on bounding boxes alone, so full detail without levels serves.
+    const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
+    addPyramids(prepared);
     constexpr int maxPlanned = 16;
     const FrameRange& range = arguments.shot.range;
-    const int count = std::min(maxPlanned, range.last - range.first + 1);
-    MethodUse drawn = use;
-    for (int i = 0; i < count && drawn.method->name != "multirate"; ++i) {
-        const int number =
-            range.first + static_cast<int>(std::lround((range.last - range.first) * (i / std::max(1.0, count - 1.0))));
-        const FrameMoment frame = frameAt(arguments.shot, base, number);
+    const int steps = std::min(maxPlanned - 1, range.last - range.first);
+    for (int i = 0; i <= steps && arguments.request.method != "multirate"; ++i) {
+        const int number = range.first + (range.last - range.first) * i / std::max(steps, 1);
+        FrameMoment frame = frameAt(arguments.shot, base, number);
+        frame.settings.lod = LodMode::off;
         applyMoment(frame, prepared.world);
-        drawn = drawnMethod(use, planFrame(prepared.world, frame.view, frame.settings));
+        arguments.request.method = drawnMethod(use, planFrame(prepared.world, frame.view, frame.settings)).method->name;
     }
-    return drawn;
+    prepared.world.pyramids.clear();
+    prepared.settings.lod = lod;
 }
 
 void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
@@ -244,6 +249,8 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placedFrame(arguments, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
+    settleMethod(arguments, prepared, base);
+    const MethodUse use = chosenMethod(arguments.request);
     FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
     options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
     const std::vector<int> frames =
@@ -255,15 +262,12 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     // Render the frames.
     std::unique_ptr<GlContext> context;
     const bool meters = options.metered && (!allThere || !shot.video.empty());
-    if (((!allThere && chosenMethod(arguments.request).method->needsGl) || meters) && !arguments.dryRun)
-        context = createHeadlessContext();
+    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
     if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
     progress = {};
     printCacheUse(prepared, global);
     WarningPrinter warnings(global);
     warnings.print(requestWarnings(arguments.request, prepared));
-    const MethodUse use =
-        allThere && !arguments.dryRun ? chosenMethod(arguments.request) : methodOfShot(arguments, prepared, base);
     if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film, use);
     if (meters) meterFilm(arguments, prepared, base, film, global);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/options/image_output.h"
 #include "cli/options/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -135,8 +136,7 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
 void runCompare(const CompareArguments& arguments) {
     // Check the output file before the long work.
     if (!arguments.errorMap.empty()) {
-        checkImageExtension(arguments.errorMap);
-        checkWritable(arguments.errorMap);
+        checkImageOutputs({arguments.errorMap}, {}, {arguments.reference, arguments.test});
     }
 
     // Read and compare the images.

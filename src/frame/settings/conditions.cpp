@@ -50,6 +50,10 @@ std::string withoutBlurOrExposure(const SettingContext& context) {
     return context.lens.exposureTime > 0 ? "" : withoutBlur(context);
 }
 
+std::string withFixedSamples(const SettingContext& context) {
+    return context.request.samples ? "the number of samples is given" : "";
+}
+
 std::string withoutLevels(const SettingContext& context) {
     return context.request.lod == LodMode::off ? "--lod off draws full detail" : "";
 }

@@ -21,6 +21,7 @@ std::string withoutAnimation(const SettingContext& context);
 std::string withoutShadows(const SettingContext& context);
 std::string withoutBlur(const SettingContext& context);
 std::string withoutBlurOrExposure(const SettingContext& context);
+std::string withFixedSamples(const SettingContext& context);  // the request gives the number of samples
 std::string withoutLevels(const SettingContext& context);
 std::string withMeasuredLevels(const SettingContext& context);
 

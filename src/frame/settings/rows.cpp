@@ -395,8 +395,10 @@ Rows sampleRows() {
             "0.03 (draft), 0.01 (good) or 0.005 (fine)")
             .everyday()
             .inShot("/quality")
-            .excludes({"samples", "targetError", "timeLimit"})
-            .unused(methodWithoutSamples),
+            .excludes({"targetError", "timeLimit"})
+            .unused([](const SettingContext& context) {
+                return firstOf(context, {methodWithoutSamples, withFixedSamples});
+            }),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
                      "Add blocks of 64 samples until the estimated RMSE of the image is below R. Pixel values are "
                      "display-encoded, 0 to 1, at EV 0")
@@ -550,8 +552,9 @@ Rows developerRows() {
                 if (!request.memory) return std::nullopt;
                 return fmt::format("{}B", *request.memory);
             },
-            "Maximum memory of the program, such as 2GiB; does not affect the image. Smaller limits draw fewer samples "
-            "at once, or the image in tiles. Default: three quarters of the free memory")
+            "Maximum memory of the program, such as 2GiB. Smaller limits draw fewer samples at once, or the image in "
+            "tiles, which does not affect the image, but method auto draws tiles by accumulation. Default: three "
+            "quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
         rows::integer(

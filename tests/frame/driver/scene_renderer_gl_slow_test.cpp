@@ -21,6 +21,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.size.height = 1200;
     request.wave.reset();
     request.samples = 4;
+    request.method = "accumulation";  // method auto draws tiles by accumulation, but may draw one piece by multirate
     (void)render(smallRequest());
     const std::uint64_t held = residentMemory();  // measured before the driver keeps memory of large images
     Image full;
