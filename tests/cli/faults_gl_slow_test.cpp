@@ -239,6 +239,7 @@ TEST_F(Faults, aFullDiskUnderTheShaderCacheIsNoCrash) {
     fs::create_directory(folder() / "small");
     std::ofstream(folder() / "inside.sh")
         << "mount -t tmpfs -o size=16k tmpfs small || exit 9\n"
+           "unset MESA_SHADER_CACHE_DIR MESA_GLSL_CACHE_DIR MESA_SHADER_CACHE_DISABLE MESA_GLSL_CACHE_DISABLE\n"
            "XDG_CACHE_HOME=\"$PWD/small\" '" DEFOCUS_PROGRAM
            "' render quads.gltf --size 64x48 --samples 2 -o a.png 2> said\necho $? > code\n";
     const std::string command =

@@ -172,7 +172,11 @@ private:
 
 // ---- the driver -----------------------------------------------------------------------------------------------------
 
-FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {}
+FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {
+    // A memory limit may need tiles, which only the accumulation draws, and must not change the image.
+    if (options_.method.method->name == automaticMethod && options_.limits.memory)
+        options_.method = parseMethodUse("accumulation");
+}
 
 FrameDriver::~FrameDriver() = default;
 FrameDriver::FrameDriver(FrameDriver&&) noexcept = default;

@@ -553,8 +553,8 @@ Rows developerRows() {
                 return fmt::format("{}B", *request.memory);
             },
             "Maximum memory of the program, such as 2GiB. Smaller limits draw fewer samples at once, or the image in "
-            "tiles, which does not affect the image, but method auto draws tiles by accumulation. Default: three "
-            "quarters of the free memory")
+            "tiles; the image stays the same. With a limit, method auto is accumulation, as multirate cannot draw "
+            "tiles. Default: three quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
         rows::integer(

@@ -138,8 +138,7 @@ int classesFor(double blur, double coc) {
 }  // namespace
 
 std::string reasonForNoCells(const FramePlan& plan) {
-    if (plan.settings.keepAll) return "--keep-all is given";
-    if (!plan.usesLens) return "no blur reaches half a pixel";
+    if (!plan.usesLens || plan.largestBlur < minBlur) return "no blur reaches half a pixel";
     if (plan.frameSamples < fewestSamples) return "there are too few samples";
     if (plan.needsAlpha) return "the background is transparent";
     if (plan.coc.chromatic > 0) return "each sample has its own wavelength";

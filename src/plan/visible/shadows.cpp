@@ -21,7 +21,8 @@ namespace {
 
 constexpr int minMapSize = 128;               // px
 constexpr int maxImageMapSize = 2048;         // px, of maps whose size is that of the image
-constexpr double resolvedShare = 0.95;        // of the visible points, at which a texel is at most a pixel wide
+constexpr double resolvedShare = 0.95;        // of the visible points, at which a texel is at most texelPixels wide
+constexpr double texelPixels = 2;             // lens samples shift the texels, so texels may be wider than pixels
 constexpr double minTexelLimit = 1 << 20;     // of a map; larger images allow twice their number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // of all maps of a lens sample: 256 MiB
 constexpr double minShare = 0.01;             // lights below this fraction of the visible light cast no shadow
@@ -294,15 +295,15 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the maps -----------------------------------------------------------------------------------------------
 
-// Returns the number of texels across the map for which a texel at `seen` is as wide as what the image resolves there:
-// a pixel, or half the blur. 0 if the point is outside the map.
+// Returns the number of texels across the map for which a texel at `seen` is twice as wide as what the image resolves
+// there: a pixel, or half the blur. 0 if the point is outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);
     const glm::dvec2 clip(glm::dot(projection.clipRows[0], place), glm::dot(projection.clipRows[1], place));
     if (!(std::max(std::abs(clip.x), std::abs(clip.y)) <= w)) return 0;
     const double pixel = 2 * plan.tanHalfHorizontal / plan.view.width * seen.depth;
-    return w * projection.texel * size / (pixel * std::max(1.0, 0.5 * seen.blur));
+    return w * projection.texel * size / (texelPixels * pixel * std::max(1.0, 0.5 * seen.blur));
 }
 
 // Returns the size that suffices for all but a small fraction of what the image shows, within the limits of memory and

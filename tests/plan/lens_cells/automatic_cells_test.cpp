@@ -17,6 +17,7 @@ FramePlan planOfLens() {
     plan.tanHalfHorizontal = 1;
     plan.coc = {.a = -0.05, .aBehind = -0.05, .front = 0.025, .behind = 0.025, .aspect = 4.0 / 3};
     plan.frameSamples = 64;
+    plan.largestBlur = 25;
     return plan;
 }
 
