@@ -11,7 +11,8 @@
 namespace defocus::engine {
 
 MethodUse chosenMethod(const Request& request) try {
-    const Method& method = methodNamed(request.method);
+    const bool limited = request.method == automaticMethod && request.memory;
+    const Method& method = methodNamed(limited ? "accumulation" : request.method);
     return {&method, completeSettings(method.name, method.settings, request.methodSettings)};
 } catch (const Error& error) {
     throw UsageError(error.what());

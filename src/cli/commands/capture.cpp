@@ -99,13 +99,10 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 }
 
 // Replaces method "auto" by one method for all frames of the shot, so that the look doesn't change within it: multirate
-// if up to 16 frames, spread over the complete shot, include one for which auto chooses multirate. With --memory,
-// frames may need tiles, which multirate cannot draw; auto is then accumulation.
+// if up to 16 frames, spread over the complete shot, include one for which auto chooses multirate.
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    arguments.request.method = "accumulation";
-    if (arguments.request.memory) return;
     // The choice depends on bounding boxes alone, so full detail without levels serves.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);

@@ -172,11 +172,7 @@ private:
 
 // ---- the driver -----------------------------------------------------------------------------------------------------
 
-FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {
-    // A memory limit may need tiles, which only the accumulation draws, and must not change the image.
-    if (options_.method.method->name == automaticMethod && options_.limits.memory)
-        options_.method = parseMethodUse("accumulation");
-}
+FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {}
 
 FrameDriver::~FrameDriver() = default;
 FrameDriver::FrameDriver(FrameDriver&&) noexcept = default;
@@ -317,10 +313,8 @@ int FrameDriver::tiles() const {
 }
 
 MethodUse FrameDriver::method() const {
-    if (!inTiles()) return drawnMethod(options_.method, plan());
-    FramePlan tile = plan();
-    tile.tile = Tile{};
-    return drawnMethod(options_.method, tile);
+    if (inTiles() && options_.method.method->name == automaticMethod) return parseMethodUse("accumulation");
+    return drawnMethod(options_.method, plan());
 }
 
 bool FrameDriver::inTiles() const {
