@@ -10,12 +10,16 @@
 
 namespace defocus::engine {
 
-MethodUse chosenMethod(const Request& request) try {
-    const bool limited = request.method == automaticMethod && request.memory;
-    const Method& method = methodNamed(limited ? "accumulation" : request.method);
+MethodUse namedMethod(const Request& request) try {
+    const Method& method = methodNamed(request.method);
     return {&method, completeSettings(method.name, method.settings, request.methodSettings)};
 } catch (const Error& error) {
     throw UsageError(error.what());
+}
+
+MethodUse chosenMethod(const Request& request) {
+    const bool limited = request.method == automaticMethod && request.memory;
+    return limited ? parseMethodUse("accumulation") : namedMethod(request);
 }
 
 RenderSettings renderSettings(const Request& request) {

@@ -23,9 +23,11 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
     return {pixel.column, pixel.row};
 }
 
-// Returns the request's method with its settings. With a memory limit, which may need tiles and must not change the
-// image, "auto" becomes "accumulation", the only method that draws tiles. Throws UsageError for a setting that the
-// method doesn't have.
+// Returns the request's method with its settings. Throws UsageError for a setting that the method doesn't have.
+MethodUse namedMethod(const Request& request);
+
+// Returns namedMethod(request), but "accumulation" for "auto" with a memory limit: the limit may need tiles, which only
+// accumulation draws, and must not change the image.
 MethodUse chosenMethod(const Request& request);
 
 // Returns the settings for planning the frame. An automatic number of samples is replaced by 64.

@@ -206,7 +206,7 @@ void setMethod(Request& request, const std::string& text) {
 }
 
 std::optional<std::string> methodText(const Request& request) {
-    return chosenMethod(request).text();
+    return namedMethod(request).text();
 }
 
 void clearMethod(Request& request) {

@@ -7,6 +7,7 @@
 
 #include "core/hash.h"
 #include "frame/program_facts.h"
+#include "frame/request.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/world_hash.h"
 #include "lens/lens_fields.h"
@@ -79,7 +80,9 @@ std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     hashed.add(moment.view.nearPlane, moment.view.width, moment.view.height);
     addLens(hashed, moment.view.lens);
     for (const auto& [name, value] : moment.view.methodValues) hashed.add(name, value);
-    hashed.add(pixelSettings(film.request));
+    Request drawn = film.request;
+    drawn.method = chosenMethod(film.request).method->name;
+    hashed.add(pixelSettings(drawn));
     hashed.add(moment.settings.seed);
     const LodThresholds thresholds =
         chosenThresholds(moment.settings.thresholds, moment.settings.metric, moment.settings.sampleCount);

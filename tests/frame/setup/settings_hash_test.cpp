@@ -36,6 +36,15 @@ TEST(SettingsHash, changesWithWhatChangesThePicture) {
     }
 }
 
+TEST(SettingsHash, isThatOfTheMethodThatDraws) {
+    Request limited;
+    setByName(limited, "memory", "1GiB");
+    Request named = limited;
+    setByName(named, "method", "accumulation");
+    EXPECT_EQ(hashOf(limited), hashOf(named)) << "with a memory limit, auto is accumulation";
+    EXPECT_NE(hashOf(limited), hashOf({}));
+}
+
 TEST(SettingsHash, isThatOfWhatAPresetSets) {
     Request byPreset;
     setByName(byPreset, "preset", "jeong2011");
