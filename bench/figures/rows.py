@@ -5,7 +5,7 @@ import math
 MODES = {  # level mode: (label, index into the palette)
     "off": ("full detail", 6), "nearest": ("nearest level", 0), "fractional": ("fractional levels", 1),
     "continuous": ("continuous levels", 2), "multirate": ("multirate", 3)}
-METRICS = {"error": " by error", "halving": " in steps of half", "score": " by score"}
+METRICS = {"error": " by error", "proportional": " by blur over box", "score": " by score"}
 
 
 # ---- texts ----------------------------------------------------------------------------------------------------------

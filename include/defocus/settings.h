@@ -39,8 +39,10 @@ enum class LodMetric {
     automatic,  // `size` if a blur or size threshold is set, else `measured`
     size,       // target edge length in px, compared with each level's mean edge length
     error,      // target deviation of the surface in px
-    halving,    // target edge length in px; assumes that each level halves the triangles (Jeong, Kim and Lee 2011)
     measured,   // target error of the object's light after the blur, relative to the light's variation
+    // Level proportional to the blur at the bounding box's centre, and to the reciprocal of the box's projected size
+    // (Jeong, Kim and Lee 2011).
+    proportional,
     // Target edge length from the blur only, compared with the edge length projected at the object's centre (Tzeng et
     // al. 2012).
     score,

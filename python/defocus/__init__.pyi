@@ -94,7 +94,7 @@ class Keywords(TypedDict, total=False):
     layer_format: Optional[Literal["automatic", "rgba16f", "rgba32f"]]
     tone_map: Optional[Literal["none", "aces", "agx", "neutral"]]
     exposure: Optional[Union[float, Literal["auto"]]]  # EV
-    lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured", "score"]]
+    lod_metric: Optional[Literal["automatic", "size", "error", "measured", "proportional", "score"]]
     level_vertices: Optional[Literal["fitted", "surviving", "quarters"]]
     lod_coc: Optional[Literal["smallest", "centre"]]
     coc_tolerance: Optional[float]  # px

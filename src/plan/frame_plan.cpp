@@ -38,8 +38,8 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         fail("level-of-detail thresholds must be at least 0");
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
-    if (metric == LodMetric::score && settings.thresholds.size)
-        fail("--lod-metric score accepts only --blur-threshold");
+    if ((metric == LodMetric::score || metric == LodMetric::proportional) && settings.thresholds.size)
+        fail("--lod-metric {} accepts only --blur-threshold", lodMetricName(metric));
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
         fail("--lod-metric {} accepts only {}", lodMetricName(metric),
              measured ? "--light-threshold" : "--blur-threshold and --size-threshold");
@@ -106,8 +106,12 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
         return levelOfBlurredError(pyramid, blurredPatches(object, plan), pixelsPerUnitAtCentre(object, plan),
                                    plan.thresholds.light);
     LevelQuery query;
-    const double depth = plan.settings.metric == LodMetric::score ? -object.viewBox.centre().z : object.nearestDepth;
-    query.pixelsPerUnit = largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
+    const double centre = -object.viewBox.centre().z;
+    const double depth = plan.settings.metric == LodMetric::score ? centre : object.nearestDepth;
+    const double pixelsAtUnitDepth = plan.view.width / (2 * plan.tanHalfHorizontal);  // size of 1 m at 1 m
+    query.pixelsPerUnit = largestScale(object.pose) * pixelsAtUnitDepth / depth;
+    const glm::dvec3 box = object.viewBox.size();
+    query.boxSize = std::max(box.x, box.y) * pixelsAtUnitDepth / centre;
     query.coc = plan.settings.lodCoc == LodCoc::centre ? cocAtCentre(object, plan) : object.coc.smallest;
     LodThresholds thresholds = plan.thresholds;
     if (plan.settings.lodCause == LodCause::size) thresholds.blur = 0;

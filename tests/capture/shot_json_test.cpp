@@ -4,6 +4,7 @@
 
 #include "capture/shot_options.h"
 #include "core/error.h"
+#include "lod/pyramid/level_selection.h"
 
 namespace defocus::engine {
 namespace {
@@ -63,10 +64,10 @@ TEST(ShotJson, whatIsGivenBesideAPresetWins) {
         Request request;
         applyShot(shot, request);
         EXPECT_EQ(request.sequence, Sequence::r2);
-        EXPECT_EQ(request.lodMetric, LodMetric::halving);
+        EXPECT_EQ(request.lodMetric, LodMetric::proportional);
         EXPECT_EQ(request.levelVertices, LevelVertices::surviving);
         EXPECT_TRUE(request.lodCoc == LodCoc::centre);
-        EXPECT_EQ(request.blurThreshold, 0.25);
+        EXPECT_EQ(request.blurThreshold, proportionalLevels);
     }
     EXPECT_NE(faultOf(R"({"preset": "jeong2012"})").find("jeong2011"), std::string::npos);
 }

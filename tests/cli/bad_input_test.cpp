@@ -128,7 +128,7 @@ TEST_F(BadInput, wordsThatAreNotKnown) {
     expectFault(2, "did you mean '--samples'", {"--smaples", "10"});
     expectFault(2, "did you mean 'fractional'", {"--lod", "fractoinal"});
     expectFault(2, "did you mean 'halton'", {"--sequence", "haltno"});
-    expectFault(2, "size, error, halving, measured, score", {"--lod-metric", "speed"});
+    expectFault(2, "size, error, measured, proportional, score", {"--lod-metric", "speed"});
     expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
     expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
     expectFault(2, "depth, coc, level, work", {"--aov", "depth,normal"});

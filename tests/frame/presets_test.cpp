@@ -149,28 +149,24 @@ TEST_F(JeongPlan, samplesAreHaltonsPointsFrom1On) {
     }
 }
 
-TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
+TEST_F(JeongPlan, levelsAreProportionalToTheBlurOverTheBox) {
     for (const std::uint32_t samples : {16u, 64u, 512u}) {
         const FramePlan plan = planOf(samples);
         const Lens& lens = plan.view.lens;
         const double tanHalfWidth = lens.horizontalAperture / (2 * lens.focalLength);
         const double aperture = lens.focalLength / (1000 * lens.fStop);
         int between = 0;
-        int byBlur = 0;
         ASSERT_GE(plan.objects.size(), 5u);
         for (const ObjectPlan& object : plan.objects) {
             SCOPED_TRACE(object.name);
             const double centre = -object.viewBox.centre().z;
-            const double nearest = -object.viewBox.maximum.z;
             const double pixels = plan.view.width / (2 * tanHalfWidth);  // size of 1 m at a distance of 1 m, px
             const double blur = aperture * std::abs(1 / lens.focusDistance - 1 / centre) * pixels;
+            const glm::dvec3 box = object.viewBox.size();
+            const double size = std::max(box.x, box.y) * pixels / centre;
             const Pyramid& pyramid = frame_->world.pyramids[static_cast<std::size_t>(object.mesh)];
-            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the scale is uniform
-            const double edge = pyramid.levels[0].meanEdge * scale * pixels / nearest;
-            const double target = std::max(0.25 * blur, 3.3);
             const auto coarsest = static_cast<double>(pyramid.levels.size() - 1);
-            const double lambda = std::clamp(2 * std::log2(target / edge), 0.0, coarsest);
-            EXPECT_NEAR(object.lambda, lambda, 1e-6);
+            EXPECT_NEAR(object.lambda, std::min(proportionalLevels * blur / size, coarsest), 1e-6);
 
             // The first samples draw the coarser level.
             const double integerPart = std::floor(object.lambda);
@@ -183,13 +179,20 @@ TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
             if (coarse > 0) {
                 EXPECT_EQ(object.coarse.level, object.fine.level + 1);
             }
-            between += lambda > 0 && lambda < coarsest ? 1 : 0;
-            byBlur += 0.25 * blur > 3.3 ? 1 : 0;
+            between += object.lambda > 0 && object.lambda < coarsest ? 1 : 0;
         }
         EXPECT_GT(between, 2);
-        EXPECT_GT(byBlur, 1);
-        EXPECT_LT(byBlur, static_cast<int>(plan.objects.size()));
     }
+}
+
+// Nothing but the blur coarsens the levels: without depth of field, small and distant objects keep full detail.
+TEST_F(JeongPlan, sharpObjectsAreDrawnAtFullDetail) {
+    Request request = asked(64);
+    request.lens.blurScale = 0;
+    View view = frame_->view;
+    view.lens.blurScale = 0;
+    for (const ObjectPlan& object : planFrame(frame_->world, view, renderSettings(request)).objects)
+        EXPECT_EQ(object.lambda, 0) << object.name;
 }
 
 TEST_F(JeongPlan, levelsHaveTheValuesOfLevel0) {

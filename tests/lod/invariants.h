@@ -60,7 +60,7 @@ inline void expectContinuousLevels(const Pyramid& pyramid) {
         const double end = 1.1 * pixelsPerUnit * stored(pyramid.levels.back());
         double last = 0;
         for (double target = 1e-3; target < end; target *= step) {
-            const double lambda = levelOfDetail(pyramid, {pixelsPerUnit, 0}, metric, {0, target});
+            const double lambda = levelOfDetail(pyramid, {pixelsPerUnit, 0, 0}, metric, {0, target});
             ASSERT_GE(lambda, last) << "at " << target;
             ASSERT_LE(lambda - last, 1.001 * max) << "at " << target;
             last = lambda;

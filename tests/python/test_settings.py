@@ -47,7 +47,7 @@ def test_what_is_given_beside_a_preset_wins():
     for given in ({"preset": "jeong2011", "sequence": "r2"}, {"sequence": "r2", "preset": "jeong2011"}):
         plan = defocus.plan(**small, **given)
         assert plan["sequence"] == "r2"
-        assert plan["lod"]["metric"] == "halving" and plan["lod"]["vertices"] == "surviving"
+        assert plan["lod"]["metric"] == "proportional" and plan["lod"]["vertices"] == "surviving"
 
 
 # Every setting is a keyword that accepts the setting's own default.

@@ -288,12 +288,12 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
             })
         ->default_str("off,fractional")
         ->group(group);
-    addList(command, "--metrics", "size,error,halving,measured,score", options.metrics,
+    addList(command, "--metrics", "size,error,measured,proportional,score", options.metrics,
             "Rules that choose the levels (see --lod-metric of render)",
             [](const std::string& part) {
-                constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving,
-                                                LodMetric::measured, LodMetric::score};
-                return metrics[parseChoice(part, {"size", "error", "halving", "measured", "score"})];
+                constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::measured,
+                                                LodMetric::proportional, LodMetric::score};
+                return metrics[parseChoice(part, {"size", "error", "measured", "proportional", "score"})];
             })
         ->default_str("measured")
         ->group(group);

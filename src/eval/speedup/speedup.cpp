@@ -119,13 +119,14 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
     for (const SpeedupForm& form : forms) {
         const std::size_t first = subjects.size();
         for (const LodMode mode : modes) add(form, accumulation, mode, LodCause::blurAndSize);
-        for (const LodCause one : {LodCause::size, LodCause::blur}) add(form, accumulation, LodMode::fractional, one);
+        if (form.plan.metric != LodMetric::proportional)  // its levels follow the blur alone
+            for (const LodCause one : {LodCause::size, LodCause::blur})
+                add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
-    const SpeedupSubject& lastFullDetail = *subjects.back().fullDetail;
     for (const MethodUse& use : methods) {
-        add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, LodCause::blurAndSize);
-        subjects.back().fullDetail = &lastFullDetail;
+        add(forms.front(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, LodCause::blurAndSize);
+        subjects.back().fullDetail = &subjects.front();
     }
     return subjects;
 }

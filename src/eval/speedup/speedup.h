@@ -33,7 +33,7 @@ struct SpeedupOptions {
     std::vector<double> fStops;                                             // further f-numbers, at `sweepSamples`
     std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // measured after accumulation, with the last form's settings
+    std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
     int runs = 5;                    // runs of each frame, ≥ 1
     int seeds = 5;                   // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times

@@ -10,17 +10,16 @@
 namespace defocus::engine {
 
 std::span<const Preset> presets() {
-    // Jeong, Kim and Lee 2011 use fixed thresholds. The values below are the thresholds that this program computes for
-    // 64 samples.
     static const std::vector<Preset> all = {
+        // Jeong, Kim and Lee 2011 print no constant of proportionality; blurThreshold is this program's choice
+        // (proportionalLevels in level_selection.h).
         {"jeong2011",
          "accumulation with levels of detail by size (Jeong et al. 2011)",
          {{"method", "accumulation"},
           {"sequence", "halton"},
           {"lod", "fractional"},
-          {"blurThreshold", "0.25"},
-          {"sizeThreshold", "3.3"},
-          {"lodMetric", "halving"},
+          {"blurThreshold", "10"},
+          {"lodMetric", "proportional"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
         // Tzeng and others 2012. blurThreshold is the score at which a level begins; its value is this program's
@@ -39,8 +38,8 @@ std::span<const Preset> presets() {
         {"garcia2018",
          "separable circular kernels over one pinhole image (Garcia 2018)",
          {{"method",
-           "circular:near-components=1,resolution=quarter,kernel=published,kernel-taps=eight,storage=r10g10b10a2,"
-           "transparency-buckets=0,pinholes=1"},
+           "circular:near-components=1,resolution=quarter,kernel=published,max-coc=published,kernel-taps=eight,"
+           "storage=r10g10b10a2,transparency-buckets=0,pinholes=1"},
           {"lod", "off"}}},
         {"lee2010",
          "lens rays through the depth layers of one pinhole image (Lee et al. 2010)",

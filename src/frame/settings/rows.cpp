@@ -424,14 +424,15 @@ Rows sampleRows() {
             "continuous: in addition, one sample draws the coarser level in only some of its pixels, so that its "
             "pixels switch one after another. nearest: one level. off: full detail")
             .inShot("/lod"),
-        rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "For --lod-metric size, error, halving and score: target edge length in px per px of blur. "
-                     "Default: depends on the number of samples")
+        rows::number(
+            "blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
+            "For --lod-metric size, error and score: target edge length in px per px of blur. Default: depends on "
+            "the number of samples. For proportional: level of a blur as large as the object's bounding box")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-                     "For --lod-metric size, error and halving: minimum target edge length in px. Default: depends on "
+                     "For --lod-metric size and error: minimum target edge length in px. Default: depends on "
                      "the number of samples")
             .unit("px")
             .example("1")
@@ -510,14 +511,15 @@ Rows developerRows() {
                                 {{"automatic", LodMetric::automatic},
                                  {"size", LodMetric::size},
                                  {"error", LodMetric::error},
-                                 {"halving", LodMetric::halving},
                                  {"measured", LodMetric::measured},
+                                 {"proportional", LodMetric::proportional},
                                  {"score", LodMetric::score}},
                                 MEMBER(lodMetric),
                                 "Rule that chooses the levels of detail. measured: error of the blurred shading. size: "
-                                "projected edge length. error: projected deviation from full detail. halving: like "
-                                "size, but assumes that each level has half the triangles. score: ratio of blur to "
-                                "edge length (Tzeng et al.). automatic: size if --blur-threshold or --size-threshold "
+                                "projected edge length. error: projected deviation from full detail. "
+                                "proportional: ratio of blur to the size of the object's bounding box (Jeong et al.). "
+                                "score: ratio of blur to edge length (Tzeng et al.). automatic: size if "
+                                "--blur-threshold or --size-threshold "
                                 "is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),

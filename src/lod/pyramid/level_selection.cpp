@@ -28,13 +28,6 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return bySize(metric) ? level.meanEdge : level.error;
 }
 
-// Returns the number of triangle halvings that lengthens the edges to `target` px, limited to the number of levels.
-double halvings(const Pyramid& pyramid, double pixelsPerUnit, double target) {
-    const double coarsest = static_cast<double>(pyramid.levels.size() - 1);
-    const double edge = pyramid.levels.front().meanEdge * pixelsPerUnit;
-    return edge > 0 ? std::clamp(2 * std::log2(target / edge), 0.0, coarsest) : coarsest;
-}
-
 // Returns the position of `target` between the sizes of two levels, 0 to 1. Edge lengths are interpolated
 // logarithmically, because halving the triangles multiplies them by a constant. Errors start at 0 and are interpolated
 // linearly.
@@ -54,10 +47,10 @@ const char* lodMetricName(LodMetric metric) {
             return "size";
         case LodMetric::error:
             return "error";
-        case LodMetric::halving:
-            return "halving";
         case LodMetric::measured:
             return "measured";
+        case LodMetric::proportional:
+            return "proportional";
         case LodMetric::score:
             return "score";
     }
@@ -90,6 +83,7 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given) {
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     if (chosenMetric(metric, {}) == LodMetric::measured)
         return {.light = lightOfSampleError * std::pow(expectedSampleError(sampleCount), 2)};
+    if (metric == LodMetric::proportional) return {.blur = proportionalLevels};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     const double blur = reference.blur * std::min(factor, largestFactor);
@@ -106,7 +100,8 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
     metric = chosenMetric(metric, given);
     const LodThresholds standard = defaultThresholds(metric, sampleCount);
     if (metric == LodMetric::measured) return {.light = given.light.value_or(standard.light)};
-    if (metric == LodMetric::score) return {.blur = given.blur.value_or(standard.blur)};
+    if (metric == LodMetric::score || metric == LodMetric::proportional)
+        return {.blur = given.blur.value_or(standard.blur)};
     return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
 }
 
@@ -114,9 +109,11 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
                      const LodThresholds& thresholds) {
     if (!std::isfinite(query.pixelsPerUnit) || query.pixelsPerUnit < 0 || pyramid.levels.empty()) return 0;
     const double coc = query.coc > 0 ? query.coc : 0;
+    const double coarsest = static_cast<double>(pyramid.levels.size() - 1);
+    if (metric == LodMetric::proportional)
+        return coc > 0 && thresholds.blur > 0 ? std::min(thresholds.blur * coc / query.boxSize, coarsest) : 0;
     const double target = std::max(thresholds.blur > 0 ? thresholds.blur * coc : 0, thresholds.size);
     if (!(target > 0)) return 0;
-    if (metric == LodMetric::halving) return halvings(pyramid, query.pixelsPerUnit, target);
 
     // Find the first level that is coarser than the target; λ lies between this level and the level before.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
@@ -126,7 +123,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
         const double fine = storedSize(pyramid.levels[l - 1], metric) * query.pixelsPerUnit;
         return static_cast<double>(l - 1) + between(fine, coarse, target, metric);
     }
-    return static_cast<double>(pyramid.levels.size() - 1);
+    return coarsest;
 }
 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode) {

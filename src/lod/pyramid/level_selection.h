@@ -16,13 +16,14 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds that a request sets. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle
-// of confusion of c px. For `measured`, a level's error is at most light / edge for edges of `edge` px. The error is
+// of confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as
+// its bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. The error is
 // dimensionless: in standard deviations of the object's light within its blur. `light`, the product of error and edge
 // length, is therefore in px. An unset threshold depends on the sample count, so that long renders converge to full
 // detail.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // px of target per px of CoC, ≥ 0
-    std::optional<double> size = {};   // px, ≥ 0; ignored by LodMetric::score
+    std::optional<double> blur = {};   // px of target per px of CoC, or levels for `proportional`; ≥ 0
+    std::optional<double> size = {};   // px, ≥ 0; only for LodMetric::size and LodMetric::error
     std::optional<double> light = {};  // px, ≥ 0; only for LodMetric::measured, which ignores `blur` and `size`
 };
 
@@ -30,7 +31,7 @@ struct GivenThresholds {
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // px of target per px of CoC
+    double blur = 0;  // px of target per px of CoC, or levels for `proportional`
     double size = 0;  // min target in px
     // px: max product of a measured level's edge length in px and its error in standard deviations of the light within
     // the blur; see measuredLimit.
@@ -54,11 +55,14 @@ double expectedSampleError(std::uint32_t sampleCount);
 // levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N
 // grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
+// Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule has no number of samples.
+//
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the light within the blur. The error of N samples is expectedSampleError(N) times that
 // deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. The
 // levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
 // spots more than the outlines and fine ghosts caused by sampling.
+inline constexpr double proportionalLevels = 10;
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 // Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the light within
@@ -73,15 +77,17 @@ struct LevelQuery {
     // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z). z is the nearest depth of the object; for
     // LodMetric::score, it is the depth of the bounding box's centre.
     double pixelsPerUnit = 0;
-    double coc = 0;  // lower bound of the CoC diameter over the object, px, ≥ 0
+    double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; only for LodMetric::proportional
+    double coc = 0;      // lower bound of the CoC diameter over the object, px, ≥ 0
 };
 
-// Selects λ in [0, levels − 1] for the metrics size, halving, score and error, with the target τ = max(blur·c, size).
+// Selects λ in [0, levels − 1] for the metrics size, score and error, with the target τ = max(blur·c, size).
 // For LodMetric::measured, see blurred_error.h. λ is continuous in the query.
 //   size: λ is the level whose mean edge projects to τ; the logarithms of the stored mean edges are interpolated.
-//   halving: λ = 2·log2(τ/d), where d is the projected mean edge of level 0. Edges grow by √2 per halving.
 //   score: like size, but with τ = blur·c. λ is the level whose mean edges are blur·s times those of level 0.
 //     s = c/d is the score of Tzeng et al. 2012; d is the mean edge of level 0 at the depth of the box's centre.
+//   proportional: λ = blur · c/p for a projected bounding box of p px. λ is 0 without blur, and the coarsest level if
+//     only p is 0. Jeong, Kim and Lee 2011 state that λ is proportional to the blur and to 1/p, without a constant.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px.
 // Returns 0 if pixelsPerUnit is negative, infinite or NaN. Returns the coarsest level if pixelsPerUnit is 0, because
 // the object is then a point.

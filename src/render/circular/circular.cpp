@@ -16,7 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSize = 16;  // field pixels
+constexpr int tileSize = 16;          // field pixels
+constexpr int publishedLargest = 17;  // max blur diameter in field pixels: eight taps on each side and the centre
 
 struct CircularOptions {
     int nearComponents = 2;
@@ -27,6 +28,7 @@ struct CircularOptions {
     double blendBias = 1;
     bool biasByLuminance = false;
     bool nearPremultiplied = true;
+    bool limited = false;  // blur limited to publishedLargest
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
     KernelConstants constants = KernelConstants::fitted;
@@ -49,10 +51,14 @@ CircularOptions parsed(const MethodSettings& settings) {
                       : storage == "half" ? ComplexStorage::half
                                           : ComplexStorage::rgb10A2;
     options.taps = taps == "exact" ? ComplexTaps::exact : taps == "eight" ? ComplexTaps::eight : ComplexTaps::sets;
-    options.constants = settings.at("kernel") == "published" ? KernelConstants::published : KernelConstants::fitted;
-    if (options.constants == KernelConstants::published &&
+    const std::string& kernel = settings.at("kernel");
+    options.constants = kernel == "fitted"     ? KernelConstants::fitted
+                        : kernel == "rescaled" ? KernelConstants::rescaled
+                                               : KernelConstants::published;
+    options.limited = settings.at("max-coc") == "published";
+    if (options.constants != KernelConstants::fitted &&
         std::max(options.nearComponents, options.farComponents) > publishedKernelLimit)
-        fail("method circular: kernel=published supports at most {} components; use kernel=fitted for more",
+        fail("method circular: kernel={} supports at most {} components; use kernel=fitted for more", kernel,
              publishedKernelLimit);
     if (options.combined && (!options.nearPremultiplied || options.biasByLuminance))
         fail("method circular: fields=combined has no separate near field; leave out near-field and bias-by");
@@ -89,7 +95,8 @@ public:
         const View& view = plan.view;
         if (view.width != width_ || view.height != height_ || view.lens.anamorphicRatio != anamorphicRatio_)
             makeFields(view);
-        const double largest = 0.5 * view.width;  // max radius in px: a disk as wide as the image
+        double largest = 0.5 * view.width;  // max radius in px: a disk as wide as the image
+        if (options_.limited) largest = std::min(largest, 0.5 * publishedLargest * options_.reduction);
         const double nearRadius = std::min(0.5 * largestNearDiameter(plan), largest) / options_.reduction;
         glProgramUniform1f(split_.name(), 0, static_cast<float>(largest));
         glProgramUniform1i(reach_.name(), 0, static_cast<GLint>(std::ceil(nearRadius / tileSize)) + 2);
@@ -264,9 +271,14 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .standard = "fitted",
-         .description = "Kernel constants: fitted to the disk, or published by Niemitalo for one to five components "
-                        "(Garcia's slides list those for one and two)",
-         .choices = {"fitted", "published"}},
+         .description = "Kernel constants: fitted to the disk; Niemitalo's for one to five components, rescaled to the "
+                        "disk; or the same as Garcia's slides print them",
+         .choices = {"fitted", "rescaled", "published"}},
+        {.name = "max-coc",
+         .standard = "unlimited",
+         .description =
+             "Maximum blur: unlimited, or 17 pixels of a field as published (68 px with --resolution quarter)",
+         .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",
          .description = "Taps on each side of the centre: one per pixel (exact), eight as published, or 4, 8, 16 or 32 "

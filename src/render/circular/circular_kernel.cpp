@@ -75,8 +75,8 @@ constexpr std::array<CircularComponent, 45> components = {{
     {-0.140223, 49.595900, -0.018297, -0.025707},
 }};
 
-// Kernels of Niemitalo 2010. The kernel of n components begins at index n·(n − 1)/2. Garcia's slides print the kernels
-// of one and two components. Garcia's filter generator has all kernels, but with the opposite sign of the second sine
+// Kernels of Niemitalo 2010. The kernel of n components begins at index n·(n − 1)/2. Garcia's slides print the kernel
+// of two components. Garcia's filter generator has all kernels, but with the opposite sign of the second sine
 // weight of four components, which does not approximate a disk.
 constexpr std::array<CircularComponent, 15> published = {{
     // One component.
@@ -104,7 +104,7 @@ constexpr std::array<double, publishedKernelLimit> publishedDiskRadius = {1.068,
 
 // Returns the published kernels rescaled from disk radius ρ to disk radius 1. With u = r² in squared disk radii, a
 // component becomes e^((−a + ib)·u·ρ²), so that a and b are multiplied by ρ².
-std::array<CircularComponent, 15> publishedInRadii() {
+std::array<CircularComponent, 15> rescaledToRadius1() {
     std::array<CircularComponent, 15> kernels = published;
     auto component = kernels.begin();
     for (std::size_t n = 1; n <= publishedDiskRadius.size(); ++n)
@@ -172,8 +172,13 @@ std::span<const CircularComponent> circularKernel(int count) {
 std::span<const CircularComponent> publishedCircularKernel(int count) {
     if (count < 1 || count > publishedKernelLimit)
         fail("published circular kernel of {} components: choose 1 to {}", count, publishedKernelLimit);
-    static const std::array<CircularComponent, 15> kernels = publishedInRadii();
     const auto n = static_cast<std::size_t>(count);
+    return std::span(published).subspan(n * (n - 1) / 2, n);
+}
+
+std::span<const CircularComponent> rescaledCircularKernel(int count) {
+    static const std::array<CircularComponent, 15> kernels = rescaledToRadius1();
+    const std::size_t n = publishedCircularKernel(count).size();
     return std::span(kernels).subspan(n * (n - 1) / 2, n);
 }
 

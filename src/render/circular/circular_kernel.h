@@ -33,13 +33,19 @@ inline constexpr double circularCornerGuard = 0.2;   // weight of the corner pen
 // lifetime.
 std::span<const CircularComponent> circularKernel(int count);
 
-inline constexpr int publishedKernelLimit = 5;  // max components of publishedCircularKernel()
+inline constexpr int publishedKernelLimit = 5;  // max components of the two functions below
 
-// Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010). Garcia's
-// slides print the kernels of one and two components. The published kernels approximate disks of other radii; here they
-// are rescaled to radius 1 (defocus_circular_fit prints the original radii). ∫K = ∫D holds after the passes divide by
-// the sum of their taps. Throws Error for another `count`. The data have static lifetime.
+// Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010) as they are
+// printed, for offsets x = tap/8. Garcia's slides print the table of two components; the other kernels come from
+// Garcia's public generator of filters. The slides also print e^(−a·x²) with negative a, which grows with x; here a is
+// positive. The kernels approximate disks of radii 1.07 to 1.10, so that the square cuts them off. Throws Error for
+// another `count`. The data have static lifetime.
 std::span<const CircularComponent> publishedCircularKernel(int count);
+
+// Returns the published kernel of `count` components, rescaled to the disk of radius 1 (defocus_circular_fit prints the
+// original radii). ∫K = ∫D holds after the passes divide by the sum of their taps. Throws Error for another `count`.
+// The data have static lifetime.
+std::span<const CircularComponent> rescaledCircularKernel(int count);
 
 // Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);

@@ -23,7 +23,7 @@ constexpr int reduction = 8;  // each reduction step writes the max of 8 x 8 tex
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
 constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
-constexpr int maxPublishedInHalf = 3;  // max of published kernels: large weights amplify rounding
+constexpr int maxPublishedInHalf = 3;  // max of Niemitalo's kernels: large weights amplify rounding
 constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // taps on each side of the centre
@@ -65,8 +65,15 @@ ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
 }
 
 std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {
-    return info.constants == KernelConstants::published ? publishedCircularKernel(info.components)
-                                                        : circularKernel(info.components);
+    switch (info.constants) {
+        case KernelConstants::fitted:
+            return circularKernel(info.components);
+        case KernelConstants::rescaled:
+            return rescaledCircularKernel(info.components);
+        case KernelConstants::published:
+            return publishedCircularKernel(info.components);
+    }
+    return {};
 }
 
 std::vector<double> realParts(const std::vector<std::complex<double>>& values) {
@@ -119,7 +126,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
     constexpr float black[4] = {};
     glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
-    const int maxInHalf = info_.constants == KernelConstants::published ? maxPublishedInHalf : maxFittedInHalf;
+    const int maxInHalf = info_.constants == KernelConstants::fitted ? maxFittedInHalf : maxPublishedInHalf;
     if (info_.storage == ComplexStorage::half && info_.components > maxInHalf) info_.storage = ComplexStorage::float32;
     if (info_.direct) {
         direct_ = Program(

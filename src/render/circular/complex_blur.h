@@ -19,7 +19,7 @@ namespace defocus::engine {
 // Storage format of the complex sums between the row pass and the column pass.
 enum class ComplexStorage {
     float32,
-    // half float; kernels of more than five components (published: three) use float32 because of rounding errors
+    // half float; kernels of more than five components (Niemitalo's: three) use float32 because of rounding errors
     half,
     rgb10A2,  // in brackets (see Bracket), after division of radiance and weight by their max
 };
@@ -32,7 +32,8 @@ enum class ComplexTaps {
 
 enum class KernelConstants {
     fitted,     // circularKernel(): best fit to the disk
-    published,  // publishedCircularKernel(): Niemitalo's constants, used by Garcia
+    rescaled,   // rescaledCircularKernel(): Niemitalo's kernels, rescaled to the disk
+    published,  // publishedCircularKernel(): Niemitalo's constants as printed by Garcia
 };
 
 struct ComplexBlurInfo {
@@ -41,7 +42,7 @@ struct ComplexBlurInfo {
     // Horizontal and vertical semi-axis of an elliptical blur, relative to the radius.
     double across = 1;
     double upwards = 1;
-    int components = 1;  // 1 … circularKernelLimit (published: publishedKernelLimit)
+    int components = 1;  // 1 … circularKernelLimit (other than fitted: publishedKernelLimit)
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;

@@ -227,9 +227,9 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 }
 
 std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
-    std::vector<glm::vec2> points = {glm::vec2(0)};
+    std::vector<glm::vec2> points = {glm::vec2(0)};  // the centre keeps its distance too, but is no tap
     std::uint64_t next = 0;
-    while (points.size() < count) {
+    while (points.size() <= count) {
         glm::vec2 best(0);
         float bestDistance = -1;
         for (std::uint32_t c = 0; c < candidatesPerPoint * count; ++c, ++next) {
@@ -243,6 +243,7 @@ std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
         }
         points.push_back(best);
     }
+    points.erase(points.begin());
     return points;
 }
 
@@ -265,7 +266,7 @@ Method scheuermannMethod() {
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .standard = "8",
-         .description = "Number of taps of the Poisson disk; 8 as published",
+         .description = "Number of taps of the Poisson disk around each pixel; 8 as published",
          .choices = {},
          .min = 8,
          .max = maxTaps},

@@ -148,8 +148,7 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});
     ASSERT_EQ(plain.size(), 3u);
     for (const nlohmann::json& row : plain) EXPECT_EQ(row["preset"], "");
-    const nlohmann::json both =
-        rows({"--preset", "jeong2011", "--blur-threshold", "0", "--size-threshold", "0", "--methods", "scheuermann"});
+    const nlohmann::json both = rows({"--preset", "jeong2011", "--blur-threshold", "0", "--methods", "scheuermann"});
     ASSERT_EQ(both.size(), 7u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(both[i]["preset"], "jeong2011");

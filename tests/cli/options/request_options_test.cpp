@@ -8,6 +8,7 @@
 
 #include "cli/program.h"
 #include "cli/two_quads.h"
+#include "lod/pyramid/level_selection.h"
 
 namespace defocus::engine {
 namespace {
@@ -112,19 +113,19 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
     const json preset = plan({"--preset", "jeong2011"});
     EXPECT_EQ(preset["sequence"], "halton");
     EXPECT_EQ(preset["lod"], json({{"mode", "fractional"},
-                                   {"metric", "halving"},
+                                   {"metric", "proportional"},
                                    {"coc", "centre"},
                                    {"vertices", "surviving"},
-                                   {"blurThreshold", 0.25},
-                                   {"sizeThreshold", 3.3},
-                                   {"lightThreshold", 0.0}}));  // edge-based metrics have no light threshold
+                                   {"blurThreshold", proportionalLevels},
+                                   {"sizeThreshold", 0.0},
+                                   {"lightThreshold", 0.0}}));  // the metric has no light threshold
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
              {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {
         const json changed = plan(words);
         EXPECT_EQ(changed["sequence"], "r2");
         EXPECT_EQ(changed["lod"]["coc"], "smallest");
-        EXPECT_EQ(changed["lod"]["metric"], "halving");
+        EXPECT_EQ(changed["lod"]["metric"], "proportional");
     }
 }
 

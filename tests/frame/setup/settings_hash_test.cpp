@@ -20,9 +20,14 @@ std::string hashOf(const Request& request) {
 
 TEST(SettingsHash, changesWithWhatChangesThePicture) {
     const std::string standard = hashOf({});
-    const std::vector<std::pair<const char*, const char*>> values = {
-        {"levelVertices", "surviving"}, {"lodMetric", "halving"}, {"lodCoc", "centre"}, {"sequence", "halton"},
-        {"blurThreshold", "0.25"},      {"samples", "65"},        {"seed", "1"},        {"layerFormat", "rgba32f"}};
+    const std::vector<std::pair<const char*, const char*>> values = {{"levelVertices", "surviving"},
+                                                                     {"lodMetric", "proportional"},
+                                                                     {"lodCoc", "centre"},
+                                                                     {"sequence", "halton"},
+                                                                     {"blurThreshold", "0.25"},
+                                                                     {"samples", "65"},
+                                                                     {"seed", "1"},
+                                                                     {"layerFormat", "rgba32f"}};
     for (const auto& [name, value] : values) {
         Request request;
         setByName(request, name, value);

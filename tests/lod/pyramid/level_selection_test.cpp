@@ -30,26 +30,29 @@ TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     for (double coc = 0.5; coc < 40; coc *= 1.1) {
         const double target = std::max(0.7 * coc, 1.5);
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
-        EXPECT_NEAR(levelOfDetail(pyramid, {pixelsPerUnit, coc}, LodMetric::size, {0.7, 1.5}), expected, 1e-12);
+        EXPECT_NEAR(levelOfDetail(pyramid, {pixelsPerUnit, 0, coc}, LodMetric::size, {0.7, 1.5}), expected, 1e-12);
     }
 }
 
-// The metric `halving` ignores the stored edges of coarser levels and assumes that each level halves the triangles of
-// the previous one.
-TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
+// The metric `proportional` depends on nothing but the blur and the projected bounding box: not on edges or errors.
+TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     Pyramid pyramid = uniformPyramid();
-    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) pyramid.levels[l].meanEdge *= 5;
-    for (double coc = 0.5; coc < 40; coc *= 1.1) {
-        const double target = std::max(0.7 * coc, 1.5);
-        const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
-        EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::halving, {0.7, 1.5}), expected, 1e-12);
-    }
-    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // the mesh projects to a point
-    EXPECT_EQ(levelOfDetail(pyramid, {3, 1}, LodMetric::halving, {0, 0}), 0);
-    EXPECT_EQ(levelOfDetail(pyramid, {-1, 1}, LodMetric::halving, {0.7, 1.5}), 0);
-    EXPECT_EQ(levelOfDetail({}, {3, 1}, LodMetric::halving, {0.7, 1.5}), 0);
+    const auto lambda = [&](const LevelQuery& query, double factor) {
+        return levelOfDetail(pyramid, query, LodMetric::proportional, {.blur = factor});
+    };
+    for (double coc = 0.5; coc < 40; coc *= 1.1)
+        for (const double box : {20.0, 75.0, 300.0})
+            EXPECT_NEAR(lambda({1, box, coc}, 10), std::min(10 * coc / box, 4.0), 1e-12);
+    const double before = lambda({1, 75, 10}, 10);
+    for (PyramidLevel& level : pyramid.levels) level.meanEdge = level.error = 5;
+    EXPECT_EQ(lambda({7, 75, 10}, 10), before);
+    EXPECT_EQ(lambda({1, 75, 0}, 10), 0) << "without blur, full detail";
+    EXPECT_EQ(lambda({0, 0, 0}, 10), 0);
+    EXPECT_EQ(lambda({1, 75, 10}, 0), 0);
+    EXPECT_EQ(lambda({0, 0, 1}, 10), 4) << "a box that projects to a point";
+    EXPECT_EQ(levelOfDetail({}, {1, 75, 10}, LodMetric::proportional, {.blur = 10}), 0);
     pyramid.levels.resize(1);
-    EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
+    EXPECT_EQ(lambda({1, 75, 40}, 10), 0);
 }
 
 // With the metric `score`, λ is the level whose edges are threshold · c/d times as long as those of level 0, for a blur
@@ -59,7 +62,7 @@ TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     for (double coc = 0; coc < 90; coc += 1.3) {
         const double score = coc / 3;
         const double expected = coc > 0 ? std::clamp(2 * std::log2(0.7 * score), 0.0, 4.0) : 0.0;
-        EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::score, {.blur = 0.7}), expected, 1e-12) << coc;
+        EXPECT_NEAR(levelOfDetail(pyramid, {3, 0, coc}, LodMetric::score, {.blur = 0.7}), expected, 1e-12) << coc;
     }
     EXPECT_EQ(chosenThresholds({.blur = 0.3}, LodMetric::score, 64).size, 0);
     EXPECT_EQ(defaultThresholds(LodMetric::score, 64).size, 0);
@@ -70,7 +73,7 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {
         // errors project to 0, 1, 2, 4 and 8 px
-        return levelOfDetail(pyramid, {100, 0}, LodMetric::error, {0, target});
+        return levelOfDetail(pyramid, {100, 0, 0}, LodMetric::error, {0, target});
     };
     EXPECT_DOUBLE_EQ(lambda(0.25), 0.25);
     EXPECT_DOUBLE_EQ(lambda(1), 1);
@@ -118,7 +121,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
         for (double target = 1e-3; target < 10; target *= step) {
             const double expected = growth(target, target * step);
             const auto lambda = [&](double pixelsPerUnit, double coc, const LodThresholds& thresholds) {
-                return levelOfDetail(pyramid, {pixelsPerUnit, coc}, metric, thresholds);
+                return levelOfDetail(pyramid, {pixelsPerUnit, 0, coc}, metric, thresholds);
             };
             const double bySize = lambda(unit, 0, {0, target * step * unit}) - lambda(unit, 0, {0, target * unit});
             const double byBlur =
@@ -136,12 +139,12 @@ TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {
     const Pyramid pyramid = uniformPyramid();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
         for (const double bad : {double(infinity), -double(infinity), std::nan(""), -1.0})
-            EXPECT_EQ(levelOfDetail(pyramid, {bad, 10}, metric, {1, 1}), 0) << bad;
-        EXPECT_EQ(levelOfDetail(pyramid, {1, std::nan("")}, metric, {1, 0}), 0);
-        EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";
-        EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {std::nan(""), std::nan("")}), 0);
-        EXPECT_EQ(levelOfDetail(Pyramid{}, {1, 10}, metric, {1, 1}), 0);
-        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point uses the coarsest level";
+            EXPECT_EQ(levelOfDetail(pyramid, {bad, 0, 10}, metric, {1, 1}), 0) << bad;
+        EXPECT_EQ(levelOfDetail(pyramid, {1, 0, std::nan("")}, metric, {1, 0}), 0);
+        EXPECT_EQ(levelOfDetail(pyramid, {1, 0, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";
+        EXPECT_EQ(levelOfDetail(pyramid, {1, 0, 10}, metric, {std::nan(""), std::nan("")}), 0);
+        EXPECT_EQ(levelOfDetail(Pyramid{}, {1, 0, 10}, metric, {1, 1}), 0);
+        EXPECT_EQ(levelOfDetail(pyramid, {0, 0, 0}, metric, {1, 1}), 4) << "a point uses the coarsest level";
     }
 }
 

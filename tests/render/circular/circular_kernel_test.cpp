@@ -123,7 +123,7 @@ TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
-    for (int n = 1; n <= 3; ++n)  // published kernels of 4 and more components use 32-bit floats
+    for (int n = 1; n <= 3; ++n)  // Niemitalo's kernels of 4 and more components use 32-bit floats
         EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
@@ -155,17 +155,26 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     }
 }
 
-// Published kernels have the constants printed on Garcia's slides, in units of the disk's radius. At the same extent,
-// any other radius would fit a disk worse.
-TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
+// The published kernel has the constants of Garcia's slides at x = tap/8. At the outermost tap, the kernel of two
+// components is 0.9245, the value of the printed formula.
+TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
+    const auto kernel = publishedCircularKernel(2);
+    EXPECT_EQ(kernel[0].decay, 0.886528);
+    EXPECT_EQ(kernel[1].frequency, 1.558213);
+    EXPECT_NEAR(circularProfile(kernel, 1), 0.9245, 1e-4);
+}
+
+// Rescaled kernels have the published constants in units of the disk's radius. At the same extent, any other radius
+// would fit a disk worse.
+TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
-    EXPECT_THROW(publishedCircularKernel(publishedKernelLimit + 1), Error);
-    const CircularComponent& one = publishedCircularKernel(1)[0];
+    EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
+    const CircularComponent& one = rescaledCircularKernel(1)[0];
     EXPECT_NEAR(one.decay / one.frequency, 0.862325 / 1.624835, 1e-12);
     EXPECT_EQ(one.cosine, 0.767583);
     EXPECT_EQ(one.sine, 1.862321);
     for (int n = 1; n <= publishedKernelLimit; ++n) {
-        const auto kernel = publishedCircularKernel(n);
+        const auto kernel = rescaledCircularKernel(n);
         const double error = diskProfileError(kernel, circularKernelExtent, 1);
         for (const double factor : {0.97, 1.03}) {
             Kernel other{kernel.begin(), kernel.end()};
@@ -176,20 +185,20 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
             EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
         }
         // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
-        EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(publishedCircularKernel(n - 1), circularKernelExtent, 1));
+        EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(rescaledCircularKernel(n - 1), circularKernelExtent, 1));
     }
 }
 
-// The published kernels have shallower negative lobes, which darken the surroundings of a highlight, than the fitted
+// The rescaled kernels have shallower negative lobes, which darken the surroundings of a highlight, than the fitted
 // kernels.
-TEST(CircularKernel, publishedKernelsDipLess) {
+TEST(CircularKernel, rescaledKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;
         for (double u = 0; u <= 2; u += 1e-3) value = std::min(value, circularProfile(kernel, u));
         return value * energyGain(kernel, circularKernelExtent, 1);
     };
     for (int n = 2; n <= publishedKernelLimit; ++n)
-        EXPECT_GT(lowest(publishedCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
+        EXPECT_GT(lowest(rescaledCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
 }
 
 // Returns the objective that the fitted kernels minimize (see circular_kernel.h).

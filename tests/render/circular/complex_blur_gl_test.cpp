@@ -127,7 +127,8 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
 }
 
 // Brackets for eight taps equal those that Garcia's filter generator prints for two components and a radius of eight
-// taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754.
+// taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754. The
+// components are those that the method draws with.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;
@@ -135,10 +136,11 @@ TEST(Brackets, ofEightTapsAreGarcias) {
         EXPECT_NEAR(bracket.offset * middle, offset, 2e-6);
         EXPECT_NEAR(bracket.scale * middle * taps, scale, 2e-5);
     };
-    const ComplexBracket first = bracketOf({0.886528, 5.268909, 0.411259, -0.548794}, ComplexTaps::eight);
+    const auto kernel = publishedCircularKernel(2);
+    const ComplexBracket first = bracketOf(kernel[0], ComplexTaps::eight);
     expectBracket(first.real, -0.038708, 0.943062);
     expectBracket(first.imaginary, -0.025574, 0.660892);
-    const ComplexBracket second = bracketOf({1.960518, 1.558213, 0.513282, 4.561110}, ComplexTaps::eight);
+    const ComplexBracket second = bracketOf(kernel[1], ComplexTaps::eight);
     expectBracket(second.real, 0.000115, 0.559524);
     expectBracket(second.imaginary, 0, 0.178226);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bokeh.h"
 #include "core/error.h"
@@ -115,6 +116,23 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     const Image sharp = postProcessed(*small, GetParam());
     const int edge = 48;  // column where the board ends, the middle
     EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
+}
+
+// A bright object in focus does not leak into the blurred background beside it: of the light that an even gather would
+// bring into the columns within one radius of the edge, at most a quarter arrives. An even gather over a disk of radius
+// R brings the share of the disk that lies beyond the edge, which averages 2/(3π) of the bright radiance over these
+// columns.
+TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
+    constexpr float bright = 4;
+    const auto small = boards(
+        {{2, {-0.4, 0}, {0.4, 1}, {bright, bright, bright, 1}}, {9, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
+    constexpr int radius = 5;  // px, the largest of the published form of scheuermann
+    small->view.lens.blurScale = 2 * radius / (0.05 * (1.0 / 2 - 1.0 / 9) * 96 / 0.72);
+    const Image image = postProcessed(*small, GetParam());
+    const int edge = 48;  // column where the board ends, the middle
+    double leaked = 0;
+    for (int x = edge + 1; x < edge + 1 + radius; ++x) leaked += *image.at(x, 32) / bright / radius;
+    EXPECT_LT(leaked, 0.25 * 2 / (3 * std::numbers::pi));
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
