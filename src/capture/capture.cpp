@@ -263,7 +263,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
     std::error_code ignored;
-    if (!options.resume) fs::remove(options.timings, ignored);  // of an earlier run
+    if (!options.resume) fs::remove(options.timings, ignored);  // remove the times of an earlier run
 
     // Draw one frame after another while the writer thread encodes and writes the previous ones.
     const Clock::time_point start = Clock::now();

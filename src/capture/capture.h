@@ -24,7 +24,7 @@ struct FilmFrame {
     std::vector<std::string> settings;         // settings hash, one per file
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
-    bool finished = false;                     // whether all files exist with the wanted settings
+    bool finished = false;                     // whether all files exist with the requested settings
     std::filesystem::path other;               // with `resume`: image with other settings, to be replaced; empty: none
 };
 

@@ -43,15 +43,15 @@ struct FocusTrack {
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
-    std::vector<Key<Place>> targets;  // points that the camera looks at; frames as in `positions`
-    std::vector<Key<double>> rolls;   // degrees, counter-clockwise from behind; frames as in `positions`
+    std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise seen from behind; same frames as `positions`
     Easing easing = Easing::smooth;
 };
 
 // Rotates the camera around a centre, about the vertical axis, at constant speed. At the first frame of the movement,
 // the camera is at its original position.
 struct Turntable {
-    double turns = 1;                  // number of rotations; > 0: counter-clockwise from above
+    double turns = 1;                  // number of rotations; > 0: counter-clockwise seen from above
     std::optional<Place> centre;       // none: the centre of the scene
     std::optional<FrameRange> frames;  // duration of all turns; none: the shot's range
 };

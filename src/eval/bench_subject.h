@@ -1,5 +1,5 @@
 #pragma once
-// Describes what a bench measured: its scene, with which program and on which machine.
+// Describes the conditions of a bench: scene, camera, program and machine.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. The shading of ray tracers differs, so if there are any, the
-// scene's light is baked into unlit colours.
+// Returns whether the program includes ray tracers. Ray tracers shade differently. If the program includes any, the
+// scene's lighting is baked into unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -73,8 +73,8 @@ std::string textIn(const fs::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the hash that all frames of a journal share: of the reference, the program, the device and the settings that
-// affect the plan.
+// Returns the hash of the reference, the program, the device and the settings that affect the plan. All frames of a
+// journal (runs.csv) have the same hash.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -85,8 +85,8 @@ std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, co
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
-// Returns the frames of an earlier run that this run continues. Throws Error if this run would destroy frames or a
-// reference in the folder; nothing is changed then.
+// Returns the frames of an earlier run that this run continues. Throws Error, without changing any file, if this run
+// would destroy frames or a reference in the folder.
 std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
                                         std::uint64_t subject) {
     if (arguments.overwrite) return {};
@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether to measure `published`, the published form of a method: the options request published forms, and this
-// method with default settings.
+// Returns whether the options request `published`, a method with the settings of its paper. They must list the form
+// "published" and, if they list methods, this method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {

@@ -80,7 +80,7 @@ void addCacheCommand(CLI::App& program) {
         addSettings(*place, arguments->request, {"cacheFolder"});
         place->footer(example);
     }
-    // An empty name, as from an unset variable of a script, must not mean the default folder.
+    // An empty folder name, as from an unset variable of a script, must not mean the default folder.
     const auto checked = [arguments, command, listing, clearing](void (*act)(const CacheArguments&)) {
         for (const CLI::App* place : {command, listing, clearing})
             if (place->count("--cache-dir") > 0 && arguments->request.cacheFolder.empty())

@@ -195,7 +195,7 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
 }
 
-// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+// Writes the image of the samples drawn so far if --keep-partial is given. Throws Error with a message about the stop.
 [[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver,
                              WarningPrinter& warnings) {
     const std::optional<Image> image = output.partialImage();

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct SettingsArguments {
     bool json = false;
     bool markdown = false;
-    std::filesystem::path schema;  // schema to complete; empty: none
+    std::filesystem::path schema;  // schema to update; empty: none
 };
 
 std::string rangeText(const Setting& setting) {

@@ -30,7 +30,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
     };
-    // All methods but the automatic one, which equals one of the others.
+    // All methods except "auto", which draws with one of the others.
     const bool all = uses.empty();
     for (const Method& method : methods())
         if ((all && method.name != automaticMethod) ||

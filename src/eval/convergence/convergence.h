@@ -27,7 +27,7 @@ namespace defocus::engine {
 // Settings for measuring a method that the user names without settings.
 enum class MethodForm {
     published,  // as in the method's paper, if it has one
-    best,       // Method::best; called `standard` if these are equal
+    best,       // Method::best; called `standard` if equal to the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
@@ -52,7 +52,7 @@ struct ConvergenceOptions {
     // listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
-    std::vector<double> thresholdFactors = {0.5, 1, 2};  // multiply defaultThresholds for the number of samples
+    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
     int runs = 3;                                        // runs of each case, ≥ 1
     int seeds = 1;             // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     RendererOptions renderer;  // RendererOptions::settings is ignored
