@@ -89,7 +89,7 @@ class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
         int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot start ffmpeg: no pipe is available");
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot start ffmpeg: cannot create a pipe");
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);

@@ -270,8 +270,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addList(command, "--rows", "published,best,standard", options.forms,
-            "Forms of the methods that are given without settings: as published (their preset), with the settings of "
-            "the smallest error (best), or with default settings (standard)",
+            "Settings to measure for a method that is named without settings: as published (the method's preset), with "
+            "the smallest error (best), or the defaults (standard)",
             [](const std::string& part) {
                 constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::standard};
                 return forms[parseChoice(part, {"published", "best", "standard"})];
@@ -301,8 +301,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                "Factors on the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "Shading: the scene's lights (lit), or fixed light stored in the meshes (unlit), which ray tracers "
-                    "can reproduce. Default: unlit if the program has ray tracers")
+                    "Shading: by the scene's lights (lit), or by lighting baked into the meshes (unlit), which ray "
+                    "tracers can reproduce. Default: unlit if the program has ray tracers")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
@@ -325,7 +325,8 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
         ->type_name("FOLDER")
         ->group(group);
     CLI::Option* resume =
-        command.add_flag("--resume", arguments.resume, "Measure only what is missing in runs.csv of the folder")
+        command
+            .add_flag("--resume", arguments.resume, "Measure only the runs that are missing in the folder's runs.csv")
             ->group(group);
     command
         .add_flag("--overwrite", arguments.overwrite,

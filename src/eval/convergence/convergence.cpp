@@ -177,10 +177,11 @@ bool needsShading(const Scene& scene) {
 // no shadows or no motion.
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
-        fail("its shading differs from the reference; use --shading unlit");
-    if (!method.drawsShadows && !plan.shadows.maps.empty()) fail("it draws no shadows, but the reference has shadows");
+        fail("the method's shading differs from the reference; use --shading unlit");
+    if (!method.drawsShadows && !plan.shadows.maps.empty())
+        fail("the method does not render shadows, but the reference has shadows");
     if (!method.drawsMotion && !plan.moments.empty())
-        fail("it draws no motion, but the scene moves while the shutter is open");
+        fail("the method does not render motion blur, but the scene moves while the shutter is open");
 }
 
 Frame frameOf(const World& world, const View& view, const ConvergenceCase& wanted, const RendererOptions& options) {

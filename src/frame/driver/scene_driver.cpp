@@ -51,8 +51,8 @@ std::size_t pyramidKind(const Request& request) {
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (plan.samples.size() <= blockSamples) return {};
     return {
-        fmt::format("the image is drawn in tiles with {} lens samples, the most that its blur may need; an image in "
-                    "one piece can stop earlier where its error is small",
+        fmt::format("the image is drawn in tiles with {} lens samples, the maximum that its blur may need; an untiled "
+                    "image may need fewer",
                     plan.samples.size())};
 }
 
