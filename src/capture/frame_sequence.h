@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// Initial state of a shot: the scene, with the camera and the settings that the shot fixes.
+// Initial state of a shot: the scene, with the camera and the settings that are constant in the shot.
 struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;

@@ -23,7 +23,7 @@ struct FrameRange {
 
 inline constexpr int maxFrame = 9'999'999;
 
-// A point in world space, or the name of a node, whose centre is used and may move.
+// A point in world space, or the name of a node. The centre of the node is used, which may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
 // Keys of a lens value, in the unit of lens/lens_fields.h. A single key is a constant value.
@@ -80,7 +80,7 @@ struct Shot {
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
     std::set<std::string, std::less<>> given;
-    // JSON pointer to the first occurrence of each name of a node, camera or clip in the shot file, by that name.
+    // For each node, camera or clip that the shot file names: the JSON pointer to the first occurrence of the name.
     std::map<std::string, std::string, std::less<>> placesOfNames;
 
     double frameRate = 24;  // frames per second

@@ -46,9 +46,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
     return table;
 }
 
-// Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, with the tags that say so. Without
-// tags, players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs an even width and height: if
-// one is odd, the last column or row is repeated.
+// Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, with the tags that declare them.
+// Without tags, players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs an even width and
+// height. If the width or height is odd, the last column or row is repeated.
 std::vector<std::string> bt709(int width, int height) {
     const std::string filters = fmt::format(
         "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={},"

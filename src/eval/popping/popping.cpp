@@ -74,7 +74,7 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or samples per level differ
+    std::vector<const ObjectPlan*> changed;  // objects whose levels or samples per level differ from the previous plan
 };
 
 // Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both

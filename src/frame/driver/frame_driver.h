@@ -29,7 +29,7 @@ struct DriverOptions {
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
-// Receives the finished rows of a frame that is drawn in tiles; the calls go from the top of the image to the bottom.
+// Receives the finished rows of a frame that is drawn in tiles; it is called from the top of the image to the bottom.
 using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 
 // A frame to draw, or the part of a frame to draw.
@@ -40,7 +40,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    std::string whole = {};                          // reason why tiles are forbidden; empty: they are allowed
+    std::string whole = {};                          // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
 

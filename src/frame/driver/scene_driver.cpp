@@ -67,7 +67,7 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
                     : std::const_pointer_cast<Scene>(std::move(scene));
     if (named_) setScale(request, *scene_);
     if (hasStrokes(*scene_)) {
-        scene_ = std::make_shared<Scene>(*scene_);  // the caller may share the scene
+        scene_ = std::make_shared<Scene>(*scene_);  // copied, because the caller may share the scene
         setStrokes(request, *scene_);
     }
     frame_ = placeFrame(scaledScene(request), request);

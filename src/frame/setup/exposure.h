@@ -33,7 +33,7 @@ std::optional<double> exposureOf(const Request& request);
 // Returns the exposure (EV) that follows from the request or the lens without metering.
 double unmeteredExposure(const Request& request, const Lens& lens);
 
-// Returns the exposure (EV) of a request's image, metered if metersExposure() says so.
+// Returns the exposure (EV) of a request's image, metered if metersExposure() returns true.
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,
                       const std::filesystem::path& shaderFolder = {});
 

@@ -31,7 +31,7 @@ public:
     // Starts to open a scene. Cancels jobs that have not delivered a draft yet.
     void open(const Request& options);
     // Returns the next result: a draft, the final scene, or a failure. Returns each result once; none if there is no
-    // new one.
+    // new result.
     std::optional<LoadedScene> take();
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }

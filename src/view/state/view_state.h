@@ -51,7 +51,7 @@ enum class Comparison {
 struct Message {
     std::string text;
     bool fault = false;
-    double until = 0;  // time when it disappears, s, as ViewState::now
+    double until = 0;  // time when the message disappears, s, as ViewState::now
 };
 
 // Marker of the latest click to focus; fades out.
