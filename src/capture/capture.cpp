@@ -85,7 +85,7 @@ struct DrawnFrame {
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // whether the files are complete already, as for frames in tiles
+    bool written = false;  // whether the files are already complete, as for a frame in tiles
 };
 
 // Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that

@@ -31,7 +31,7 @@ struct FilmFrame {
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
     std::optional<SampleRange> sampleRange;  // write partial sums to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // without encoding; the target error is the only stop condition used
+    FilmSettings settings;                   // settings without encoding; the time limit of a frame is ignored
     bool metered = false;                    // whether FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
     bool resume = false;                     // keep the frames that are already finished

@@ -75,7 +75,7 @@ inline Request shotDefaults() {
 }
 
 struct Shot {
-    std::filesystem::path file;  // for messages; paths in the shot are relative to its folder
+    std::filesystem::path file;  // shot file, for messages; its folder is the base of relative paths
     // Values that are constant during the shot. The time is that of frame 0.
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
@@ -89,8 +89,8 @@ struct Shot {
     std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
-    std::map<std::string, LensTrack, std::less<>> lens;        // by lens field: constant or keyed values
-    std::map<std::string, LensTrack, std::less<>> methodKeys;  // by method setting (MethodSetting::keyed): keyed values
+    std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by method setting (MethodSetting::keyed)
     bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};

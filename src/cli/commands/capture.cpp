@@ -60,7 +60,8 @@ struct CaptureArguments {
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
-// Checks the outputs and the combination of options before any long work. Throws Error for invalid ones.
+// Checks the outputs and the combination of options before any long work. Throws Error for invalid outputs and
+// combinations.
 void checkArguments(const CaptureArguments& arguments) {
     for (const std::string& pattern : arguments.shot.outputs) {
         checkFramePattern(pattern);

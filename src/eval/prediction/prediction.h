@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // px, diameter at the mesh's centre
+    std::vector<double> cocs = {1, 4, 16, 64};  // CoC diameters at the mesh's centre, px
     int width = 320;                            // px
     int height = 240;                           // px
     RendererOptions renderer;

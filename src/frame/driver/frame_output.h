@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct FrameFiles {
-    std::vector<std::filesystem::path> outputs;  // at least one; a part of a frame is written to the first
+    std::vector<std::filesystem::path> outputs;  // at least one file; a part of a frame is written to the first
     std::optional<SampleRange> samples;          // write only the partial sums over these lens samples, for `merge`
     std::optional<TileShare> share;              // write only this share of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished

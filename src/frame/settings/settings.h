@@ -54,7 +54,7 @@ struct Setting {
     std::vector<std::string> excludes;  // names of settings that exclude this one
     SettingEffect effect = SettingEffect::pixels;
     bool recorded = true;     // whether the setting is written to image metadata
-    bool repeated = false;    // may be given several times; all values are kept
+    bool repeated = false;    // the option may be given several times; all values are kept
     bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
     bool keyed = false;       // whether a shot may animate the setting with keyframes

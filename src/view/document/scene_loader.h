@@ -17,7 +17,7 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
     std::string fault;                     // why the scene could not be opened
-    bool draft = false;                    // has coarse draft pyramids; the final result follows
+    bool draft = false;                    // the pyramids are coarse drafts; the final result follows
 };
 
 class SceneLoader {

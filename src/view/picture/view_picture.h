@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct PictureSide {
-    std::string method;  // in the format of MethodUse::text
+    std::string method;  // method and settings in the format of MethodUse::text
     LodMode lod = LodMode::fractional;
     std::uint32_t firstSample = 0;
     bool operator==(const PictureSide&) const = default;
