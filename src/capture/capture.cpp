@@ -102,7 +102,7 @@ Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& o
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // JPEG files hold no other text
+        metadata["comments"] = film.settings[file];  // JPEG files store no other text attribute
     return metadata;
 }
 

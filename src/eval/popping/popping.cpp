@@ -173,7 +173,7 @@ Image displayColours(const Image& linear) {
     return colours;
 }
 
-// Returns the previous frame plus the change at full detail, I_{t−1} + (R_t − R_{t−1}).
+// Returns I_{t−1} + (R_t − R_{t−1}): the previous frame I plus the change of the full-detail frames R.
 Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
     Image result = before;
     for (std::size_t i = 0; i < result.pixels.size(); ++i)
