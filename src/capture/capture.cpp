@@ -85,7 +85,7 @@ struct DrawnFrame {
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // whether the files are complete already, as for frames in tiles
+    bool written = false;  // whether the files are already complete, as for a frame in tiles
 };
 
 // Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that
@@ -102,7 +102,7 @@ Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& o
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // JPEG files hold no other text
+        metadata["comments"] = film.settings[file];  // JPEG files store no other text attribute
     return metadata;
 }
 
@@ -263,7 +263,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
     std::error_code ignored;
-    if (!options.resume) fs::remove(options.timings, ignored);  // of an earlier run
+    if (!options.resume) fs::remove(options.timings, ignored);  // remove the times of an earlier run
 
     // Draw one frame after another while the writer thread encodes and writes the previous ones.
     const Clock::time_point start = Clock::now();

@@ -24,14 +24,14 @@ struct FilmFrame {
     std::vector<std::string> settings;         // settings hash, one per file
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
-    bool finished = false;                     // whether all files exist with the wanted settings
+    bool finished = false;                     // whether all files exist with the requested settings
     std::filesystem::path other;               // with `resume`: image with other settings, to be replaced; empty: none
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
     std::optional<SampleRange> sampleRange;  // write partial sums to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // without encoding; the target error is the only stop condition used
+    FilmSettings settings;                   // settings without encoding; the time limit of a frame is ignored
     bool metered = false;                    // whether FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
     bool resume = false;                     // keep the frames that are already finished

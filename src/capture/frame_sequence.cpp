@@ -132,7 +132,7 @@ double lensValueAt(const LensTrack& track, const LensField& field, double frame)
     return next == keys.begin() ? next->value : std::prev(next)->value;
 }
 
-// Sets the lens fields that the shot doesn't fix to the camera's values, which may be animated.
+// Copies the camera's lens values, which may be animated, to the lens fields that the shot doesn't set.
 void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
     std::map<std::string, double, std::less<>> own;
     for (const auto& [name, value] : camera.lens)

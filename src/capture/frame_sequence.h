@@ -12,18 +12,18 @@
 
 namespace defocus::engine {
 
-// Initial state of a shot: the scene, with the camera and the settings that the shot fixes.
+// Initial state of a shot: the scene, with the camera and the settings that are constant in the shot.
 struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
     std::vector<PlacedLight> lights;  // lights in their final sizes; default lights if the scene has none
     CameraChoice camera;
-    bool cameraStands = false;                     // camera stays where `view` has it; false: it follows its node
+    bool cameraStands = false;                     // true: the camera stays as in `view`; false: it follows its node
     std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values
     glm::dvec3 centre{0.0};                        // scene's centre at the start; default centre of turntables
     std::vector<std::string> hidden;               // nodes that aren't drawn
-    ShutterSettings shutter;                       // exposure of each frame; the camera may move meanwhile
+    ShutterSettings shutter;                       // exposure of each frame, during which the camera may move
 };
 
 // Returns the state of a frame. Throws Error for nodes and clips that don't exist, for a focus that is behind the

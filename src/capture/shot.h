@@ -23,7 +23,7 @@ struct FrameRange {
 
 inline constexpr int maxFrame = 9'999'999;
 
-// A point in world space, or the name of a node, whose centre is used and may move.
+// A point in world space, or the name of a node. The centre of the node is used, which may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
 // Keys of a lens value, in the unit of lens/lens_fields.h. A single key is a constant value.
@@ -43,15 +43,15 @@ struct FocusTrack {
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
-    std::vector<Key<Place>> targets;  // points that the camera looks at; frames as in `positions`
-    std::vector<Key<double>> rolls;   // degrees, counter-clockwise from behind; frames as in `positions`
+    std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise seen from behind; same frames as `positions`
     Easing easing = Easing::smooth;
 };
 
 // Rotates the camera around a centre, about the vertical axis, at constant speed. At the first frame of the movement,
 // the camera is at its original position.
 struct Turntable {
-    double turns = 1;                  // number of rotations; > 0: counter-clockwise from above
+    double turns = 1;                  // number of rotations; > 0: counter-clockwise seen from above
     std::optional<Place> centre;       // none: the centre of the scene
     std::optional<FrameRange> frames;  // duration of all turns; none: the shot's range
 };
@@ -75,12 +75,12 @@ inline Request shotDefaults() {
 }
 
 struct Shot {
-    std::filesystem::path file;  // for messages; paths in the shot are relative to its folder
+    std::filesystem::path file;  // shot file, for messages; its folder is the base of relative paths
     // Values that are constant during the shot. The time is that of frame 0.
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
     std::set<std::string, std::less<>> given;
-    // JSON pointer to the first occurrence of each name of a node, camera or clip in the shot file, by that name.
+    // For each node, camera or clip that the shot file names: the JSON pointer to the first occurrence of the name.
     std::map<std::string, std::string, std::less<>> placesOfNames;
 
     double frameRate = 24;  // frames per second
@@ -89,8 +89,8 @@ struct Shot {
     std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
-    std::map<std::string, LensTrack, std::less<>> lens;        // by lens field: constant or keyed values
-    std::map<std::string, LensTrack, std::less<>> methodKeys;  // by method setting (MethodSetting::keyed): keyed values
+    std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by method setting (MethodSetting::keyed)
     bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};

@@ -248,8 +248,8 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
     return found;
 }
 
-// Returns the allowed keys of the shot's object at `place` (a JSON pointer; "" for the document): the keys of settings
-// there, and `own`.
+// Returns the allowed keys of the shot's JSON object at the JSON pointer `place` ("" for the document): the keys of
+// settings at this location, and `own`.
 std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
     for (const Setting& setting : settings()) {
         const std::string_view path = setting.shotPlace;

@@ -33,7 +33,7 @@ Shot parseShot(std::string_view text, const std::filesystem::path& file,
 FrameRange parseFrameRange(std::string_view text);
 
 // Throws Error for a name that the scene doesn't have. If the name is from the shot, the message contains its location:
-// "shot.json: /focus/node: there is no node …". If it is from an option, the message doesn't.
+// "shot.json: /focus/node: there is no node …". If it is from an option, the message contains no location.
 [[noreturn]] void failForName(const Shot& shot, const MissingName& missing);
 
 }  // namespace defocus::engine

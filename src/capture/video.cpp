@@ -46,9 +46,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
     return table;
 }
 
-// Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, with the tags that say so. Without
-// tags, players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs an even width and height: if
-// one is odd, the last column or row is repeated.
+// Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, with the tags that declare them.
+// Without tags, players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs an even width and
+// height. If the width or height is odd, the last column or row is repeated.
 std::vector<std::string> bt709(int width, int height) {
     const std::string filters = fmt::format(
         "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={},"
@@ -89,7 +89,7 @@ class Ffmpeg {
 public:
     Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
         int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot start ffmpeg: no pipe is available");
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot start ffmpeg: cannot create a pipe");
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);

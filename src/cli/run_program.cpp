@@ -89,7 +89,7 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// Returns the option of the command that does what an option of other programs does; empty if there is none.
+// Returns the command's option that corresponds to `word`, an option of other programs; empty if none does.
 std::string knownForForeign(const CLI::App& command, std::string_view word) {
     static constexpr std::pair<std::string_view, const char*> table[] = {
         {"--aperture", "--fstop"},       {"--f-number", "--fstop"},

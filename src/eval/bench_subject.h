@@ -1,5 +1,5 @@
 #pragma once
-// Describes what a bench measured: its scene, with which program and on which machine.
+// Describes the conditions of a bench: scene, camera, program and machine.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -21,7 +21,7 @@ struct BenchSubject {
     bool software = false;  // software driver, whose timer queries miss the vertex work
     std::string scene;      // empty if the bench builds its own scenes
     std::string camera;
-    std::optional<Lens> lens;  // none if the bench sets several lenses
+    std::optional<Lens> lens;  // none if the bench varies the lens
     int width = 0;             // px; 0 if the bench uses several sizes
     int height = 0;            // px
     int runs = 0;              // timed runs of each frame; 0 if nothing is timed

@@ -72,7 +72,7 @@ void checkStop(const Request& request) {
 namespace {
 
 void checkValue(const Setting& setting, const Request& request, Request& scratch) {
-    if (setting.lensField && setting.name != "focusDistance") {  // infinity cannot be written as text
+    if (setting.lensField && setting.name != "focusDistance") {  // checked as a number: infinity has no text form
         const LensField& field = *lensFieldNamed(setting.name);
         giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
     } else if (setting.repeated) {

@@ -31,7 +31,7 @@ const LensField fields[] = {
     {"dofEnabled", "--dof", LensSection::lens, "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled,
      "Depth of field; --no-dof renders the image of a pinhole camera", "false", LensFeature::camera},
     {"blurScale", "--blur-scale", LensSection::lens, "R", 0, 1e3, &Lens::blurScale, &LensSettings::blurScale,
-     "Factor on the blur; 1 is physical", "2", LensFeature::blur, true},
+     "Multiplier for the blur diameter; 1 is physically correct", "2", LensFeature::blur, true},
     {"focusBreathing", "--focus-breathing", LensSection::lens, "", 0, 1, &Lens::focusBreathing,
      &LensSettings::focusBreathing,
      "Focus breathing: the field of view narrows as the focus distance decreases, as with a thin lens", "true",
@@ -71,18 +71,18 @@ const LensField fields[] = {
      LensFeature::lensPoint},
     {"axialChromaticAberration", "--axial-chromatic-aberration", LensSection::aperture, "D", -100, 100,
      &Lens::axialChromaticAberration, &LensSettings::axialChromaticAberration,
-     "Axial chromatic aberration in dioptres, by which red light focuses farther away than blue light; gives colour "
-     "fringes",
+     "Axial chromatic aberration: difference in dioptres by which red light focuses farther away than blue light. "
+     "Gives colour fringes",
      "0.2", LensFeature::lensPoint},
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
-     "Astigmatism: points in focus become radial lines. Length of the line at the left and right edges, in mm on the "
-     "sensor. Above 0, points at a certain depth in front of the focus plane become lines in the perpendicular "
-     "direction; below 0, points behind it",
+     "Astigmatism: length of the radial line, in mm on the sensor, that a point in focus becomes at the left and right "
+     "edges. Above 0, points at a certain depth in front of the focus plane become perpendicular lines; below 0, "
+     "points behind it",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
-     "Coma: length in mm on the sensor of the tail of a point at the left and right edges. Positive: the tail points "
-     "outwards",
+     "Coma: length of the tail, in mm on the sensor, that a point gets at the left and right edges. Above 0, the tail "
+     "points outwards",
      "0.2", LensFeature::lensPoint},
     {"foregroundLimit", "--foreground-limit", LensSection::lens, "PX", 0, 1e6, &Lens::foregroundLimit,
      &LensSettings::foregroundLimit, "Maximum blur in front of the focus plane, in px", "20"},
@@ -90,14 +90,14 @@ const LensField fields[] = {
      &LensSettings::backgroundLimit, "Maximum blur behind the focus plane, in px", "40"},
     {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
      &LensSettings::focusRangeFront,
-     "Depth in m in front of the focus distance that stays sharp; the blur grows from its near end", "0.5"},
+     "Depth range in m in front of the focus distance that stays sharp; the blur starts at its near end", "0.5"},
     {"focusRangeBehind", "--focus-range-behind", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeBehind,
      &LensSettings::focusRangeBehind,
-     "Depth in m behind the focus distance that stays sharp; the blur grows from its far end", "1"},
+     "Depth range in m behind the focus distance that stays sharp; the blur starts at its far end", "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
-     "Blur behind the focus range as if the lens were focused on the range's far end. Off: the blur grows from the far "
-     "end to the same blur at infinity as without a range",
+     "Blur behind the focus range. true: blur as if the lens were focused at the range's far end. false: blur that "
+     "starts at the far end and, at infinity, equals the blur without a focus range",
      "true"},
     {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis, in degrees; above 0, its top is nearer", "10"},
@@ -110,7 +110,8 @@ const LensField fields[] = {
      "0.2"},
     {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
      &LensSettings::radialBlurGain,
-     "Growth of the blur away from the image centre: at the left and right edges, the blur is multiplied by 1 + R",
+     "Radial blur gain R: the blur grows away from the image centre and is multiplied by 1 + R at the left and right "
+     "edges",
      "1"},
 };
 

@@ -51,7 +51,8 @@ std::string chosenMethodText(const FramePlan& plan) {
     const LensCells cells = lensCells(plan);
     return fmt::format(
         "--method auto is multirate, as about {:.0f} % of the image is blurred by {:g} px or more: each sample's image "
-        "is blurred by σ = {:.3g} of the CoC ({:.2g} px for the largest CoC), as its part of the lens would\n",
+        "is blurred as its cell of the lens would blur it, with σ = {:.3g} of the CoC ({:.2g} px for the largest "
+        "CoC)\n",
         100 * blurredShare(plan, minBlurOfCells), minBlurOfCells, cells.blur, cells.blur * plan.largestBlur);
 }
 
@@ -73,9 +74,9 @@ std::string planTable(const FramePlan& plan) {
         plan.settings.lodCoc == LodCoc::centre ? "blur at the centre" : "smallest blur",
         levelVerticesName(plan.settings.levelVertices));
     if (!plan.moments.empty())
-        text.insert(text.size() - 1,
-                    fmt::format("shutter: {} moments, {} of {} objects move{}\n", momentCount(plan), movingCount(plan),
-                                plan.objects.size(), plan.middleFromView.empty() ? "" : ", the camera moves"));
+        text.insert(text.size() - 1, fmt::format("shutter: {} time samples, {} of {} objects move{}\n",
+                                                 momentCount(plan), movingCount(plan), plan.objects.size(),
+                                                 plan.middleFromView.empty() ? "" : ", the camera moves"));
     std::size_t width = 6;
     for (const ObjectPlan& object : plan.objects) width = std::max(width, object.name.size());
     text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px",

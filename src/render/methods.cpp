@@ -23,7 +23,7 @@ namespace {
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
         {.name = automaticMethod,
-         .description = "multirate where a visible part of the image is widely blurred, else accumulation",
+         .description = "multirate if a visible part of the image has a wide blur, else accumulation",
          .blursCells = true,
          .sumsBlocks = true,
          .drawsTiles = true,
@@ -36,7 +36,8 @@ std::vector<Method>& table() {
          .settings = {},
          .make = makeAccumulationRenderer},
         {.name = "multirate",
-         .description = "accumulation of images that are blurred by their part of the lens; needs fewer samples",
+         .description =
+             "accumulation of images, each blurred as its cell of the lens would blur it; needs fewer samples",
          .blursCells = true,
          .sumsBlocks = true,
          .settings = {},

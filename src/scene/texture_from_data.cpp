@@ -44,8 +44,8 @@ void checkValues(const TextureData& texture, const std::string& label) {
             for (int c = 0; c < 3; ++c)
                 if (pixel[c] > pixel[3] + tolerance)
                     throw UsageError(
-                        fmt::format("{}: the colour {} of pixel ({}, {}) exceeds its alpha {}; premultiply "
-                                    "the colours, or say that the alpha is straight",
+                        fmt::format("{}: the colour {} of pixel ({}, {}) exceeds its alpha {}; premultiply the "
+                                    "colours, or set straightAlpha",
                                     label, pixel[c], x, y, pixel[3]));
         }
 }

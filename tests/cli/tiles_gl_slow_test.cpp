@@ -109,7 +109,7 @@ TEST_F(ShortOfMemory, samplesThatTheBlurAloneChoseAreSaid) {
     *(std::ranges::find(words, "--samples") + 1) = "auto";
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("lens samples, the most that its blur may need"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("lens samples, the maximum that its blur may need"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

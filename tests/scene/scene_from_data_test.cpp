@@ -297,8 +297,8 @@ TEST(SceneFromData, straightAlphaIsNotTakenForPremultiplied) {
     const std::string message =
         messageOf<UsageError>([&] { static_cast<void>(textureImage({.image = image}, "texture 0")); });
     EXPECT_EQ(message,
-              "texture 0: the colour 1 of pixel (0, 0) exceeds its alpha 0.25; premultiply the colours, or say that "
-              "the alpha is straight");
+              "texture 0: the colour 1 of pixel (0, 0) exceeds its alpha 0.25; premultiply the colours, or set "
+              "straightAlpha");
 }
 
 }  // namespace

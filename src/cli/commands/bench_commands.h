@@ -29,7 +29,7 @@ void refuseChangedSources(const std::filesystem::path& output, bool allowed,
 Request measuredRequest();
 
 // Describes what a bench measures: program, command, machine and the device of `context`; with `frame`, also its scene,
-// camera and lens. `runs`: runs of each frame.
+// camera and lens. `runs`: number of runs of each frame.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

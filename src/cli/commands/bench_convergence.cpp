@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. The shading of ray tracers differs, so if there are any, the
-// scene's light is baked into unlit colours.
+// Returns whether the program includes ray tracers. Ray tracers shade differently. If the program includes any, the
+// scene's lighting is baked into unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -73,8 +73,8 @@ std::string textIn(const fs::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the hash that all frames of a journal share: of the reference, the program, the device and the settings that
-// affect the plan.
+// Returns the hash of the reference, the program, the device and the settings that affect the plan. All frames of a
+// journal (runs.csv) have the same hash.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -85,8 +85,8 @@ std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, co
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
-// Returns the frames of an earlier run that this run continues. Throws Error if this run would destroy frames or a
-// reference in the folder; nothing is changed then.
+// Returns the frames of an earlier run that this run continues. Throws Error, without changing any file, if this run
+// would destroy frames or a reference in the folder.
 std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
                                         std::uint64_t subject) {
     if (arguments.overwrite) return {};
@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether to measure `published`, the published form of a method: the options request published forms, and this
-// method with default settings.
+// Returns whether the options request `published`, a method with the settings of its paper. They must list the form
+// "published" and, if they list methods, this method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
@@ -270,8 +270,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addList(command, "--rows", "published,best,standard", options.forms,
-            "Forms of the methods that are given without settings: as published (their preset), with the settings of "
-            "the smallest error (best), or with default settings (standard)",
+            "Settings to measure for a method that is named without settings: as published (the method's preset), with "
+            "the smallest error (best), or the defaults (standard)",
             [](const std::string& part) {
                 constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::standard};
                 return forms[parseChoice(part, {"published", "best", "standard"})];
@@ -301,8 +301,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                "Factors on the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "Shading: the scene's lights (lit), or fixed light stored in the meshes (unlit), which ray tracers "
-                    "can reproduce. Default: unlit if the program has ray tracers")
+                    "Shading: by the scene's lights (lit), or by lighting baked into the meshes (unlit), which ray "
+                    "tracers can reproduce. Default: unlit if the program has ray tracers")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
@@ -325,7 +325,8 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
         ->type_name("FOLDER")
         ->group(group);
     CLI::Option* resume =
-        command.add_flag("--resume", arguments.resume, "Measure only what is missing in runs.csv of the folder")
+        command
+            .add_flag("--resume", arguments.resume, "Measure only the runs that are missing in the folder's runs.csv")
             ->group(group);
     command
         .add_flag("--overwrite", arguments.overwrite,

@@ -103,8 +103,9 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     PoppingOptions& options = arguments->options;
     addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples to measure")
         ->group(group);
-    addInteger(*command, "--frames", options.frames, 2, 10'000,
-               "Number of frames to measure of each movement, where levels change most often")
+    addInteger(
+        *command, "--frames", options.frames, 2, 10'000,
+        "Number of consecutive frames to measure in each movement; the part with the most level changes is chosen")
         ->group(group);
     addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
                "Number of frames of a complete movement, which sets its speed: focus from the nearest to the farthest "

@@ -36,7 +36,7 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context, global);
     subject.scene = frame.sceneName;
-    fmt::print("{}, {} x {} px, on {}: errors of linear light, relative to its mean\n\n{}", frame.sceneName,
+    fmt::print("{}, {} x {} px, on {}: errors of linear radiance, relative to its mean\n\n{}", frame.sceneName,
                options.width, options.height, subject.device, predictionHeader());
     std::fflush(stdout);
     std::vector<PredictionRow> rows;

@@ -15,14 +15,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Python interpreters to try. The first python3 on the path may lack Debian's packages.
+// Python interpreters to try. The first python3 in PATH may lack Debian's packages.
 constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 
 // Exit codes of report_script.cpp.in for a missing interpreter and for an interpreter without matplotlib.
 constexpr int notInstalled = 127;
 constexpr int withoutMatplotlib = 3;
 
-// Runs a program from the path, with its output on stderr. Returns its exit code; −1 if a signal killed it.
+// Runs a program found in PATH, with its output on stderr. Returns its exit code; −1 if a signal killed it.
 int exitCodeOf(std::vector<std::string> words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);

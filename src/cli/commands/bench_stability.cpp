@@ -63,7 +63,7 @@ std::vector<HonestyRow> printedHonesty(const Progress& progress) {
         "{}\n"
         "Differences are properties of the methods. scheuermann: as published, the blur is linear in depth between "
         "three\n"
-        "planes and at most 10 px wide, whatever the lens; its pre-blurred small copy widens all disks, also with\n"
+        "planes and at most 10 px wide, for any lens; its pre-blurred small copy widens all disks, also with\n"
         "coc=thin-lens. circular: below full resolution or with fewer taps, small disks become wider.\n",
         honestySummary(rows));
     return rows;

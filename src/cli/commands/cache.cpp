@@ -20,7 +20,7 @@ namespace defocus::engine {
 namespace {
 
 struct CacheArguments {
-    Request request;  // only its cache folder is used
+    Request request;  // only the cache folder is used
 };
 
 std::filesystem::path folderOf(const CacheArguments& arguments) {
@@ -80,7 +80,7 @@ void addCacheCommand(CLI::App& program) {
         addSettings(*place, arguments->request, {"cacheFolder"});
         place->footer(example);
     }
-    // An empty name, as from an unset variable of a script, must not mean the default folder.
+    // An empty folder name, as from an unset variable of a script, must not mean the default folder.
     const auto checked = [arguments, command, listing, clearing](void (*act)(const CacheArguments&)) {
         for (const CLI::App* place : {command, listing, clearing})
             if (place->count("--cache-dir") > 0 && arguments->request.cacheFolder.empty())

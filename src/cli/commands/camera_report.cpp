@@ -25,7 +25,7 @@ struct Blur {
     double depth = 0;      // m
     double pixels = 0;     // signed diameter; > 0 behind the focus
     double onSensor = 0;   // diameter, mm, ≥ 0
-    bool inFocus = false;  // blur diameter is at most CameraFacts::acceptable
+    bool inFocus = false;  // the blur diameter is at most CameraFacts::acceptable
 };
 
 // All values that the report prints.
@@ -34,9 +34,9 @@ struct CameraFacts {
     glm::dvec2 sensor{0};       // mm
     glm::dvec2 fieldOfView{0};  // degrees
     double acceptable = 0;      // acceptable circle of confusion, mm
-    bool customary = false;     // `acceptable` is the sensor's diagonal divided by 1500
+    bool customary = false;     // whether `acceptable` is the customary sensor diagonal / 1500
     DepthOfField depth;
-    bool plain = true;  // thin lens without artistic controls, so that the limits of focus are exact
+    bool plain = true;  // thin lens without artistic controls: near and far limits of focus are exact
     std::vector<Blur> blurs;
 };
 

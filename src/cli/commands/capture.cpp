@@ -60,7 +60,8 @@ struct CaptureArguments {
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
-// Checks the outputs and the combination of options before any long work. Throws Error for invalid ones.
+// Checks the outputs and the combination of options before any long work. Throws Error for invalid outputs and
+// combinations.
 void checkArguments(const CaptureArguments& arguments) {
     for (const std::string& pattern : arguments.shot.outputs) {
         checkFramePattern(pattern);
@@ -98,12 +99,13 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     return options;
 }
 
-// Replaces method "auto" by one method for all frames of the shot, so that the look doesn't change within it: multirate
-// if up to 16 frames, spread over the complete shot, include one for which auto chooses multirate.
+// Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Applies the
+// rule of auto to up to 16 frames, spread over the complete shot. Chooses multirate if the rule chooses it for any of
+// these frames, else accumulation.
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    // The choice depends on bounding boxes alone, so full detail without levels serves.
+    // The choice depends only on bounding boxes, so no levels are needed.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);
     constexpr int maxPlanned = 16;
@@ -311,7 +313,8 @@ void parseShard(const std::string& text, Shard& shard) {
 }
 
 // Adds the shot and the options that replace parts of the shot. CLI11 applies options in the order in which they were
-// added: --set, which the shot reads, must precede the shot, and the overriding options must follow the shot.
+// added: --set, which applies while the shot is read, must precede the shot, and the overriding options must follow the
+// shot.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
     advanced(command

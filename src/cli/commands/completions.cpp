@@ -50,7 +50,7 @@ bool isLiteral(const std::string& text) {
 }
 
 // Returns the candidates for an option's value, read from the placeholder in --help: "off" and "half" for "off|half|N".
-// The words of a list such as "depth,coc" begin with a comma, because the value may join several of them.
+// The words of a list such as "depth,coc" begin with a comma, because the value may join several words.
 std::vector<std::string> candidatesOf(const CLI::Option& option) {
     const std::string form = option.get_type_name();
     const bool list = form.find('|') == std::string::npos && form.find(',') != std::string::npos;

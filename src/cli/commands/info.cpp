@@ -34,7 +34,7 @@ struct InfoOptions {
     CameraQuestion question;
 };
 
-constexpr std::size_t meshesListed = 12;  // maximum in text output; --json lists all
+constexpr std::size_t meshesListed = 12;  // maximum number of meshes in text output; --json lists all
 const std::string flagOnly = "true";      // CLI11's value for --camera without a name
 constexpr double degrees = 57.295779513082321;
 

@@ -1,4 +1,4 @@
-// defocus view, for a build without the window: reports that the window is missing.
+// defocus view, for a build without the window: reports that the program was built without the window.
 
 #include "cli/command.h"
 #include "core/error.h"

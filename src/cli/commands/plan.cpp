@@ -26,7 +26,9 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (const std::optional<Quality> quality = stopSettings(arguments.request).automatic) {  // a render starts with this number of samples and may add more
+    if (const std::optional<Quality> quality =
+            stopSettings(arguments.request)
+                .automatic) {  // a render starts with this number of samples and may add more
         RenderSettings settings = frame.settings;
         settings.sampleCount = firstSamples(plan, *quality);
         plan = planFrame(frame.world, frame.view, settings);
@@ -43,7 +45,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
 void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<PlanArguments>();
     CLI::App* command = program.add_subcommand(
-        "plan", "Print the plan of a frame: blur, level and samples of each object, and what is left out");
+        "plan", "Print the plan of a frame: blur, level and samples of each object, and the culled parts");
     command->add_flag("--json", arguments->json, "Print JSON instead of a table")->group("Output");
     // Leave out settings that don't affect a plan: method, environment and brightness.
     addSettings(*command, arguments->request,

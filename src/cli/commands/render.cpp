@@ -47,16 +47,14 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->default_str("out.exr")
         ->group(group);
-    advanced(
-        addParsed(
-            command, "--aov", "depth,coc,level,work,swept-work",
-            "Also write auxiliary images beside the first output. depth: m. coc: signed circle of confusion in px. "
-            "level: level of detail. work: triangles per pixel, including hidden ones, summed over the lens samples of "
-            "method accumulation. swept-work: number of triangles whose bounds, swept over lens and exposure, cover "
-            "the pixel (the triangles that a stochastic rasterizer would test there). depth and coc are EXR; the "
-            "others EXR and PNG",
-            [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
-            ->group(group));
+    advanced(addParsed(command, "--aov", "depth,coc,level,work,swept-work",
+                       "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of "
+                       "confusion in px. level: level of detail. work: triangles per pixel, including hidden ones, "
+                       "summed over the lens samples of method accumulation. swept-work: number of triangles whose "
+                       "bounds, swept over lens and exposure, cover the pixel (the triangles that a stochastic "
+                       "rasterizer would test there). depth and coc are EXR; the others EXR and PNG",
+                       [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+                 ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
                        "Range of the lens samples to draw, in multiples of 64. Writes their sums to an EXR file for "
                        "'defocus merge'",
@@ -195,7 +193,7 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
 }
 
-// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+// Writes the image of the samples drawn so far if --keep-partial is given. Throws Error with a message about the stop.
 [[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver,
                              WarningPrinter& warnings) {
     const std::optional<Image> image = output.partialImage();

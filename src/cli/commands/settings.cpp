@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct SettingsArguments {
     bool json = false;
     bool markdown = false;
-    std::filesystem::path schema;  // schema to complete; empty: none
+    std::filesystem::path schema;  // schema to update; empty: none
 };
 
 std::string rangeText(const Setting& setting) {
@@ -108,9 +108,8 @@ std::string markdown() {
         "- **Option**: the option of `render`, `capture`, `view`, `plan` and the benches.\n"
         "- **Python**: the keyword of `defocus.render` and related functions. `defocus::Request` in C++ has the same "
         "names.\n"
-        "- **Shot**: the place of the setting in a shot file, and whether it can have keyframes. The extras of a "
-        "camera in a\n"
-        "  glTF file can set lens values by the last part of this place.\n"
+        "- **Shot**: the JSON pointer of the setting in a shot file, and whether it can have keyframes. The extras of\n"
+        "  a camera in a glTF file can set lens values by the last part of this pointer.\n"
         "- **Range**: lengths in mm or m also accept a suffix mm, cm or m, such as 50cm. A boolean option needs no "
         "value: `--dof`\n"
         "  is `--dof true`, and `--no-dof` is `--dof false`.\n"

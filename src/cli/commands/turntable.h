@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-inline constexpr int turntableViews = 6;  // at equal angles; the first view is from the front (+z)
+inline constexpr int turntableViews = 6;  // views at equal angles; the first is from the front (+z)
 
 // Position of a view's image on the sheet, px; row 0 is at the top.
 struct TurntableCell {

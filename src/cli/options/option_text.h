@@ -1,6 +1,6 @@
 #pragma once
 // Adds options that use this program's own parsers, so that a wrong value gives one clear line such as "--samples: '0'
-// is not a whole number from 1 to 65536".
+// is not an integer from 1 to 65536".
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

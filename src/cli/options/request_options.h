@@ -28,8 +28,8 @@ void addMethodSettings(CLI::App& command, Request& request);
 // Adds the options for developers of the program. Call this last, so that --help ends with these options.
 void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without = {});
 
-// Returns the setting that an option sets; null for an option that the command defines itself, even under a setting's
-// name.
+// Returns the setting that an option sets; null for an option that the command defines itself, even if the option has a
+// setting's name.
 const Setting* settingOf(const CLI::Option& option);
 
 // Returns the method setting that an option sets; null if it sets none.

@@ -20,7 +20,7 @@ constexpr auto patience = std::chrono::milliseconds(500);
 constexpr int stopped = 1;  // exit code
 
 volatile std::sig_atomic_t asked = 0;
-sem_t wake;  // posted by the signal handler: of the waiting primitives, only sem_post is safe there
+sem_t wake;  // posted by the signal handler, in which sem_post is safe
 
 std::mutex& messageMutex() {
     static std::mutex mutex;
@@ -32,7 +32,8 @@ std::string& message() {
     return text;
 }
 
-// Ends the process some time after a signal. Main thread and driver may be inside a draw, so destructors cannot run.
+// Waits for a signal, then ends the process after 0.5 s. The main thread may still be inside a draw, so destructors
+// cannot run.
 void endWhenAsked() {
     while (sem_wait(&wake) != 0) {
     }

@@ -30,7 +30,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
     };
-    // All methods but the automatic one, which equals one of the others.
+    // All methods except "auto", which draws with one of the others.
     const bool all = uses.empty();
     for (const Method& method : methods())
         if ((all && method.name != automaticMethod) ||
@@ -177,10 +177,11 @@ bool needsShading(const Scene& scene) {
 // no shadows or no motion.
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
-        fail("its shading differs from the reference; use --shading unlit");
-    if (!method.drawsShadows && !plan.shadows.maps.empty()) fail("it draws no shadows, but the reference has shadows");
+        fail("the method's shading differs from the reference; use --shading unlit");
+    if (!method.drawsShadows && !plan.shadows.maps.empty())
+        fail("the method does not render shadows, but the reference has shadows");
     if (!method.drawsMotion && !plan.moments.empty())
-        fail("it draws no motion, but the scene moves while the shutter is open");
+        fail("the method does not render motion blur, but the scene moves while the shutter is open");
 }
 
 Frame frameOf(const World& world, const View& view, const ConvergenceCase& wanted, const RendererOptions& options) {

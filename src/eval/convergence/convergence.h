@@ -26,8 +26,8 @@ namespace defocus::engine {
 
 // Settings for measuring a method that the user names without settings.
 enum class MethodForm {
-    published,  // as in the method's paper, if it has one
-    best,       // Method::best; called `standard` if these are equal
+    published,  // settings of the method's paper, if there is a paper
+    best,       // Method::best; called `standard` if equal to the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
@@ -37,7 +37,7 @@ struct PublishedForm {
     std::string preset;
     MethodUse use;
     RenderSettings plan = {};        // all settings except the number of samples
-    const World* world = nullptr;    // the measured world with pyramids for these settings; null: the measured world
+    const World* world = nullptr;    // world with pyramids for these settings; null: the measured world
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
 };
 
@@ -47,12 +47,12 @@ struct ConvergenceOptions {
                                      MethodForm::standard};  // measured for methods with default settings
     std::vector<PublishedForm> published;                    // forms for MethodForm::published
     RenderSettings plan;                                     // settings of every case; the lists below override them
-    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // only for methods that use lens samples
+    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
     // For methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off is not
     // listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
-    std::vector<double> thresholdFactors = {0.5, 1, 2};  // multiply defaultThresholds for the number of samples
+    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
     int runs = 3;                                        // runs of each case, ≥ 1
     int seeds = 1;             // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     RendererOptions renderer;  // RendererOptions::settings is ignored
@@ -97,12 +97,12 @@ struct ConvergenceRun {
     double pyramidMilliseconds = 0;  // build time of the pyramids, if the case uses levels
     double setupMilliseconds = 0;    // set-up time of the renderer: uploads, shaders, ray-tracing structures
     double milliseconds = 0;         // wall-clock time of the frame
-    double gpuMilliseconds = 0;      // from timer queries, which miss the vertex work on software drivers
+    double gpuMilliseconds = 0;      // time by timer queries, which miss the vertex work on software drivers
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;  // peak size of the renderer's resources
     std::uint64_t imageHash = 0;
     ImageError error;                // difference from the reference
-    std::optional<ImageError> bias;  // only with levels: difference from full detail with the same lens samples
+    std::optional<ImageError> bias;  // difference from full detail with the same lens samples; none without levels
     std::string fault;               // why the image is invalid; empty if it is valid
 };
 

@@ -78,7 +78,7 @@ std::vector<Competitor> timesToErrors(std::span<const ConvergenceRow> rows, std:
 
 std::string equalErrorTable(std::span<const Competitor> competitors) {
     if (competitors.size() < 2) return {};
-    std::string text = fmt::format("\n{:<40}", "seconds a frame to an RMSE of");
+    std::string text = fmt::format("\n{:<40}", "seconds per frame to reach an RMSE of");
     for (const Competitor::Time& time : competitors[0].times) text += fmt::format("{:>20}", time.rmse);
     for (const Competitor& competitor : competitors) {
         text += fmt::format("\n  {:<38}", competitor.name);

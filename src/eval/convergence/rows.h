@@ -24,13 +24,13 @@ struct ConvergenceRow {
     double pyramidMilliseconds = 0;   // build time of the pyramids; not part of `milliseconds`
     double gpuMilliseconds = 0;       // median, from timer queries
     ImageError error;                 // difference from the reference, mean over the seeds
-    std::optional<ImageError> bias;   // only with levels: difference from full detail, mean over the seeds
+    std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; none without levels
     std::vector<ImageError> ofSeeds;  // `error` of each measured seed
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
-    bool front = false;          // on the Pareto front of time and MSE of all rows (paretoFront)
-    bool frontOfMethod = false;  // on the Pareto front of time and MSE of the method's rows
-    bool frontByFlip = false;    // on the Pareto front of time and FLIP of all rows
+    bool front = false;          // whether the row is on the Pareto front (paretoFront) of all rows, by time and MSE
+    bool frontOfMethod = false;  // whether the row is on the Pareto front of its method's rows, by time and MSE
+    bool frontByFlip = false;    // whether the row is on the Pareto front of all rows, by time and FLIP
     // Whether the error is smaller than the reference's own error, so that its value is only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;

@@ -119,7 +119,7 @@ std::string convergenceLine(const ConvergenceRow& row) {
         row.bias ? fmt::format("{:.2f}", row.bias->psnr()) : "", static_cast<double>(row.triangles) / 1e6,
         static_cast<double>(row.peakBytes) / (1 << 20));
     line += belowReferenceText(row.mseBelowReference, row.flipBelowReference);
-    if (!row.fault.empty()) line += "  NOT WHAT IT CLAIMS: " + row.fault;
+    if (!row.fault.empty()) line += "  INVALID IMAGE: " + row.fault;
     return line + '\n';
 }
 
@@ -172,8 +172,8 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
                             const ConvergenceSubject& subject) {
     ordered_json document = subjectJson("convergence", subject.bench);
     document["heldEqual"] =
-        "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first wave of "
-        "a frame is drawn once before it counts, nothing is pinned";
+        "scene, camera, lens, image size, reference, process; runs alternate between the methods, the first wave of a "
+        "frame is drawn once before the timed run, threads are not pinned to cores";
     document["errorsMeasuredOn"] = "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree";
     document["errorMapFullScale"] = errorMapFullScale;
     document["reference"] = referenceJson(reference);

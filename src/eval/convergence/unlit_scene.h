@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 // Returns the scene with unlit, opaque materials. The materials' colours are the mean colours of the textures, times
-// Lambert shading baked into vertex colours; the light is fixed to each mesh. Geometry, nodes, cameras and environment
+// Lambert shading baked into vertex colours; the lighting moves with the mesh. Geometry, nodes, cameras and environment
 // stay unchanged.
 Scene unlitScene(Scene scene);
 

@@ -31,7 +31,8 @@ Depths depthsOf(const World& world, const View& view) {
         depths.nearest = std::min(depths.nearest, std::max(object.nearestDepth, view.nearPlane));
         depths.farthest = std::max(depths.farthest, object.farthestDepth);
     }
-    if (depths.farthest <= depths.nearest) fail("no object is in front of the camera, so no movement shows any levels");
+    if (depths.farthest <= depths.nearest)
+        fail("no object is in front of the camera, so no level of detail can change");
     return depths;
 }
 
@@ -73,7 +74,7 @@ const char* movementName(Movement movement) {
 }
 
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames, int clip) {
-    if (frames < 2) fail("{} frames are too few; choose 2 or more", frames);
+    if (frames < 2) fail("a movement needs at least 2 frames, not {}", frames);
     const Scene& scene = *world.scene;
     if (movement == Movement::clip && (clip < 0 || static_cast<std::size_t>(clip) >= scene.clips.size()))
         fail("the scene has no animation clip {}", clip);
@@ -111,7 +112,7 @@ void poseWorld(World& world, const MovementFrame& frame) {
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length) {
     if (length < 1 || static_cast<std::size_t>(length) > frames.size())
-        fail("{} frames are more than the {} of the movement", length, frames.size());
+        fail("{} frames exceed the {} frames of the movement", length, frames.size());
 
     // Number of level changes from the first frame up to each frame.
     std::vector<int> changes;

@@ -74,7 +74,7 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
 
 struct HeldPlan {
     FramePlan plan;
-    std::vector<const ObjectPlan*> changed;  // objects of the current plan whose levels or samples per level differ
+    std::vector<const ObjectPlan*> changed;  // objects whose levels or samples per level differ from the previous plan
 };
 
 // Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both
@@ -173,7 +173,7 @@ Image displayColours(const Image& linear) {
     return colours;
 }
 
-// Returns the previous frame plus the change at full detail, I_{t−1} + (R_t − R_{t−1}).
+// Returns I_{t−1} + (R_t − R_{t−1}): the previous frame I plus the change of the full-detail frames R.
 Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
     Image result = before;
     for (std::size_t i = 0; i < result.pixels.size(); ++i)

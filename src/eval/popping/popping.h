@@ -81,9 +81,9 @@ struct SampleStep {
     std::uint32_t samples = 0;
     std::string object;
     std::uint32_t level = 0;  // finer of the two levels
-    double coc = 0;           // px, at the middle of the object's depth range
-    double edgeError = 0;     // px, error of the coarser level
-    double expected = 0;      // for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
+    double coc = 0;           // CoC diameter in px at the middle of the object's depth range
+    double edgeError = 0;     // error of the coarser level, px
+    double expected = 0;      // value predicted for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
     double measured = 0;      // RMS of the N steps, divided by the RMSE between the two levels
 };
 

@@ -24,7 +24,7 @@ struct NamedMeasure {
     PopSummary PoppingRow::*place;
 };
 
-// The measures: first those over object pixels, then those over the complete image.
+// Measures over the object pixels, followed by measures over the complete image.
 constexpr NamedMeasure measures[] = {
     {"changeRmse", [](const PoppingFrame& f) { return f.change.objects.rmse; }, &PoppingRow::changeRmse},
     {"changeFlip", [](const PoppingFrame& f) { return f.change.objects.flip; }, &PoppingRow::changeFlip},
@@ -143,7 +143,7 @@ std::string poppingSummary(std::span<const PoppingRow> rows) {
     std::uint32_t max = 0;
     for (const PoppingRow& row : rows) max = std::max(max, row.samples);
     std::string text =
-        fmt::format("\nlargest pop at {} samples, of the nearest level's (pop alone, RMSE / FLIP):\n", max);
+        fmt::format("\nlargest pop at {} samples, relative to the nearest level's (pop alone, RMSE / FLIP):\n", max);
     for (const PoppingMode mode : poppingModes) {
         if (mode == PoppingMode::nearest) continue;
         text += fmt::format("  {:<10}", poppingModeName(mode));
@@ -181,9 +181,9 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
         {"step", "I_t against the same view at the levels and splits of frame t-1"},
         {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
         {"speed", "the largest change of an object's fractional level from frame to frame"},
-        {"fullDetail", "differs from the reference by nothing: it is the reference"}};
+        {"fullDetail", "equals the reference"}};
     document["heldEqual"] =
-        "scene, views, lens samples, thresholds, image size, layer format and, but for multirate, renderer";
+        "scene, views, lens samples, thresholds, image size, layer format and, except for multirate, renderer";
     for (const char* list : {"rows", "sampleSteps"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));

@@ -15,7 +15,7 @@ struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // linearly interpolated between frames
-    double ofNearest = 0;     // `worst` relative to that of LodMode::nearest; NaN if the latter is 0 or missing
+    double ofNearest = 0;     // `worst` divided by `worst` of LodMode::nearest; NaN if that is 0 or missing
 };
 
 struct PoppingRow {

@@ -19,7 +19,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // lens samples per set; the noise of two sets cancels in a product
+constexpr std::uint32_t enoughSamples = 1024;  // lens samples per set; noise cancels in the product of two sets' errors
 
 // Scene for the measurement: a single static mesh without background, under the default lights, with the focus far
 // away.
@@ -128,7 +128,7 @@ TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& opti
     return {viewsOf(stand, enoughSamples, level, 1, options), viewsOf(stand, enoughSamples, level, 2, options)};
 }
 
-// Mean light of the covered pixels, and covered area in pixels.
+// Mean radiance of the covered pixels, and covered area in pixels.
 struct Light {
     double mean = 0;
     double cover = 0;
@@ -145,9 +145,9 @@ Light lightOf(const Views& views) {
     return light;
 }
 
-// Returns the RMS error over the covered area, relative to the mean light. Light is clamped at shownWhite times the
-// mean light. The differences of both sample sets are multiplied: their independent noise cancels, and the error for N
-// → ∞ samples remains.
+// Returns the RMS error over the covered area, relative to the mean radiance. Radiance is clamped at shownWhite times
+// the mean. The differences of both sample sets are multiplied: their independent noise cancels, and the error for N →
+// ∞ samples remains.
 double renderedError(const TwoSets& reference, const TwoSets& level) {
     const Light light = lightOf(reference[0]);
     if (!(light.mean > 0)) return 0;

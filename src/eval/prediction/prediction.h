@@ -4,9 +4,10 @@
 // compared with level 0. Two independent sets of 1,024 lens samples separate the level's error from sampling noise:
 // only the error common to both sets counts.
 //
-// Equal for prediction and rendering: mesh, level, lens, patches of the blur, default lights. Both errors are of linear
-// light up to white, over three channels and the area that level 0 covers, relative to its mean light. The renderer's
-// shading includes normal maps and the default sky; the prediction's shading is simpler.
+// Equal for prediction and rendering: mesh, level, lens, patches of the blur, default lights. Both errors are RMS
+// differences of linear radiance, clamped at white, over three channels and the area that level 0 covers. They are
+// relative to level 0's mean radiance. The renderer's shading includes normal maps and the default sky; the
+// prediction's shading is simpler.
 
 #include <functional>
 #include <string>
@@ -19,7 +20,7 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // px, diameter at the mesh's centre
+    std::vector<double> cocs = {1, 4, 16, 64};  // CoC diameters at the mesh's centre, px
     int width = 320;                            // px
     int height = 240;                           // px
     RendererOptions renderer;

@@ -135,7 +135,7 @@ struct Subject {
     std::unique_ptr<ScalingWorld> world;
 };
 
-// Measures a point. Returns why the measurement failed; empty on success.
+// Measures a point of an axis. Returns why the measurement failed; empty on success.
 std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);

@@ -65,7 +65,7 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // value on the axis; for blur: px
+    double value = 0;  // value on the axis; for ScalingAxis::blur: largest diameter, px
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;

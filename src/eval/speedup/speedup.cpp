@@ -90,12 +90,12 @@ struct SpeedupSubject {
     LodCause cause = LodCause::blurAndSize;
     const SpeedupSubject* fullDetail = nullptr;  // variant of the same form at full detail
     std::unique_ptr<Renderer> renderer;
-    std::vector<FramePlan> plans;  // one per seed
+    std::vector<FramePlan> plans;  // plans of the frame, one per seed
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
     double setupMilliseconds = 0;           // set-up time of the renderer
     Image image;                            // image of the first seed
-    std::vector<Difference> fromReference;  // one per seed
+    std::vector<Difference> fromReference;  // errors, one per seed
 };
 
 // Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods

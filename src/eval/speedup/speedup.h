@@ -24,7 +24,7 @@ namespace defocus::engine {
 struct SpeedupForm {
     std::string preset;              // name of the preset; empty: none
     const World* world = nullptr;    // scene, pose, lights and environment are the same in all forms
-    RenderSettings plan;             // without the number of samples and the level mode
+    RenderSettings plan;             // settings without the number of samples and the level mode
     double pyramidMilliseconds = 0;  // build time of the world's pyramids
 };
 
@@ -61,17 +61,17 @@ struct SpeedupRow {
     LodMode mode = LodMode::off;
     int runs = 0;
     Spread milliseconds;             // wall-clock time of a frame
-    Spread gpuMilliseconds;          // from timer queries, which miss the vertex work on software drivers
+    Spread gpuMilliseconds;          // time by timer queries, which miss the vertex work on software drivers
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
     double speedUp = 1;              // median time of the form at full detail divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // only for accumulation with fractional levels
+    std::optional<SpeedupPart> sizeOnly, blurOnly;  // results by cause; only for accumulation with fractional levels
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's resources
-    Difference fromFullDetail;                // with the same lens samples, first seed
+    Difference fromFullDetail;                // difference with the same lens samples, for the first seed
     std::optional<Difference> fromReference;  // mean over the seeds
     std::vector<SeedError> ofSeeds;           // difference from the reference, one per measured seed
-    std::uint32_t referenceSamples = 0;       // 0 if there is no reference
+    std::uint32_t referenceSamples = 0;       // lens samples of the reference; 0: no reference
     Difference referenceRemaining;            // estimate of the reference's own error
 };
 

@@ -112,7 +112,7 @@ private:
     double planMilliseconds_;
     RowSink takeRows_;
     std::vector<Band> bands_;
-    std::size_t band_ = 0;  // index of the band that is being drawn
+    std::size_t band_ = 0;  // index in bands_ of the band that is being drawn
     Image rowsOfBand_;
     Image kept_;  // complete frame; empty if there is a row sink
     int rows_ = 0;
@@ -200,8 +200,8 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Returns the samples per wave of a frame that must be able to stop soon: one on a CPU, where a sample may take long.
-// On a GPU, a small number of samples costs little time and doesn't leave it idle. Returns 0, any number, for other
+// Returns the number of samples per wave for a frame that must be able to stop soon. On a CPU this is 1, because a
+// sample may take long. On a GPU, a few samples take little time and keep the GPU busy. Returns 0 (no limit) for other
 // frames.
 std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
     if (!fitOf(order).shortDraws || options_.limits.wave > 0) return 0;

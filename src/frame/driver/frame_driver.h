@@ -25,11 +25,11 @@ namespace defocus::engine {
 struct DriverOptions {
     MethodUse method;
     DrawLimits limits;
-    std::filesystem::path shaderFolder;  // replaces the embedded shaders; empty: no replacement
+    std::filesystem::path shaderFolder;  // its shaders replace the embedded ones; may be empty
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
-// Receives the finished rows of a frame that is drawn in tiles; the calls go from the top of the image to the bottom.
+// Receives the finished rows of a frame that is drawn in tiles; it is called from the top of the image to the bottom.
 using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 
 // A frame to draw, or the part of a frame to draw.
@@ -40,14 +40,14 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    std::string whole = {};                          // reason why tiles are forbidden; empty: they are allowed
-    bool shortDraws = false;                         // advance() draws few samples; always true with a time limit
+    std::string whole = {};                          // reason why tiles are forbidden; empty: tiles are allowed
+    bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
 
 class FrameDriver {
 public:
-    // `world` must outlive the driver; its pose, shutter and lights may change between frames. If the method has
-    // Method::needsGl, every call needs a current GL context.
+    // `world` must outlive the driver; its pose, shutter and lights may change between frames. If Method::needsGl is
+    // set, every call needs a current GL context.
     FrameDriver(const World& world, DriverOptions options);
     ~FrameDriver();
     FrameDriver(FrameDriver&&) noexcept;
@@ -79,7 +79,7 @@ public:
     // then write each image before it starts the next frame.
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] std::uint64_t memoryLimit() const { return limit_; }
-    // Returns the method that draws the frame. Method "auto" becomes the method that it has chosen.
+    // Returns the method that draws the frame. For method "auto", returns the method that it chose.
     [[nodiscard]] MethodUse method() const;
 
 private:
@@ -112,11 +112,11 @@ private:
     DriverOptions options_;
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
-    std::optional<Fit> fitted_;               // inputs for which the wave and bands_ were chosen
-    std::optional<std::vector<Band>> bands_;  // none: frames are drawn untiled
+    std::optional<Fit> fitted_;               // inputs for which the wave size and bands_ were chosen
+    std::optional<std::vector<Band>> bands_;  // rows of tiles; none: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
-    mutable double share_ = 0;  // largest share that was returned: progress never falls back
+    mutable double share_ = 0;  // largest result of share(), so that progress never falls
 };
 
 // Returns the plan of a frame that is drawn in tiles. An automatic number of samples is derived from the size of the

@@ -19,14 +19,14 @@ fs::path rowsPath(const fs::path& folder, const RowRange& rows) {
     return folder / fmt::format("rows-{:05}-{:05}.exr", rows.first, rows.end);
 }
 
-// Returns whether a folder's entry can be a tile that the program has written. A link or a pipe is none.
+// Returns whether a directory entry can be a tile file of this program. Links and pipes cannot be.
 bool canBeTile(const fs::directory_entry& entry) {
     std::error_code none;
     return entry.path().filename().string().starts_with("rows-") && fs::is_regular_file(entry.symlink_status(none));
 }
 
 struct FoundTiles {
-    std::vector<RowFile> fitting;  // tiles with the wanted settings and size, from top to bottom, without overlap
+    std::vector<RowFile> fitting;  // tiles with the requested settings and size, from top to bottom, without overlap
     std::vector<fs::path> all;
 };
 

@@ -20,12 +20,12 @@
 namespace defocus::engine {
 
 struct FrameFiles {
-    std::vector<std::filesystem::path> outputs;  // at least one; a part of a frame goes to the first
+    std::vector<std::filesystem::path> outputs;  // at least one file; a part of a frame is written to the first
     std::optional<SampleRange> samples;          // write only the partial sums over these lens samples, for `merge`
     std::optional<TileShare> share;              // write only this share of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
-    std::string whole;                           // reason why tiles are forbidden; empty: they are allowed
-    bool keepPartial = false;                    // the samples so far make an image if the run stops
+    std::string whole;                           // reason why tiles are forbidden; empty: tiles are allowed
+    bool keepPartial = false;                    // if the run stops, return the image of the samples so far
 };
 
 class FrameOutput {

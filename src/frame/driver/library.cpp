@@ -32,11 +32,12 @@ std::vector<std::string> namesOf(const Things& things) {
     return names;
 }
 
-// Sets the lens of a camera, which stores lengths in scene units. Throws UsageError that begins with `label`.
+// Sets the lens of a camera and converts distances from metres to scene units. Throws UsageError, whose message begins
+// with `label`, for settings that a camera cannot store.
 void addLens(const std::string& label, const LensSettings& settings, double metresPerUnit, engine::Camera& camera) {
     if (!settings.apertureImage.empty())
         throw UsageError(engine::shortLine(label) +
-                         ": a camera in memory takes no apertureImage; set it in Request::lens");
+                         ": a camera in memory does not support apertureImage; set it in Request::lens");
     engine::Lens scratch;
     for (auto [name, value] : engine::givenLensValues(settings)) {
         const engine::LensField& field = *engine::lensFieldNamed(name);

@@ -104,7 +104,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
     settings.shadows = options.shadows;
-    settings.keepAll = true;  // brute force: no culling error can reach the reference
+    settings.keepAll = true;  // without culling, no culling error can affect the reference
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
     precise.settings.clear();
@@ -141,7 +141,7 @@ void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.milliseconds = one.milliseconds + other.milliseconds;
 }
 
-// Returns a reference that has its number of samples and its hash, but no image yet.
+// Returns a reference with its number of samples and its hash set, but without an image.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
         fail("a reference of {} samples is not possible; choose 2 to {}", options.samples, maxSamples);

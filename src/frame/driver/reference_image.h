@@ -26,7 +26,7 @@ inline constexpr std::uint32_t referenceOffset = 1u << 20;
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
-    std::uint32_t samples = 4096;  // sum over both halves, 2 … maxSamples
+    std::uint32_t samples = 4096;  // lens samples of both halves together, 2 … maxSamples
     RendererOptions renderer;      // RendererOptions::layerFormat is ignored
     Shadows shadows = Shadows::automatic;
 };

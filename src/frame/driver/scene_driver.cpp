@@ -51,8 +51,8 @@ std::size_t pyramidKind(const Request& request) {
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (plan.samples.size() <= blockSamples) return {};
     return {
-        fmt::format("the image is drawn in tiles with {} lens samples, the most that its blur may need; an image in "
-                    "one piece can stop earlier where its error is small",
+        fmt::format("the image is drawn in tiles with {} lens samples, the maximum that its blur may need; an untiled "
+                    "image may need fewer",
                     plan.samples.size())};
 }
 
@@ -67,7 +67,7 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
                     : std::const_pointer_cast<Scene>(std::move(scene));
     if (named_) setScale(request, *scene_);
     if (hasStrokes(*scene_)) {
-        scene_ = std::make_shared<Scene>(*scene_);  // the caller may share the scene
+        scene_ = std::make_shared<Scene>(*scene_);  // copied, because the caller may share the scene
         setStrokes(request, *scene_);
     }
     frame_ = placeFrame(scaledScene(request), request);

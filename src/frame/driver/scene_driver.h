@@ -63,7 +63,7 @@ public:
     // All members below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
-    [[nodiscard]] Image image();  // throws Error before the first sample
+    [[nodiscard]] Image image();  // throws Error before the first sample is drawn
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
@@ -82,7 +82,7 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and levels with each value of LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and one kind for each value of LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);

@@ -74,7 +74,7 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
         blur, grouped(samples), more, roundNumber(scale));
 }
 
-// Returns the nodes that the request names, as texts.
+// Returns the names or numbers of all nodes that the request refers to.
 std::vector<std::string> namedNodes(const Request& request) {
     std::vector<std::string> names = request.hide;
     for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);

@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Returns a warning with a remedy for each of these cases that applies:
+// Returns a warning with a remedy for each of the following cases that applies:
 // - The lens is open, but the largest blur is below half a pixel.
 // - The frame has transmitting materials, but the method draws them opaque.
 // - The frame has shadows, but the method draws none.

@@ -22,8 +22,8 @@ std::span<const Preset> presets() {
           {"lodMetric", "proportional"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
-        // Tzeng and others 2012. blurThreshold is the score at which a level begins; its value is this program's
-        // choice.
+        // Tzeng and others 2012. For their levels, blurThreshold is a ratio of edge length to blur. The paper gives no
+        // value; 0.25 is this program's choice.
         {"tzeng2012",
          "line samples with a buffer of fixed size (Tzeng et al. 2012)",
          {{"method", "line:resolve=published,shading-step=0,shading=vertices,wheel=shared"},

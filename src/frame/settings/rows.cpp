@@ -34,8 +34,9 @@ using Rows = std::vector<Setting>;
 
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
-               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: from the file's extras, else "
-               "metres if the camera or an option gives a length, else estimated from the scene's size")
+               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit in the file's extras, "
+               "else 1 m if the camera has a physical lens or an option sets a distance or position in m, else "
+               "estimated from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -53,8 +54,7 @@ Row shutterRow() {
                "shutter", "--shutter", "S",
                [](Request& request, const std::string& text) { request.shutter = parseSeconds(text); },
                [](const Request& request) { return std::optional(fmt::format("{}", request.shutter)); },
-               "Time in seconds that the shutter is open, such as 0.02 or 1/48, for motion blur of the animation. 0: "
-               "no motion blur")
+               "Time in seconds that the shutter is open, such as 0.02 or 1/48; gives motion blur. 0: no motion blur")
         .kind(SettingKind::number)
         .range(0, 1e6)
         .clears(MEMBER(shutter));
@@ -111,7 +111,7 @@ Rows sceneRows() {
             .inShot("/animation/start")
             .unused(withoutAnimation),
         rows::words(SettingKind::text, "clip", "--clip", "NAME|N", MEMBER(clip),
-                    "Animation to play, given by name or number as listed by 'defocus info'. Default: the first")
+                    "Animation to play, given by its name or number in 'defocus info'. Default: the first animation")
             .example("Walk")
             .inShot("/animation/clip")
             .json(R"({"anyOf": [{"type": "integer", "minimum": 0, "maximum": 1000000},
@@ -127,8 +127,8 @@ Rows sceneRows() {
             .inShot("/shutter/position")
             .unused(withoutShutter),
         rows::other("motionSegments", "--motion-segments", "N|exact", setMotionSegments, motionSegmentsText,
-                    "Number of straight segments of a vertex's path while the shutter is open (1 to 64). exact: pose "
-                    "the scene at the time of each sample")
+                    "Number of straight segments, 1 to 64, that approximate a vertex's path while the shutter is open. "
+                    "exact: pose the scene at the time of each lens sample")
             .clears(MEMBER(motionSegments))
             .inShot("/shutter/segments")
             .json(R"({"type": "integer", "minimum": 1, "maximum": 64})")
@@ -155,7 +155,7 @@ Rows sceneRows() {
                                  "items": {"type": "number", "minimum": 0, "maximum": 1000000000}}]})",
                   ','),
         rows::boolean("ground", "--ground", MEMBER(ground),
-                      "Add a grey ground plane at the scene's lowest point, which receives shadows")
+                      "Add a grey ground that receives shadows, at the height of the scene's lowest point")
             .inShot("/ground"),
         hideRow(),
         rows::choice<Shadows>(
@@ -163,14 +163,14 @@ Rows sceneRows() {
             MEMBER(shadows), "Soft shadows of the lights and the environment. auto: only with --ground")
             .inShot("/shadows"),
         rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
-                     "Angular diameter of directional lights in degrees; a larger one gives softer shadows. Default: "
+                     "Angular diameter of directional lights in degrees; larger lights give softer shadows. Default: "
                      "0.53 (the sun) for lights in the file")
             .unit("degrees")
             .example("5")
             .inShot("/lightAngle")
             .unused(withoutShadows),
         rows::number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
-                     "Radius of point and spot lights in m; a larger one gives softer shadows. Default: 0.03 for "
+                     "Radius of point and spot lights in m; larger lights give softer shadows. Default: 0.03 for "
                      "lights in the file")
             .unit("m")
             .example("0.1")
@@ -203,9 +203,9 @@ Rows cameraRows() {
             .everyday()
             .example("Camera")
             .inShot("/camera/name"),
-        pointRow("cameraPosition", "--camera-position", MEMBER(cameraPosition),
-                 "Position of the camera in m. The default lights keep their place. Default: the position of the "
-                 "file's camera")
+        pointRow(
+            "cameraPosition", "--camera-position", MEMBER(cameraPosition),
+            "Position of the camera in m. The default lights stay in place. Default: the position of the file's camera")
             .unit("m"),
         pointRow("cameraTarget", "--camera-target", MEMBER(cameraTarget),
                  "Point in m that the camera looks at. Default: the viewing direction of the file's camera")
@@ -296,8 +296,8 @@ Rows focusRows() {
             .excludes({"focusDistance", "focusNode"})
             .unused(withoutBlur),
         rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-                    "Tilt the focus plane through the surfaces at three pixels; with 4 to 16 pixels, also curve it to "
-                    "minimize the sum of their squared blurs")
+                    "Tilt the focus plane through the surfaces at three pixels. With 4 to 16 pixels, also curve it, so "
+                    "that the sum of the squared blur diameters at these pixels is minimal")
             .clears(clearFocus<FocusPoints>)
             .excludes({"focusDistance", "focusNode", "focusPixel"})
             .unused(withoutBlur),
@@ -318,11 +318,11 @@ Rows lensRows() {
     }
     rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
                                MEMBER(lens.apertureImage),
-                               "Image of the aperture: bright pixels pass light, and the longer side spans the lens. "
-                               "Replaces --blades and --obstruction")
+                               "Image of the aperture: bright pixels transmit light, and the longer side of the image "
+                               "spans the lens. Replaces --blades and --obstruction")
                        .unused(unusedLensField(LensFeature::shape)));
     rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
-                               "Scale the blur of a node, given by name or number, and its children; 0 keeps them "
+                               "Scale the blur of a node, given by name or number, and of its children; 0 keeps them "
                                "sharp. Can be given several times")
                        .clears(MEMBER(nodeBlur))
                        .repeats(nodeBlurTexts)
@@ -361,11 +361,10 @@ Row presetRow() {
 }
 
 Row samplesRow() {
-    return rows::integer(
-               "samples", "--samples", 1, maxSamples, MEMBER(samples),
-               fmt::format("Number of lens samples. auto: as many as --quality needs, 16 to {}. With --target-error or "
-                           "--time-limit: the maximum, {} by default",
-                           maxAutomaticSamples, maxSamples))
+    return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
+                         fmt::format("Number of lens samples. auto: the number that --quality needs, from 16 to {}. "
+                                     "With --target-error or --time-limit: the maximum number, {} by default",
+                                     maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
         .values(
@@ -388,11 +387,11 @@ Rows sampleRows() {
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
-        rows::choice<Quality>(
-            "quality", "--quality", {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-            MEMBER(quality),
-            "Error that an automatic number of samples aims at: a difference (FLIP) from the converged image of about "
-            "0.03 (draft), 0.01 (good) or 0.005 (fine)")
+        rows::choice<Quality>("quality", "--quality",
+                              {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+                              MEMBER(quality),
+                              "Quality of an image with an automatic number of samples: FLIP difference from the "
+                              "converged image of about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
             .everyday()
             .inShot("/quality")
             .excludes({"targetError", "timeLimit"})
@@ -400,8 +399,8 @@ Rows sampleRows() {
                 return firstOf(context, {methodWithoutSamples, withFixedSamples});
             }),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
-                     "Add blocks of 64 samples until the estimated RMSE of the image is below R. Pixel values are "
-                     "display-encoded, 0 to 1, at EV 0")
+                     "Target error R: add blocks of 64 samples until the estimated RMSE of the image is below R. The "
+                     "RMSE is measured on display-encoded values from 0 to 1 at EV 0")
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
@@ -410,8 +409,9 @@ Rows sampleRows() {
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
-        rows::choice<Sequence>("sequence", "--sequence", sequences, MEMBER(sequence),
-                               "Sequence of sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
+        rows::choice<Sequence>(
+            "sequence", "--sequence", sequences, MEMBER(sequence),
+            "Low-discrepancy sequence of the sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
             .inShot("/sequence")
             .unused(methodWithoutSamples),
         rows::integer("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(seed),
@@ -420,9 +420,9 @@ Rows sampleRows() {
             .unused(methodWithoutSamples),
         rows::choice<LodMode>(
             "lod", "--lod", modes, MEMBER(lod),
-            "Levels of detail of blurred objects. fractional: two levels, between which the samples are split. "
-            "continuous: in addition, one sample draws the coarser level in only some of its pixels, so that its "
-            "pixels switch one after another. nearest: one level. off: full detail")
+            "Levels of detail of blurred objects. fractional: the samples are split between two levels. continuous: "
+            "like fractional, but one sample draws both levels, each in some of its pixels, so that the pixels switch "
+            "one after another. nearest: one level. off: full detail")
             .inShot("/lod"),
         rows::number(
             "blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
@@ -438,11 +438,11 @@ Rows sampleRows() {
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
-        rows::number(
-            "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-            "For --lod-metric measured: maximum of a level's projected edge length (px) times its relative error: "
-            "the RMS difference of the blurred shading from full detail, divided by the standard deviation of "
-            "the object's radiance within the blur disk. Default: depends on the number of samples")
+        rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
+                     "For --lod-metric measured: maximum product K, in px, of the projected edge length of a level and "
+                     "its relative error. The relative error is the RMS difference between the blurred level and "
+                     "blurred full detail, divided by the standard deviation of the object's radiance within the blur "
+                     "disk. Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
@@ -519,8 +519,7 @@ Rows developerRows() {
                                 "projected edge length. error: projected deviation from full detail. "
                                 "proportional: ratio of blur to the size of the object's bounding box (Jeong et al.). "
                                 "score: ratio of blur to edge length (Tzeng et al.). automatic: size if "
-                                "--blur-threshold or --size-threshold "
-                                "is given, else measured")
+                                "--blur-threshold or --size-threshold is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(

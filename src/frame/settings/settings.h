@@ -47,14 +47,14 @@ struct Setting {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double min = 0;       // allowed range of numbers and integers
     double max = 0;
-    std::vector<std::string> choices;  // allowed words; for a number: words allowed in its stead
+    std::vector<std::string> choices;  // allowed words; for a number: words allowed instead of it
     std::string help;
     bool everyday = false;              // shown by --help; --help-all shows all settings
     std::string example;                // example value, for settings that have neither default nor choices
     std::vector<std::string> excludes;  // names of settings that exclude this one
     SettingEffect effect = SettingEffect::pixels;
-    bool recorded = true;     // whether it is written to image metadata
-    bool repeated = false;    // may be given several times; values accumulate
+    bool recorded = true;     // whether the setting is written to image metadata
+    bool repeated = false;    // the option may be given several times; all values are kept
     bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
     bool keyed = false;       // whether a shot may animate the setting with keyframes
@@ -66,7 +66,7 @@ struct Setting {
     std::function<void(Request&, const std::string&)> set;
     // Returns the value in the format that set() reads; none if the value is unset.
     std::function<std::optional<std::string>(const Request&)> text;
-    // Restores the value that a default Request has.
+    // Restores the default value.
     std::function<void(Request&)> clear;
     // Returns the texts of all values of a repeated setting.
     std::function<std::vector<std::string>(const Request&)> texts;

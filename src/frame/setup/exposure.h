@@ -27,13 +27,13 @@ double meteredExposure(const ImageView& image);
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
                        const std::filesystem::path& shaderFolder = {});
 
-// Returns the exposure (EV) that the request gives as a value; none if it is left to the lens or the meter.
+// Returns the exposure (EV) that the request gives as a value; none if the lens or the meter determines the exposure.
 std::optional<double> exposureOf(const Request& request);
 
 // Returns the exposure (EV) that follows from the request or the lens without metering.
 double unmeteredExposure(const Request& request, const Lens& lens);
 
-// Returns the exposure (EV) of a request's image, metered if metersExposure() says so.
+// Returns the exposure (EV) of a request's image, metered if metersExposure() returns true.
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,
                       const std::filesystem::path& shaderFolder = {});
 

@@ -19,12 +19,13 @@ namespace defocus::engine {
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
 
 // Sets focus distance, tilt and swing so that the plane of focus contains three points in view space (m; the camera
-// looks along −z). Four or more points also set the field curvature and minimise the sum of squared blurs. A direction
-// n has the focus distance s(n); a point at depth w has a blur proportional to |1/s(n) − 1/w|. With field curvature κ
-// and tilt t, 1/s(n) = (1 + κ·r² + t·n)/s is linear in 1/s, κ/s and t/s. Lee, Eisemann and Seidel 2010 (Real-Time Lens
-// Blur Effects and Focus Control) also fit the focus to points that the user marks. If the points leave tilt or
-// curvature undetermined, these are minimal. Throws Error for collinear points, and if the surface of focus would meet
-// the view axis behind the camera. The message begins with `what`; the lens stays unchanged.
+// looks along −z). For four or more points, also sets the field curvature and minimizes the sum of squared blur
+// diameters. Where the focus distance is f, a point at depth w has a blur proportional to |1/f − 1/w|. At image
+// position p with |p| = r, 1/f = (1 + κ·r² + t·p)/s for the focus distance s on the axis, field curvature κ and tilt t.
+// This is linear in 1/s, κ/s and t/s. Lee, Eisemann and Seidel 2010 (Real-Time Lens Blur Effects and Focus Control)
+// also fit the focus to points that the user marks. If the points do not determine tilt or curvature, the smallest
+// values that fit are used. Throws Error for collinear points, and if the surface of focus would meet the view axis
+// behind the camera. The message begins with `what`; the lens stays unchanged.
 void focusThrough(std::span<const glm::dvec3> points, Lens& lens, const std::string& what);
 
 }  // namespace defocus::engine

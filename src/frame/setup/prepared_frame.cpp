@@ -123,7 +123,8 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
-// Returns the tangent of half the horizontal angle of view that the request's focal length gives; none without one.
+// Returns the tangent of half the horizontal angle of view that the request's focal length gives; none if the request
+// has no focal length.
 std::optional<double> requestedTanHalfHorizontal(const LensSettings& given) {
     if (!given.focalLength) return {};
     Lens lens;

@@ -43,7 +43,7 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
     const std::size_t count = momentCount(world, view);
     if (count == 0) return;
     const std::size_t needed = world.shutter.perSample ? settings.sampleCount : 2;
-    if (count < needed) fail("the shutter has {} moment(s); it needs at least {}", count, needed);
+    if (count < needed) fail("the shutter has {} time sample(s), but needs at least {}", count, needed);
     const bool camerasFit = view.shutterCameras.empty() || view.shutterCameras.size() == count;
     const bool posesFit = world.shutter.poses.empty() || world.shutter.poses.size() == count;
     if (!camerasFit || !posesFit)
@@ -51,7 +51,7 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
              view.shutterCameras.size());
     for (const Pose& pose : world.shutter.poses)
         if (pose.objects.size() != world.pose.objects.size())
-            fail("the shutter has {} objects in one moment, but {} in another", pose.objects.size(),
+            fail("the shutter has {} objects at one time sample, but {} at another", pose.objects.size(),
                  world.pose.objects.size());
 }
 

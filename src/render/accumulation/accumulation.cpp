@@ -69,7 +69,8 @@ public:
     void continueWith(const FramePlan& plan) override {
         const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
         if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
-            fail("more samples were requested before the current block is complete");
+            fail(
+                "samples can be added only after the current block of samples is complete, and at the same image size");
         clock_.beginSetup();
         samplesBefore_ = samples();
         setPlan(plan);

@@ -266,8 +266,8 @@ std::vector<MethodSetting> circularSettings() {
          .max = circularKernelLimit},
         {.name = "resolution",
          .standard = "full",
-         .description =
-             "Resolution of the blurred fields. Garcia uses half with one far component, or quarter with two",
+         .description = "Resolution of the blurred near and far fields. Garcia uses half resolution with one component "
+                        "for the far field, or quarter with two",
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .standard = "fitted",
@@ -281,8 +281,8 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",
-         .description = "Taps on each side of the centre: one per pixel (exact), eight as published, or 4, 8, 16 or 32 "
-                        "depending on the blur (sets)",
+         .description = "Kernel taps on each side of the centre: one per pixel (exact), eight as published (eight), or "
+                        "4, 8, 16 or 32 depending on the blur (sets)",
          .choices = {"exact", "eight", "sets"}},
         {.name = "storage",
          .standard = "half",
@@ -307,8 +307,9 @@ std::vector<MethodSetting> circularSettings() {
          .whole = false},
         {.name = "bias-by",
          .standard = "constant",
-         .description = "Variation of --blend-bias: constant, or proportional to the near field's coverage and "
-                        "relative brightness (luminance), which reduces ghosting without widening edges",
+         .description =
+             "Variation of --blend-bias over the image: constant, or proportional to the near field's coverage and "
+             "relative brightness (luminance). The latter reduces ghosting without widening edges",
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .standard = "separable",

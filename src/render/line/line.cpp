@@ -289,10 +289,9 @@ Method lineMethod() {
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
-         .description =
-             "Distance in px between shading points: a visible segment gets one for every N px that the surface "
-             "shifts in the image between the lens points at its ends; 0: one point in the middle of each "
-             "segment, as published",
+         .description = "Distance in px between shading points: a visible segment gets one shading point for every N "
+                        "px by which the surface moves in the image between the segment's two lens points. 0: one "
+                        "shading point in the middle of each segment, as published",
          .choices = {},
          .min = 0,
          .max = 64},

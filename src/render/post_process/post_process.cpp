@@ -157,9 +157,8 @@ MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .standard = "4",
             .description =
-                "Number of pinhole images per frame, spread over the pixel for antialiasing; 1 as "
-                "published. For layered, each image has its own layers and an equal part of the lens "
-                "samples",
+                "Number of pinhole images per frame, with different subpixel offsets for antialiasing; 1 as published. "
+                "For layered, each image has its own layers and an equal share of the lens samples",
             .choices = {},
             .min = 1,
             .max = 64};
@@ -170,7 +169,7 @@ MethodSetting transparencyBucketsSetting(const char* standard) {
             .standard = standard,
             .description =
                 "Maximum number of depth groups in which alpha-blended surfaces are blurred separately from their "
-                "background; 0: blur them together with it",
+                "background; 0: blur surfaces and background together",
             .choices = {},
             .min = 0,
             .max = 8};

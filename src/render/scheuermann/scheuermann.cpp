@@ -262,7 +262,8 @@ Method scheuermannMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .standard = "published",
-         .description = "Blur from the depth: linear between three planes as published, or by the thin lens",
+         .description =
+             "Blur as a function of depth: linear between three planes as published, or as a thin lens blurs",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .standard = "8",

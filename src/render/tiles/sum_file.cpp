@@ -81,7 +81,7 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         if (part.range.first < next)
             fail("{} and {} overlap: both hold sample {}", parts[i - 1].path.string(), path.string(), part.range.first);
         if (part.range.first > next)
-            fail("samples {}:{} of the frame's {} are missing before {}", next, part.range.first, part.frameSamples,
+            fail("samples {}:{} of {} are missing; the next part is {}", next, part.range.first, part.frameSamples,
                  path.string());
         next = part.range.end;
     }

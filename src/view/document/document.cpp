@@ -95,7 +95,7 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     state.options.time = time;
     state.options.clip = clip;
     document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens already contains the image
-    document.poseIsStale = !document.frame->scene->clips.empty();          // followed cameras may move
+    document.poseIsStale = !document.frame->scene->clips.empty();          // the camera may be animated
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;
     state.focusPoints.clear();

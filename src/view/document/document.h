@@ -36,8 +36,8 @@ View currentView(const Document& document, const ViewState& state);
 // Records the state for undo and redo. `held`: a mouse button or key is held down.
 void noteEdit(Document& document, const ViewState& state, bool held);
 
-// Executes the actions that concern the document: opening, undo, saved views, cameras. `exporting`: the scene must not
-// change. Throws Error if an action fails.
+// Executes the actions that concern the document: opening, undo, saved views, cameras. `exporting`: a still is being
+// exported, so the scene must not change. Throws Error if an action fails.
 void actOnDocument(Document& document, ViewState& state, const ViewActions& actions, bool exporting);
 
 // Applies all differences between the state's request and Document::shown: camera, aperture image, blur of nodes, time

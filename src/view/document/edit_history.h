@@ -25,7 +25,8 @@ public:
     // Return the state before the latest edit (undo) or after the next one (redo); none if there is no such step.
     std::optional<ViewEdit> undo(const ViewEdit& now);
     std::optional<ViewEdit> redo(const ViewEdit& now);
-    // Returns the opened state, as an edit that can be undone; none if the current state equals it.
+    // Returns the state in which the scene was opened, as an edit that can be undone. Returns none if `now` equals this
+    // state.
     std::optional<ViewEdit> reset(const ViewEdit& now);
 
     [[nodiscard]] std::size_t undoSteps() const { return before_.size() + (pending_ ? 1 : 0); }

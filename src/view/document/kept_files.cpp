@@ -25,8 +25,8 @@ fs::path userFile(const char* variable, const char* folderInHome, const char* na
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / folderInHome / "defocus" / name;
 }
 
-// Returns the JSON in a file; null if there is no regular file, a discarded value if it isn't JSON. Throws Error if the
-// file is unreadable.
+// Returns the JSON in a file; null if there is no regular file, nlohmann's discarded value if the text isn't JSON.
+// Throws Error if the file is unreadable.
 json readKept(const fs::path& file) {
     const std::optional<std::vector<std::byte>> bytes = readOwnFile(file);
     if (!bytes) return nullptr;

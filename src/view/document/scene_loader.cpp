@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t draftTriangles = 60'000;  // approximate triangles of a draft; smaller scenes get no draft
+constexpr std::uint64_t draftTriangles = 60'000;  // approximate triangle count of a draft; smaller scenes get no draft
 
 // Returns the scene with draft pyramids; null for a small scene, whose final pyramids are built quickly.
 std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {

@@ -17,13 +17,13 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
     std::string fault;                     // why the scene could not be opened
-    bool draft = false;                    // has coarse draft pyramids; the final result follows
+    bool draft = false;                    // the pyramids are coarse drafts; the final result follows
 };
 
 class SceneLoader {
 public:
     SceneLoader() = default;
-    // Cancels all jobs and waits until they end, which is at their next report of progress.
+    // Cancels all jobs and waits for them; a job ends when it next reports progress.
     ~SceneLoader();
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
@@ -31,7 +31,7 @@ public:
     // Starts to open a scene. Cancels jobs that have not delivered a draft yet.
     void open(const Request& options);
     // Returns the next result: a draft, the final scene, or a failure. Returns each result once; none if there is no
-    // new one.
+    // new result.
     std::optional<LoadedScene> take();
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }

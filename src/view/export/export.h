@@ -12,7 +12,7 @@ namespace defocus::engine {
 std::string pictureCommand(const Document& document, const ViewState& state);
 
 // Executes the export actions: records keyframes, saves shots, and starts or cancels the export of a still image.
-// Returns a text for the clipboard; none if there is none. Throws Error if an action fails.
+// Returns the text to copy to the clipboard, if any. Throws Error if an action fails.
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);
 

@@ -55,7 +55,7 @@ ordered_json cameraJson(const Request& options, const std::vector<ShotKey>& keys
     return camera;
 }
 
-// Returns whether the lens determines the exposure. A shot cannot also contain an exposure value then.
+// Returns whether the lens determines the exposure. In that case, a shot must not contain an exposure value.
 bool shotExposedByLens(const std::vector<ShotKey>& keys) {
     return std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
 }

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double hoverDelay = 0.12;  // s that the mouse rests before picking
+constexpr double hoverDelay = 0.12;  // s without mouse movement before picking
 
 struct Legend {
     const char* title;

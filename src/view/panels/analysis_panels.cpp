@@ -31,8 +31,7 @@ void differenceRow(DisplaySettings& display) {
 }  // namespace
 
 void overlayPanel(const Ui& ui) {
-    rowLabel("Overlay",
-             "Blur (C), level (L), or work: triangles per pixel and lens sample (N)");
+    rowLabel("Overlay", "Blur (C), level (L), or work: triangles per pixel and lens sample (N)");
     enumCombo("##overlay", ui.state.display.overlay, "none\0circle of confusion\0level of detail\0work\0");
     rowLabel("Wireframe", "Edges of the drawn triangles, coloured by level (Z)");
     ImGui::Checkbox("##wireframe", &ui.state.display.wireframe);
@@ -86,7 +85,7 @@ void performancePanel(const Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::PlotHistogram("##times", times.data(), static_cast<int>(times.size()), 0, nullptr, 0,
                          2 * static_cast<float>(state.budget.milliseconds), {0, 48 * ui.scale});
-    tooltip("Times of the latest frames; half the height is the budget");
+    tooltip("Times of the latest frames; the budget is at half the height");
     const InputLatency::Summary latency = ui.times.latency.summary();
     if (latency.count > 0)
         textRow("Input to picture", fmt::format("{:.0f} ms, at most {:.0f} ms", latency.median, latency.worst),

@@ -46,7 +46,8 @@ void nodeBlurRow(const Ui& ui) {
     const auto first = std::ranges::find(nodes, node.name, &Node::name);
     if (node.name.empty() || first - nodes.begin() != index) return;
     ImGui::BeginDisabled(ui.still.has_value());
-    rowLabel("Selection's blur", fmt::format("Factor on the blur of {}; 0 keeps it sharp (--node-blur)", node.name));
+    rowLabel("Selection's blur",
+             fmt::format("Multiplier for the blur of {}; 0 keeps it sharp (--node-blur)", node.name));
     double scale = node.cocScale;
     if (slider("##nodeBlur", scale, 0, 4, "%.2f ×")) ui.state.options.nodeBlur[node.name] = scale;
     ImGui::EndDisabled();
@@ -75,7 +76,7 @@ void aperturePanel(const Ui& ui) {
     aperturePreview(ui.state.lens, ui.scale);
     ImGui::BeginDisabled(ui.still.has_value());
     rowLabel("Image",
-             "Image of the aperture: bright pixels pass light. Replaces blades and obstruction (--aperture-image)");
+             "Image of the aperture: bright pixels transmit light. Replaces blades and obstruction (--aperture-image)");
     if (pathRow("aperture", "none", "Load", ui.state.aperturePath))
         ui.state.options.lens.apertureImage = ui.state.aperturePath;
     ImGui::EndDisabled();

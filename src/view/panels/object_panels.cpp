@@ -23,8 +23,8 @@ struct TreeRow {
     bool parent = false;  // the node has descendants with meshes
 };
 
-// Returns the rows of all nodes with meshes at or below them; descendants of collapsed nodes are omitted. Iterative,
-// because a file's hierarchy may be too deep for recursion.
+// Returns the rows of all nodes that have a mesh or a descendant with a mesh. Descendants of collapsed nodes are
+// omitted. Iterative, because a file's hierarchy may be too deep for recursion.
 std::vector<TreeRow> treeRows(const Scene& scene, const std::vector<bool>& hidden, const std::set<int>& closed) {
     std::vector<bool> leads(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

@@ -30,7 +30,7 @@ namespace defocus::engine {
 DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 #undef DEFOCUS_DECLARE_PANEL
 
-inline constexpr double panelWidth = 364;  // in interface units; see interfaceScale
+inline constexpr double panelWidth = 364;  // width in interface units; see interfaceScale
 
 // Draws the panel to the right of the picture.
 void drawPanels(const Ui& ui);

@@ -92,8 +92,9 @@ void shutterRows(Request& request) {
     settingRow(request, "shutter");
     if (!(request.shutter > 0)) return;
     settingRow(request, "shutterPosition");
-    rowLabel("Motion segments",
-             "Number of straight segments of a vertex's path while the shutter is open (--motion-segments)");
+    rowLabel(
+        "Motion segments",
+        "Number of straight segments that approximate a vertex's path while the shutter is open (--motion-segments)");
     std::uint32_t segments = std::get<std::uint32_t>(request.motionSegments);
     if (slider("##segments", segments, 1, 64)) request.motionSegments = segments;
 }

@@ -9,7 +9,7 @@ namespace defocus::engine {
 struct LivePicture {
     std::optional<ViewPicture> image;   // none: no scene is open
     std::uint64_t worldVersion = 0;     // Document::worldVersion for which `image` was created
-    std::vector<std::string> warnings;  // about the picture; empty while the view moves
+    std::vector<std::string> warnings;  // warnings about the picture; empty while the view moves
 
     bool meterDue = false;                                       // whether the view has moved since the last metering
     std::vector<std::string> clipping;                           // warnings about clipping

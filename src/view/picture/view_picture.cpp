@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto settleTime = 120ms;            // time without change before the image starts to accumulate samples
-constexpr std::uint32_t minShownSamples = 4;  // fewer samples look worse than the last moving frame
+constexpr std::uint32_t minShownSamples = 4;  // a still image with fewer samples looks worse than the last moving frame
 constexpr double visibleGrowth = 1.08;        // relative growth of the sample count at which the window is updated
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;

@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct PictureSide {
-    std::string method;  // in the format of MethodUse::text
+    std::string method;  // method and settings in the format of MethodUse::text
     LodMode lod = LodMode::fractional;
     std::uint32_t firstSample = 0;
     bool operator==(const PictureSide&) const = default;
@@ -28,13 +28,13 @@ struct PictureSide {
 
 struct PictureRequest {
     View view;                       // view at the window's resolution
-    RenderSettings settings;         // thresholds, if set, replace those for the number of samples
+    RenderSettings settings;         // level thresholds that are set replace the defaults
     std::string settingsKey;         // the image is restarted when this text changes
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
     std::vector<PictureSide> sides;  // one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
-    std::optional<double> targetError;         // stops accumulating once the estimated error is below
+    std::optional<double> targetError;         // stops accumulating below this estimated error
     std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
     double restOfFrame = 0;                    // part of the frame's budget that the interface takes, ms
 };

@@ -18,7 +18,7 @@ inline double eased(double t) {
 struct FocusPull {
     double from = 1;  // m, > 0; may be infinite
     double to = 1;
-    double begin = 0;       // start time, s, of any clock
+    double begin = 0;       // start time in s, on any clock
     double duration = 0.4;  // s
 
     [[nodiscard]] bool over(double now) const { return now >= begin + duration; }

@@ -43,7 +43,7 @@ enum class Navigation { orbit, fly };
 enum class Comparison {
     none,
     fullDetail,  // full detail with the same lens samples
-    nearest,     // one level per object, not blended
+    nearest,     // one level per object (LodMode::nearest)
     reference,   // full detail with other lens samples
     method,      // method ViewState::comparedMethod
 };
@@ -51,7 +51,7 @@ enum class Comparison {
 struct Message {
     std::string text;
     bool fault = false;
-    double until = 0;  // time when it disappears, s, as ViewState::now
+    double until = 0;  // time when the message disappears, s, as ViewState::now
 };
 
 // Marker of the latest click to focus; fades out.
@@ -66,15 +66,15 @@ struct FocusMarker {
 
 // State of the dialog for exporting a still.
 struct ExportDialog {
-    bool fresh = true;           // whether it was opened in this frame
-    bool asksToReplace = false;  // whether it asks to replace an existing file
+    bool fresh = true;           // whether the dialog was opened in this frame
+    bool asksToReplace = false;  // whether the dialog asks to replace an existing file
 };
 
 struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // without aperture image, which saved views don't store
+    Lens lens;                // lens without aperture image, which saved views don't store
 };
 
 struct ShotKey {
@@ -100,7 +100,7 @@ struct SceneState {
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
-    std::vector<glm::dvec3> focusPoints;  // in world space; three points determine the plane of focus
+    std::vector<glm::dvec3> focusPoints;  // points in world space; three points determine the plane of focus
     std::optional<double> poppingSince;   // start of the popping test, s; none: not running
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;

@@ -114,8 +114,8 @@ double limitOfFocus(const FramePlan& plan, double endDioptre) {
     return 1 / inside;
 }
 
-// Draws the circle of confusion over depth as a symmetric pair of curves around `middle`. The height is logarithmic; 63
-// px or more reach `reach`.
+// Draws the circle of confusion over depth as a symmetric pair of curves around `middle`. The height of a curve is
+// logarithmic; a diameter of 63 px or more has the height `reach`.
 void drawCocCurve(const Canvas& box, const FramePlan& plan, const DepthAxis& axis, float middle, float reach,
                   float scale) {
     constexpr int steps = 96;

@@ -22,7 +22,7 @@ struct Taken {
     bool button = false;
     bool editingKey = false;
     bool text = false;
-    std::optional<bool> control;  // whether Ctrl was down for the keys taken so far
+    std::optional<bool> control;  // whether Ctrl is down for the keys taken so far; none: no key
     std::set<int> pressed;
 };
 

@@ -19,7 +19,7 @@ struct InputContext {
 class ViewInput {
 public:
     void handle(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
-    // Moves the camera by the flying keys that are held down.
+    // Moves the camera by the fly keys (W A S D Q E) that are held down.
     void fly(const InputContext& context, double seconds, ViewState& state) const;
 
     // Returns whether a mouse button over the picture, or a key pressed without Ctrl, is held down.

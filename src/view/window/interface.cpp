@@ -63,7 +63,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
         ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
     };
     if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)
-        std::ranges::fill(io.KeysDown, false);  // the releases go to another window
+        std::ranges::fill(io.KeysDown, false);  // another window receives the key releases
     for (const WindowEvent& event : std::exchange(tappedKeys_, {})) tell(event);
     std::array<bool, 3> pressed{};
     std::set<int> down;
@@ -87,7 +87,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                 if (event.key < 0 || event.repeated) break;
                 if (event.pressed) {
                     tell(event);
-                    io.KeysDownDuration[event.key] = -1;  // counts as a new press even without a release before
+                    io.KeysDownDuration[event.key] = -1;  // a new press, even if no release preceded it
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {

@@ -27,7 +27,7 @@ private:
     Window* window_;
 
     std::vector<WindowEvent> tappedKeys_;  // keys pressed and released in one frame; ImGui gets the release in the next
-    std::array<bool, 3> buttons_{};        // whether each mouse button is down after the events so far
+    std::array<bool, 3> buttons_{};        // whether each mouse button is down after the latest event
     glm::dvec2 mouse_{0.0};                // position, window units
     bool focused_ = false;
     double scale_ = 0;
