@@ -15,8 +15,8 @@ void writeMessage(std::string_view text) noexcept;
 // stay.
 std::string printable(std::string_view text);
 
-// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
-// a file stays one short line.
+// Returns `text` truncated to a few hundred bytes, with control characters replaced by spaces, so that an error with
+// names from a file stays one short line.
 std::string shortLine(std::string text);
 
 template <typename... Args>

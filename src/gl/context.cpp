@@ -53,8 +53,7 @@ bool listed(const char* extensions, std::string_view name) {
     return false;
 }
 
-// EGL display on which a context can be attempted. Creating a display may load a driver, so it is created only for the
-// attempt.
+// EGL display to try. The display is created only when it is tried, because creation may load a driver.
 struct Candidate {
     std::string name;
     EGLenum platform = EGL_NONE;  // EGL_NONE: default display

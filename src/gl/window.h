@@ -16,7 +16,7 @@ struct GLFWwindow;
 namespace defocus::engine {
 
 // Key codes, equal to GLFW's. Keys of letters, digits and punctuation have the ASCII code (upper case) of a US
-// keyboard; these constants are other keys.
+// keyboard; the other keys have these constants.
 namespace key {
 inline constexpr int escape = 256;
 inline constexpr int enter = 257;
@@ -78,7 +78,7 @@ public:
     // If `on`, covers the window's current screen; otherwise restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Return sizes that were both read during the latest poll().
+    // Both sizes are read during the same poll(), so that they match.
     [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
     [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
     [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen
@@ -97,8 +97,7 @@ public:
 
 private:
     void installCallbacks();
-    // Sets size_ and framebufferSize_ to values of the same moment: during a resize, GLFW may report one old and one
-    // new.
+    // Updates size_ and framebufferSize_ together: during a resize, GLFW may report one old and one new size.
     void readSizes();
     WindowEvent& add(WindowEvent::Type type);
 

@@ -40,7 +40,7 @@ constexpr std::array<SensitivityTerm, 2> blueYellowTerms = {{{34.1, 0.04}, {13.5
 constexpr float colourExponent = 0.7f;
 constexpr float kneeIn = 0.4f;
 constexpr float kneeOut = 0.95f;
-// Section 4.2: feature width in degrees, and exponent of feature differences.
+// Section 4.2: feature width in degrees, and exponent of the feature difference.
 constexpr double featureWidth = 0.082;
 constexpr float featureExponent = 0.5f;
 
@@ -179,7 +179,8 @@ FeatureFilters featureFilters(double pixelsPerDegree) {
     return {scaled(smooth, 1 / sum(smooth)), balanced(edge), balanced(point)};
 }
 
-template <typename ToDisplay>  // float(float): maps a linear channel to displayed light in [0, 1]
+// ToDisplay is a function float(float) that maps a linear channel to the displayed linear value in [0, 1].
+template <typename ToDisplay>
 ColourPlanes opponentPlanes(const Image& rgb, const ToDisplay& toDisplay) {
     ColourPlanes planes(rgb.width, rgb.height);
     forEachRow(rgb.height, [&](int y) {
@@ -261,7 +262,7 @@ private:
 // larger.
 template <typename ToDisplay>
 void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDisplay& toDisplay, Image& map) {
-    // Convert displayed light to the opponent space.
+    // Convert the displayed linear colours to the opponent colour space.
     const ColourPlanes opponentA = opponentPlanes(pair.reference, toDisplay);
     const ColourPlanes opponentB = opponentPlanes(pair.test, toDisplay);
     // Run the colour pipeline.

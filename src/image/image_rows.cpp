@@ -177,7 +177,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     s.name = path.string();
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason why it cannot be read
+        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
