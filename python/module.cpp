@@ -59,7 +59,7 @@ Array arrayOf(defocus::Image&& image) {
     if (owner->channels > 1) shape.push_back(owner->channels);
     float* const pixels = owner->pixels.data();
     const py::capsule keeper(owner.get(), [](void* kept) { delete static_cast<defocus::Image*>(kept); });
-    static_cast<void>(owner.release());  // now owned by the capsule
+    static_cast<void>(owner.release());  // the capsule owns the image now
     return Array(shape, pixels, keeper);
 }
 

@@ -60,7 +60,7 @@ struct ImageView {
     // Creates a view of pixels in the layout of Image::pixels, without gaps.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
         : ImageView(viewWidth, viewHeight, viewChannels, values, packedStrides(viewWidth, viewChannels)) {}
-    // Creates a view of pixels at arbitrary distances, such as a part of a larger image.
+    // Creates a view of pixels with arbitrary strides, such as a part of a larger image.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values, ImageStrides between)
         : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values), strides(between) {}
     // NOLINTNEXTLINE(google-explicit-constructor): implicit, so that functions that only read pixels accept an Image
@@ -125,7 +125,7 @@ struct Difference {
     double ssim = 1;               // mean structural similarity (Wang et al. 2004), on luma
     double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     double maxError = 0;           // max absolute difference of a colour channel
-    Pixel maxErrorPixel;           // first pixel with maxError, row by row
+    Pixel maxErrorPixel;           // first pixel with maxError, in row-major order
     std::uint64_t pixelCount = 0;  // number of compared pixels
     std::uint64_t nonFinite = 0;   // compared pixels that are NaN or infinite in at least one image
 };

@@ -20,7 +20,7 @@ enum class Sequence {
     // Halton points: bases 2, 3 on the lens and 5, 7 in the pixel (Jeong, Kim and Lee 2011), then 11, 13, 17 and 19 in
     // the exposure time, in the spectrum and on the lights.
     halton,
-    scrambledHalton,  // Halton with random permutations of each digit, which depend on the digits before
+    scrambledHalton,  // Halton points with random permutations of each digit, which depend on the preceding digits
     sobol,            // Owen-scrambled Sobol points
     r2,               // additive recurrence with powers of the plastic number (R2 sequence)
 };
@@ -40,9 +40,9 @@ enum class LodMetric {
     size,       // target edge length in px, compared with each level's mean edge length
     error,      // target deviation of the surface in px
     halving,    // target edge length in px; assumes that each level halves the triangles (Jeong, Kim and Lee 2011)
-    measured,   // target error of the object's light after the blur, relative to the light's variation
-    // Target edge length from the blur only, compared with the edge length projected at the object's centre (Tzeng et
-    // al. 2012).
+    measured,   // target error of the object's blurred radiance, relative to the radiance's variation
+    // Like `size`, but with a target edge length from the blur only, compared with the edge length projected at the
+    // object's centre (Tzeng et al. 2012).
     score,
 };
 
@@ -56,7 +56,7 @@ enum class LodCoc {
 enum class LevelVertices {
     fitted,     // positions, normals, colours and texture coordinates fitted to full detail
     surviving,  // unchanged vertices of the full-detail mesh
-    quarters,   // like surviving, with three levels of 100, 75 and 50 % (Tzeng et al. 2012)
+    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of them (Tzeng et al. 2012)
 };
 
 // Shadows from lights and from the environment.

@@ -79,7 +79,7 @@ class Difference(NamedTuple):
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
     flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     max_error: float  # max absolute difference of a colour channel
-    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, row by row
+    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, in row-major order
     pixel_count: int
     non_finite: int  # pixels that are NaN or infinite in at least one image
 

@@ -77,10 +77,10 @@ struct Mesh {
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;  // default weights, one per morph target
     VertexBlurBounds blurBounds;      // of vertices.blurs
-    std::vector<Strokes> strokes;     // not yet drawn
+    std::vector<Strokes> strokes;     // points and lines; see scene/strokes.h
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles and strokes use; empty without them
+    [[nodiscard]] Bounds bounds() const;  // bounding box of the vertices that triangles and strokes use; may be empty
 };
 
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs);

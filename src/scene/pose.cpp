@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t namesListed = 40;  // max names in an error message
 
-// Animatable properties of a node at one time.
+// Animatable properties of a node at one instant.
 struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
@@ -26,7 +26,7 @@ struct NodeState {
     std::vector<double> morphWeights;  // one per morph target of the node's mesh
 };
 
-// Animatable properties of a scene at one time.
+// Animatable properties of a scene at one instant.
 struct SceneState {
     std::vector<NodeState> nodes;
     std::vector<Camera> cameras;
@@ -202,7 +202,7 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
     pose.lights.push_back(placed);
 }
 
-// Keeps the maxLights lights of the largest intensity, in their order. Directional lights come first.
+// Keeps the maxLights brightest lights, in their original order. Directional lights count as brighter than all others.
 void leaveOutFaintLights(Pose& pose) {
     if (pose.lights.size() <= maxLights) return;
     const auto brightness = [&](std::size_t light) {
@@ -262,7 +262,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
 
 Pose poseAt(const Scene& scene, double time, int clip) {
     Pose pose = unmeasuredPoseAt(scene, time, clip);
-    // Compute the bounding box of all objects; each mesh is measured once.
+    // Compute the bounding box of all objects; each mesh's own box is computed once.
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
     for (const Object& object : pose.objects) {
         if (object.ground) continue;

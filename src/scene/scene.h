@@ -176,14 +176,14 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // this and the next three: properties of a node
+    translation,  // translation, rotation, scale, weights: properties of a node
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; this and the next two: properties of a camera (KHR_animation_pointer)
+    cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
     cameraZnear,  // m
-    cameraLens,   // entry `lensValue` of Camera::lens
-    lightColor,   // this and the next two: properties of a light (KHR_animation_pointer)
+    cameraLens,   // entry AnimationChannel::lensValue of Camera::lens
+    lightColor,   // light…: properties of a light (KHR_animation_pointer)
     lightIntensity,
     lightRange,  // m
 };
@@ -193,7 +193,7 @@ struct AnimationChannel {
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // per key 1, 3, 4 or the number of morph targets; times 3 for cubicSpline
+    std::vector<float> values;  // 1, 3, 4 or (morph weights) n numbers per key; three times as many for cubicSpline
     std::string lensValue;      // for ChannelPath::cameraLens: key of Camera::lens
 };
 
@@ -214,7 +214,7 @@ struct Ignored {
 struct Scene {
     std::string name;
     std::filesystem::path file;  // source file; empty: none
-    bool school = false;         // the built-in school of fish, whose lights suit an exposure of 0 EV
+    bool school = false;         // built-in school of fish, lit for an exposure of 0 EV
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;

@@ -43,7 +43,7 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
 // (also with line breaks) or percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// Throws Error "FILE: message" as one line.
+// Throws Error with the one-line message "FILE: message".
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
     throw Error(document.file + ": " + shortLine(fmt::format(format, std::forward<Args>(args)...)));

@@ -110,7 +110,7 @@ void dropUnplacedStrokes(Source& source, Strokes& strokes) {
     strokes.indices = std::move(kept);
 }
 
-// Reads points or lines. Their joints and morph targets are left out.
+// Reads points or lines; drops their joints and morph targets.
 Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
     VertexBlock block = readAttributes(source, primitive, nullptr, what);
     std::vector<std::uint32_t> none;
