@@ -59,8 +59,8 @@ const std::array<Kernel, 5> publishedKernels = {{
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
     Values weights;       // areas of the quadrature nodes
-    Values roots;         // square roots of `weights`, which count more in the square's corners (`guard`)
-    Values target;        // disk values times `roots`
+    Values roots;         // square roots of `weights`, increased by `guard` in the square's corners
+    Values target;        // values of the disk at the nodes, times `roots`
 };
 
 Problem problemOf(double extent, double guard) {
@@ -142,7 +142,7 @@ struct Residual : Eigen::DenseFunctor<double> {
     const Problem& problem;
 };
 
-// Runs the Levenberg–Marquardt method with numerical derivatives until the relative gain of a step is below
+// Runs the Levenberg–Marquardt method with numerical derivatives until a step reduces the error by a fraction below
 // `tolerance`.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());

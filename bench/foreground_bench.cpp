@@ -7,7 +7,7 @@
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
 // touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
-// lens cover a pixel. A stochastic rasteriser tests all of the latter.
+// lens cover a pixel. A stochastic rasteriser tests all swept triangles.
 
 #include <fmt/format.h>
 

@@ -213,7 +213,7 @@ void printFigure7(const std::string& model, int width, int height) {
         frame.sceneName);
     for (const std::uint32_t lines : {4u, 8u, 16u, 32u})
         for (const double share : {0.02, 0.05, 0.1, 0.2}) {
-            if (lines != 16 && share != tableBlur) continue;  // vary either the lines or the blur
+            if (lines != 16 && share != tableBlur) continue;  // vary either the number of lines or the blur, not both
             const View view = blurredView(frame, share, true);
             const std::vector<Measured> all = measured(view, {{&frame, "line", settingsOf(lines)},
                                                               {&frame, "line", byScore(lines)},

@@ -175,7 +175,8 @@ void disks() {
                 max = std::max(max, std::abs(deviation));
                 inside += 1;
             }
-        // Measure the width of the disk's edge, from 90 % to 10 % of the level inside, along the row of the centre.
+        // Measure the width of the disk's edge, from 90 % to 10 % of the value inside the disk, along the row through
+        // its centre.
         double high = 0, low = size;
         for (int x = centre; x < size; ++x) {
             const double value = *image.at(x, centre) / level;

@@ -313,7 +313,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // sequence of the committed tables
+    settings.sequence = Sequence::halton;  // sequence used for the committed results
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -339,7 +339,7 @@ Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
 }
 
 // Calls visit(level, CoC) for each level that is selected at a CoC from 1 to 60 px (a ninth of the image's width). Sets
-// the stage to that CoC before.
+// the stage to the level's CoC before each call.
 void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, double)>& visit) {
     const std::size_t count = stage.world.pyramids[0].levels.size();
     if (count < 2) return;

@@ -34,7 +34,8 @@ struct BoardScene {
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 
-// Returns a square board that is `pixels` px wide. `offset`: of its centre from the image's centre, px (right, up).
+// Returns a square board that is `pixels` px wide. `offset` is the position of its centre relative to the image's
+// centre, px (right, up).
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
@@ -57,8 +58,8 @@ struct BlurredLight {
     double placeError = 0;     // px, distance of the disk's centre from its exact position
 };
 
-// The light's arguments of squareAt, and the image channel to measure. Near the light's disk, this channel must contain
-// no other light.
+// Arguments of squareAt for a light, and the image channel in which the light is measured. Near the light's disk, this
+// channel must contain no other light.
 struct LightPlace {
     double depth = 6;      // m
     double pixels = 3;     // width of the light, px

@@ -47,7 +47,7 @@ double edgeError(const Edge& edge) {
         glm::translate(turned, glm::dvec3(edgeOffset * pixel - half, 0, -edge.depth)), glm::dvec3(half, half, 1));
 
     const Image image = rendered(boards);
-    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // out of the half plane; y is up
+    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // points out of the half plane; y is up
     const double diameter = blurDiameter(view, edge.depth);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)

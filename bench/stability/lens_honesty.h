@@ -22,7 +22,7 @@ struct HonestyRow {
     double expected = 0;       // diameter by the formula, px
     double measured = 0;       // diameter by the second moment, px
     double energy = 0;         // relative to the energy of the sharp light
-    std::string leftOut = {};  // why the driver cannot draw it; empty if it can
+    std::string leftOut = {};  // why the driver cannot draw the method; empty if it can
     [[nodiscard]] bool followsLens() const;
 };
 

@@ -85,7 +85,8 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the max change of a pixel between two values of λ, in units of 1/N: one sample changes a pixel by at most 1.
+// Returns the max change of a pixel between two values of λ, in units of 1/N for N samples: one sample changes a pixel
+// by at most 1.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);

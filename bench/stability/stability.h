@@ -26,7 +26,7 @@ struct StabilityCase {
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // this program lacks the method of the reference
+    bool leftOut = false;  // true if this program lacks the method of the reference
     [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
 };
 
