@@ -100,7 +100,8 @@ void syncFolder(const fs::path& folder) {
     ::close(descriptor);
 }
 
-// Returns the name of a temporary file for `target`: ".STEM.PROCESS-COUNT.EXTENSION".
+// Returns the name of a temporary file for `target`, ".STEM.PROCESS-COUNT.EXTENSION", with the process id and a
+// counter.
 std::string temporaryName(const fs::path& target, std::string_view number) {
     return fmt::format(".{}.{}{}", target.stem().string(), number, target.extension().string());
 }
@@ -132,7 +133,7 @@ PendingNames& pendingNames() {
     return names;
 }
 
-// Removes the temporary files of `target` that killed processes have left.
+// Removes the temporary files of `target` that killed processes left behind.
 void removeAbandonedOf(const fs::path& target) {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
     const std::size_t begin = target.stem().string().size() + 2;  // start of the process id in a temporary file's name

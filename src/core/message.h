@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept;
 
-// Returns the text with each control character replaced by '?', because a terminal would interpret it. Line breaks
-// stay.
+// Returns the text with each control character replaced by '?', because a terminal would interpret it. Line breaks are
+// kept.
 std::string printable(std::string_view text);
 
 // Returns `text` truncated to a few hundred bytes, with control characters replaced by spaces, so that an error with

@@ -101,7 +101,7 @@ constexpr ShaderConstant constants[] = {
 
     // Circular
     {"int", "kernelSize", "1"},
-    {"int", "components", "1"},  // components of the kernel that a pass filters
+    {"int", "components", "1"},  // number of kernel components that a pass filters
     {"vec2", "kernelAxes", "vec2(1.0)"},
     {"bool", "bracketed", "false"},
     {"float", "largestSum", "0.0"},

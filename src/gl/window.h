@@ -43,7 +43,7 @@ struct WindowEvent {
     Type type = Type::move;
     glm::dvec2 position{0.0};  // mouse position in window units from the top left
     MouseButton button = MouseButton::left;
-    bool pressed = false;    // for button and key events
+    bool pressed = false;    // true: pressed, false: released; for button and key events
     bool repeated = false;   // for key events: the key is held down
     glm::dvec2 scroll{0.0};  // wheel steps; x > 0: left, y > 0: away from the user
     int key = 0;             // key code, for key events
@@ -93,7 +93,7 @@ public:
     void setClipboard(const std::string& text);
     [[nodiscard]] GLFWwindow* native() const { return window_; }
     [[nodiscard]] const std::string& device() const { return device_; }
-    [[nodiscard]] bool software() const { return software_; }  // true if it renders on the CPU
+    [[nodiscard]] bool software() const { return software_; }  // true if OpenGL renders on the CPU
 
 private:
     void installCallbacks();
@@ -105,7 +105,7 @@ private:
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
     glm::ivec2 size_{0}, framebufferSize_{0};
-    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored after full screen
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored when full screen ends
     std::string device_;
     bool software_ = false;
 };

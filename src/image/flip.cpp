@@ -148,7 +148,7 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
         const std::vector<double> weights = weightsOf(term);
         return scaled(weights, 1 / sum(weights));
     };
-    // The blue-yellow filter is a sum of two Gaussians. Each is separable; `share` is its weight, the sum over its 2D
+    // The blue-yellow filter is a sum of two separable Gaussians. `share` is a Gaussian's weight, the sum over its 2D
     // kernel.
     std::array<double, 2> share;
     for (std::size_t i = 0; i < share.size(); ++i) {
@@ -255,7 +255,7 @@ public:
     }
 
 private:
-    float largest_;  // difference between green and blue, the maximum
+    float largest_;  // max difference: that between green and blue
 };
 
 // Computes LDR-FLIP of the images mapped by `toDisplay`. Raises each pixel of `map` to the result if the result is

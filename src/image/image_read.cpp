@@ -29,7 +29,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with more is probably damaged.
+// Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with a larger size is probably damaged.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
 // Maximum pixels per byte of a JPEG file: each 8 × 8 block takes at least one bit. For shorter files, libjpeg would
 // spend a long time filling the missing pixels.

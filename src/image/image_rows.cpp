@@ -114,7 +114,7 @@ struct ImageRowWriter::State {
     CheckedFile file;
     std::unique_ptr<OIIO::ImageOutput> output;
     OIIO::ImageSpec spec;
-    int channels = 0;  // of the rows passed to write()
+    int channels = 0;  // channels of the rows passed to write()
     int written = 0;   // rows written so far
 };
 

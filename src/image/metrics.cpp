@@ -156,8 +156,8 @@ struct Mean {
     [[nodiscard]] double orElse(double empty) const { return pixels > 0 ? total / static_cast<double>(pixels) : empty; }
 };
 
-// Sums over the strips of an image. Values are added row by row, so that the result depends neither on the number of
-// cores nor on the strips.
+// Sums of pixel differences over the strips of an image. Values are added row by row, so that the result depends
+// neither on the number of cores nor on the strips.
 class DifferenceSums {
 public:
     DifferenceSums(int width, int height, const CompareOptions& options)

@@ -163,7 +163,7 @@ glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
     const auto index = std::min(static_cast<std::ptrdiff_t>(row), static_cast<std::ptrdiff_t>(image.rows) - 1);
     const auto first = image.cellEnds.begin() + index * image.columns;
     const glm::dvec2 point = lensPoint(image, placeAmong(first, first + image.columns, square.x), row);
-    // Cells on the rim extend beyond the disk by less than a cell.
+    // Clamp to the disk, because cells on the rim extend beyond it by less than a cell.
     return point / std::max(glm::length(point), 1.0);
 }
 
