@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-// Returns the channel's value at `time` (seconds), which has `count` components: 3 for translation and scale, one per
-// morph target for weights. Times outside the keys give the first or last value.
+// Returns the channel's value at `time` (seconds): `count` components, 3 for translation and scale, one per morph
+// target for weights. Times outside the keys give the first or last value.
 std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time);
 
 // Returns the index of the clip whose name or index (from 0) the text gives; names take precedence. Throws Error, with

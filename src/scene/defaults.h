@@ -43,10 +43,10 @@ struct StudioLight {
 };
 std::span<const StudioLight> studioLights();
 
-// lightsOrDefault returns the pose's lights. Without any, it returns key, fill and rim lights placed relative to the
-// camera, or no lights if every drawn material is unlit or uniformly emissive. environmentOrDefault returns the scene's
-// environment; without one, a soft sky. Under the default lights and sky, a surface of 18 % reflectance appears at 18 %
-// of display white.
+// lightsOrDefault returns the pose's lights. If the pose has none, it returns key, fill and rim lights placed relative
+// to the camera, or no lights if every drawn material is unlit or uniformly emissive. environmentOrDefault returns the
+// scene's environment; without one, a soft sky. Under the default lights and sky, a surface of 18 % reflectance appears
+// at 18 % of display white.
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 

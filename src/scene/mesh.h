@@ -66,7 +66,7 @@ struct Primitive {
 struct Strokes {
     int material = -1;  // index into Scene::materials; -1: glTF's default material
     bool points = false;
-    std::vector<std::uint32_t> indices;  // into `vertices`: one per point, two per line segment
+    std::vector<std::uint32_t> indices;  // indices into `vertices`: one per point, two per line segment
     Vertices vertices;                   // without normals, the strokes are not lit
 };
 

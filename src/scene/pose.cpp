@@ -152,7 +152,7 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// Returns the matrix from mesh space to world space of each joint of the skin.
+// Returns, for each joint of the skin, the matrix from mesh space to world space.
 std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode) {
     std::vector<glm::dmat4> matrices;
     matrices.reserve(skin.joints.size());
@@ -232,7 +232,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     const glm::dmat4 metresFromUnits = glm::scale(glm::dmat4(1.0), glm::dvec3(scene.metresPerUnit));
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
-    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // product over a node and its ancestors
+    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // blur factors: product over a node and its ancestors
     std::vector<bool> visible(scene.nodes.size());           // whether a node and its ancestors are visible
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {

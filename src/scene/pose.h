@@ -41,7 +41,7 @@ struct Pose {
     std::vector<PlacedLight> lights;  // at most maxLights
     std::size_t faintLights = 0;      // number of fainter lights that were dropped
     std::vector<Camera> cameras;      // one per entry of Scene::cameras, with animated values
-    Bounds bounds;                    // world space, of all objects except the ground
+    Bounds bounds;                    // of all objects except the ground, in world space
 };
 
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give

@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // triangle edges of the eyes relative to the body's; smaller for crisp pupils
+constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to the body; short for crisp pupils
 
 // ---- body ------------------------------------------------------------------------------------------
 

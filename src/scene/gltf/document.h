@@ -31,7 +31,7 @@ Document readDocument(const std::filesystem::path& path);
 // Returns the number of entries in the JSON's top-level array `name`; 0 if it does not exist.
 std::size_t entryCount(const Document& document, std::string_view name);
 
-// Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and follow white space.
+// Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and preceded by white space.
 bool isDataUri(const std::string& uri);
 
 // Returns the path of the file that a URI refers to, relative to the document's folder; nullopt for data URIs. A
