@@ -1,8 +1,9 @@
-// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load them.
+// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load the
+// pyramids.
 //
-// Held equal: meshes, options, process and all cores. The cache is a new temporary folder, and its files are in the
-// page cache when they are loaded. Loading includes hashing the meshes, as in the program. The fastest of several loads
-// counts. The loaded pyramids are compared with the built ones.
+// Held constant: meshes, options, process and number of threads (all cores). The cache is a new temporary folder, and
+// its files are in the page cache when they are loaded. Loading includes hashing the meshes, as in the program. Loading
+// is repeated, and the fastest time counts. The loaded pyramids are compared with the built ones.
 
 #include <fmt/format.h>
 #include <unistd.h>

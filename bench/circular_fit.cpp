@@ -1,6 +1,6 @@
 // Fits the separable complex kernels of src/render/circular/circular_kernel.h to a disk, by least squares over the
-// square that the taps cover. Prints them in the format of the table in circular_kernel.cpp, and compares them with the
-// published kernels.
+// square that the taps cover. Prints the kernels in the format of the table in circular_kernel.cpp, and compares them
+// with the published kernels.
 //
 // Variable projection (Golub and Pereyra 1973): for given decays and frequencies, the weights A and B solve a linear
 // least-squares problem with one linear constraint, ∫K = ∫D (kernel K, disk D). Only 2n unknowns remain for the

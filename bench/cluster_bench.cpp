@@ -4,9 +4,9 @@
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
-// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn alternately.
-// The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends less on
-// other load. The images are compared bit by bit.
+// Held constant: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn
+// alternately. The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends
+// less on other load. The images are compared bit by bit.
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 //
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
-// Held equal within a table: scene, camera, light, image size and process. In Table 1, the blur of the most blurred
+// Held constant within a table: scene, camera, lights, image size and process. In Table 1, the blur of the most blurred
 // object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focus is in front of all
 // objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
 // RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x

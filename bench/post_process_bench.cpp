@@ -1,9 +1,12 @@
-// Measures the method "circular" (Garcia 2018): the time of the separable blur depending on the radius, compared with a
-// direct gather of the same kernel over its complete square; the possible saving by one pass for near and far field;
-// the flatness of the disks by number of components; the error of storage formats.
+// Measures the method "circular" (Garcia 2018):
+// - the time of the separable blur depending on the radius, compared with a direct gather of the same kernel over its
+//   complete square;
+// - the possible saving by one pass for near and far field;
+// - the flatness of the disks depending on the number of components;
+// - the error of storage formats.
 //
-// Held equal within a table: image, process, kernel. Runs alternate; the median counts. Checks that the separable and
-// the direct blur agree.
+// Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
+// the separable and the direct blur agree.
 
 #include <fmt/format.h>
 

@@ -1,20 +1,20 @@
 // Compares pyramids with levels from meshoptimizer and OpenMesh: build time, and similarity of the levels to the mesh.
 //
-// Time (CPU time). Held equal: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is the
-// complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is repair
-// and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer" is
-// meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a mesh
-// with welded positions. Neither of the two produces attributes. "times as fast" compares levels and pyramid with
-// DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the result. --million
-// adds a fish with a million triangles, smooth and flat-shaded.
+// Time (CPU time). Held constant: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is
+// the complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is
+// repair and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer"
+// is meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a
+// mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast" compares levels and
+// pyramid with DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the
+// result. --million adds a fish with a million triangles, smooth and flat-shaded.
 //
-// Distance. Held equal: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
+// Distance. Held constant: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
 // level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
 // geometric mean of the ratios over all levels.
 //
-// Looks. Held equal: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our counts),
-// camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds select
-// it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
+// Looks. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our
+// counts), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds
+// select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
 // vertices; its meshopt_simplify ignores attributes (version 0.18).
 //
 // Normals. Compares our levels with three kinds of normals: fitted; area-weighted means over the level's faces at each

@@ -2,8 +2,8 @@
 // patterns are Vogel's spiral, rings of points, and a set relaxed to blue noise.
 //
 // The first table shows area errors of the points, on the lens and in the pixel. The second shows image errors by
-// number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference per scene. The
-// reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
+// number of lens samples. Held constant: scene, camera, lens, full detail, 32-bit layers, and one reference per scene.
+// The reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
 // display-encoded values is averaged as a root mean square, and FLIP as a mean. The patterns are used on the lens only;
 // their points in the pixel come from `sobol`.
 //

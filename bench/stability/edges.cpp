@@ -1,4 +1,4 @@
-// Straight edges under extreme blur. In closed form, their profile is the area of the blur disk on one side of the
+// Straight edges under extreme blur. The exact profile of such an edge is the area of the blur disk on one side of the
 // edge.
 
 #include <algorithm>

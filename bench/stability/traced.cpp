@@ -1,5 +1,5 @@
-// Compares extreme scenes with the ray tracer, with the same points on the lens and in the pixel for both, so that only
-// geometry and visibility can differ.
+// Compares the rasteriser with the ray tracer on extreme scenes. Both use the same points on the lens and in the pixel,
+// so that only geometry and visibility can differ.
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
