@@ -47,7 +47,7 @@ int run(const fs::path& folder) {
     std::size_t triangles = 0;
     for (const Mesh& mesh : meshes) triangles += mesh.triangleCount();
 
-    // Time building, then storing.
+    // Measure the times to build and to store the pyramids.
     std::vector<Pyramid> built;
     const double building = milliseconds([&] { built = buildPyramids(meshes); });
     const double storing = milliseconds(
@@ -55,7 +55,7 @@ int run(const fs::path& folder) {
     double megabytes = 0;
     for (const CacheFile& file : cacheFiles(folder)) megabytes += static_cast<double>(file.bytes) * 1e-6;
 
-    // Time loading and hashing.
+    // Measure the times to hash the meshes and to load the pyramids.
     double loading = std::numeric_limits<double>::infinity();
     double hashing = std::numeric_limits<double>::infinity();
     CachedPyramids cached;

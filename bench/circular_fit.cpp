@@ -36,7 +36,7 @@ using Values = Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 
-// Kernels of Niemitalo 2010: decay, frequency and the two weights of each component, in his units.
+// Kernels of Niemitalo 2010: decay, frequency and the two weights of each component, in Niemitalo's units.
 const std::array<Kernel, 5> publishedKernels = {{
     {{0.862325, 1.624835, 0.767583, 1.862321}},
     {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}},
@@ -198,9 +198,9 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
 // ---- tables -----------------------------------------------------------------------------------------------------
 
 struct Ripple {
-    double insideMax = 0;  // max |K − 1| for r < 0.9; K is the kernel's value
-    double insideRms = 0;  // RMS of K − 1 for r < 0.9
-    double highest = 0;    // max K for r > 1.1 within the square
+    double insideMax = 0;  // max |value − 1| of the kernel for r < 0.9
+    double insideRms = 0;  // RMS of the kernel's value − 1 for r < 0.9
+    double highest = 0;    // max value of the kernel for r > 1.1 within the square
     double lowest = 0;
 };
 

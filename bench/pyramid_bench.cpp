@@ -155,7 +155,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds our levels without fits and error measurements. Returns the number of triangles in the last level.
+// Builds our levels without fitting attributes and measuring errors. Returns the number of triangles in the last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {

@@ -147,7 +147,7 @@ std::vector<Region> boxes() {
 }
 
 struct Discrepancy {
-    double all = 0;     // RMS over the regions of the area error, with all points
+    double all = 0;     // RMS area error over the regions, with all points
     double prefix = 0;  // max area error over all regions and all prefixes of at least 16 points
     double suffix = 0;
 };
@@ -236,7 +236,7 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
 }
 
 // Renders a plan once. Returns its images after each number of samples in `reads` (ascending). `samples` replaces the
-// plan's samples unless empty.
+// plan's samples unless it is empty.
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;

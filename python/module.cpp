@@ -2,7 +2,7 @@
 // adds the Python interface.
 //
 // Images are passed without copies: returned arrays own pixels allocated in C++, and arguments are read in place. The
-// GIL is released during all calls that take long.
+// GIL is released during all long-running calls.
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>

@@ -11,7 +11,8 @@ namespace defocus::engine {
 
 class ApertureMask {
 public:
-    // Throws Error if less than 1/500 of the disk's light passes, because sampling would reject too many candidates.
+    // Throws Error if the mask transmits less than 1/500 of the light on the disk, because sampling would reject too
+    // many candidates.
     explicit ApertureMask(const Lens& lens);
 
     // Returns whether the lens needs a mask. Disks and polygons with straight blades need none, because aperturePoint

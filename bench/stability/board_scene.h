@@ -51,8 +51,8 @@ double largestError(const Image& a, const Image& b);
 // depth z in m, and W the width of the image in px. Computed in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 
-// Errors of a blurred light from squareAt relative to the closed form. The measured diameter is derived from the second
-// moment.
+// Errors of a blurred light made by squareAt, relative to the closed form. The measured diameter is derived from the
+// second moment.
 struct BlurredLight {
     double diameterError = 0;  // px
     double placeError = 0;     // px, distance of the disk's centre from its exact position

@@ -35,7 +35,7 @@ std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});
 
-// Each adds the cases of one file to stabilityCases().
+// Each function adds the cases of one file to stabilityCases().
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
 void addEdgeCases(std::vector<StabilityCase>& cases);

@@ -13,7 +13,7 @@
 namespace defocus {
 
 // Image of linear Rec.709 colour. Row 0 is the top row, and channels are interleaved. Alpha is coverage, and colours
-// are premultiplied by it.
+// are premultiplied by alpha.
 struct Image {
     int width = 0;
     int height = 0;
@@ -112,7 +112,8 @@ DEFOCUS_API Image readImage(const std::filesystem::path& path);
 //   .exr: linear 32-bit float with ZIP compression;
 //   .png: tone-mapped, sRGB-encoded, 8 bits, with straight alpha if the image has 4 channels;
 //   .jpg, .jpeg: like .png, but composited over black.
-// The write is atomic: a failure leaves no partial file. Throws Error naming the file and the fault.
+// The write is atomic: a failure leaves no partial file. Throws Error, with the path and the reason in its message, if
+// writing fails.
 DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& image,
                             const WriteOptions& options = {});
 

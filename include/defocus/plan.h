@@ -40,7 +40,7 @@ struct PlannedObject {
     bool blended = false;            // true if the object has alpha-blended materials
     bool transmits = false;          // true if the object has transmitting materials
     bool moves = false;              // true if the object moves during the exposure
-    std::vector<PlannedDraw> draws;  // 1 or 2, the coarser level first
+    std::vector<PlannedDraw> draws;  // one or two, the coarser level first
     // If a sample mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
@@ -93,7 +93,7 @@ struct Plan {
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::vector<PlannedObject> objects;  // front to back
+    std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.
     std::uint64_t trianglesDrawn = 0;

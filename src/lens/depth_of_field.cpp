@@ -18,7 +18,7 @@ DepthOfField depthOfField(const Lens& lens, double acceptable) {
     if (!(aperture > 0)) return {0, 0, infinity};
     const double f = lens.focalLength * millimetre;
     const double imageDistance = lens.horizontalAperture * millimetre / (2 * tanHalfHorizontalFov(lens));
-    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // half range of sharp 1/z, in 1/m
+    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // half the range of 1/z in focus, 1/m
     DepthOfField result;
     result.hyperfocal = aperture * f / (acceptable * millimetre) + (lens.focusBreathing ? f : 0);
     result.near = 1 / (1 / lens.focusDistance + inFocus);

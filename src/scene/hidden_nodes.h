@@ -1,5 +1,5 @@
 #pragma once
-// Hiding of nodes: objects of hidden nodes are not drawn.
+// Hides nodes: objects of hidden nodes and of their descendants are not drawn.
 
 #include <span>
 #include <string>
