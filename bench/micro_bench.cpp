@@ -94,7 +94,7 @@ void pyramidOfFish(benchmark::State& state) {
 }
 BENCHMARK(pyramidOfFish)->Unit(benchmark::kMillisecond);
 
-// Computes all metrics for two 256×256 images that differ, on half of the pixels, by a display-encoded grey of 0.1.
+// Computes all metrics for two 256×256 images whose display-encoded grey differs by 0.1 on half of the pixels.
 void differenceOfImages(benchmark::State& state) {
     constexpr int size = 256;
     Image reference(size, size, 3);

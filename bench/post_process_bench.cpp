@@ -1,7 +1,7 @@
 // Measures the method "circular" (Garcia 2018):
 // - the time of the separable blur depending on the radius, compared with a direct gather of the same kernel over its
 //   complete square;
-// - the possible saving by one pass for near and far field;
+// - the time that a single pass for near and far field could save;
 // - the flatness of the disks depending on the number of components;
 // - the error of storage formats.
 //

@@ -23,7 +23,7 @@ ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint3
 // use this result.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
-// Returns the scrambled points, in [0, 1)², in `x` and `y`.
+// Writes the scrambled points, in [0, 1)², to `x` and `y`.
 void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
 // Aperture data that mapToAperture needs, computed once per lens.

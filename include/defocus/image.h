@@ -82,7 +82,7 @@ private:
     }
 };
 
-// Position of a pixel in an image: column from the left, row from the top, from 0.
+// Position of a pixel in an image: column from the left and row from the top, both starting at 0.
 struct Pixel {
     int column = 0;
     int row = 0;

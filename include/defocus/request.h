@@ -78,7 +78,7 @@ struct Request {
 
     // Samples and levels of detail.
     std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, for `quality`
-    Quality quality = Quality::good;       // automatic `samples`; ignored with targetError, timeLimit
+    Quality quality = Quality::good;       // used if samples, targetError and timeLimit are unset
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
     // error is below the target. `samples` is the max number of samples.
     std::optional<double> targetError;

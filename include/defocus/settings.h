@@ -10,8 +10,8 @@ namespace defocus {
 inline constexpr std::uint32_t maxSamples = 65'536;  // max lens samples per frame
 inline constexpr int maxImageSide = 16'384;          // px, max width and height of an image
 
-// Error at which a frame with an automatic number of samples is complete: a FLIP against the converged image of about
-// 0.03 (draft), 0.01 (good) or 0.005 (fine).
+// Target error of a frame with an automatic number of samples: a FLIP of about 0.03 (draft), 0.01 (good) or 0.005
+// (fine) against the converged image.
 enum class Quality { draft, good, fine };
 
 // Low-discrepancy sequences for sample points on the lens, in the pixel and in the exposure. All are infinite, and

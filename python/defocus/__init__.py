@@ -105,7 +105,7 @@ class Statistics(NamedTuple):
     gpu_bytes: int
     device: str
     stopped: str  # why the frame ended: "samples", "target error", "time limit" or "nothing blurred"
-    estimated_error: Optional[float]  # with target_error or time_limit: RMSE of the display-encoded image at EV 0
+    estimated_error: Optional[float]  # RMSE of the display-encoded image at EV 0; only with target_error or time_limit
 
 
 def settings() -> List[Setting]:

@@ -48,7 +48,7 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
 struct Strip {
     int first = 0;  // compared rows
     int end = 0;
-    int from = 0;  // rows with margins
+    int from = 0;  // rows including the margins: [from, to)
     int to = 0;
 };
 

@@ -5,7 +5,8 @@
 //
 // Missing data is completed as glTF requires. Primitives without normals are flat-shaded with unshared vertices;
 // missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer vertices than
-// its accessors. Nodes are those of the default scene, else of the first scene, else all.
+// its accessors. The nodes of the default scene are loaded; without a default scene, those of the first scene; without
+// scenes, all nodes.
 
 #include <filesystem>
 
