@@ -1,5 +1,5 @@
-// Levels of detail λ near integers and near sample boundaries: a tiny change of λ changes the level of at most one
-// sample, in the split of the samples and in the image.
+// Levels of detail λ near integers and near sample boundaries. A tiny change of λ must change the level of at most one
+// sample, both in the split of the samples and in the image.
 
 #include <fmt/format.h>
 

@@ -132,8 +132,8 @@ struct Light {  // KHR_lights_punctual
 // Type of the environment that surrounds and lights the scene. L(d) is its radiance in the unit direction d; d.y is up.
 enum class EnvironmentType {
     none,      // black and transparent: alpha is the coverage by geometry
-    uniform,   // L = zenith everywhere
-    gradient,  // L = mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below
+    uniform,   // radiance `zenith` in all directions
+    gradient,  // radiance mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below the horizon
     map,       // equirectangular HDR image; the centre column is d = −z, the right half has d.x > 0
 };
 

@@ -23,7 +23,7 @@ struct Fin {
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
-    bool rowsAlongRays = false;  // true: vertex rows follow the fin rays (long low fins); false: they cross them (fans)
+    bool rowsAlongRays = false;  // true: vertex rows follow the fin rays (long low fins); false: rows cross them (fans)
 };
 
 // Vertex rows of a fin. `at` is the position t of each row across the fin if rows follow the fin rays, else its

@@ -111,7 +111,7 @@ public:
 
 private:
     static constexpr int steps = 256;
-    static constexpr float first = -0.2f;  // position `a` of the first station
+    static constexpr float first = -0.2f;  // position `a` of the first tabulated spine point
     static constexpr float last = 2.3f;
     struct Station {
         glm::vec2 position{0.0f};  // x and z
