@@ -1,6 +1,6 @@
 // Measures the time that cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that
-// face away or lie outside the image for all lens samples and time samples (plan/visible/visibility.h). Step 2 also
-// culls clusters that are occluded in a sample (render/occlusion/occlusion.h).
+// face away or lie outside the image for all lens samples and instants of the exposure (plan/visible/visibility.h).
+// Step 2 also culls clusters that are occluded in a sample (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //

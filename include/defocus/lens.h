@@ -30,7 +30,7 @@ struct LensSettings {
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
     std::optional<double> astigmatism;               // mm on the sensor; length of a focused point at the side edges
     std::optional<double> coma;                      // mm on the sensor; comet tail at the side edges; > 0: outwards
-    std::filesystem::path apertureImage;             // image of the aperture; replaces the shape settings; empty: none
+    std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
     std::optional<double> foregroundLimit;    // px, max blur diameter in front of the focus plane

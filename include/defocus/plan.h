@@ -75,7 +75,7 @@ struct Plan {
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // px
-    std::uint64_t moments = 0;        // number of time samples of the scene's motion; 0: nothing moves
+    std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
     // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
     LodMode lod = LodMode::fractional;
