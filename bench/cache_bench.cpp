@@ -1,8 +1,9 @@
-// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load them.
+// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load the
+// pyramids.
 //
-// Held equal: meshes, options, process and all cores. The cache is a new temporary folder, and its files are in the
-// page cache when they are loaded. Loading includes hashing the meshes, as in the program. The fastest of several loads
-// counts. The loaded pyramids are compared with the built ones.
+// Held constant: meshes, options, process and number of threads (all cores). The cache is a new temporary folder, and
+// its files are in the page cache when they are loaded. Loading includes hashing the meshes, as in the program. Loading
+// is repeated, and the fastest time counts. The loaded pyramids are compared with the built ones.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,7 +47,7 @@ int run(const fs::path& folder) {
     std::size_t triangles = 0;
     for (const Mesh& mesh : meshes) triangles += mesh.triangleCount();
 
-    // Time building, then storing.
+    // Measure the times to build and to store the pyramids.
     std::vector<Pyramid> built;
     const double building = milliseconds([&] { built = buildPyramids(meshes); });
     const double storing = milliseconds(
@@ -54,7 +55,7 @@ int run(const fs::path& folder) {
     double megabytes = 0;
     for (const CacheFile& file : cacheFiles(folder)) megabytes += static_cast<double>(file.bytes) * 1e-6;
 
-    // Time loading and hashing.
+    // Measure the times to hash the meshes and to load the pyramids.
     double loading = std::numeric_limits<double>::infinity();
     double hashing = std::numeric_limits<double>::infinity();
     CachedPyramids cached;

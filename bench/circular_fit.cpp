@@ -1,6 +1,6 @@
 // Fits the separable complex kernels of src/render/circular/circular_kernel.h to a disk, by least squares over the
-// square that the taps cover. Prints them in the format of the table in circular_kernel.cpp, and compares them with the
-// published kernels.
+// square that the taps cover. Prints the kernels in the format of the table in circular_kernel.cpp, and compares them
+// with the published kernels.
 //
 // Variable projection (Golub and Pereyra 1973): for given decays and frequencies, the weights A and B solve a linear
 // least-squares problem with one linear constraint, ∫K = ∫D (kernel K, disk D). Only 2n unknowns remain for the
@@ -36,7 +36,7 @@ using Values = Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 
-// Kernels of Niemitalo 2010: decay, frequency and the two weights of each component, in his units.
+// Kernels of Niemitalo 2010: decay, frequency and the two weights of each component, in Niemitalo's units.
 const std::array<Kernel, 5> publishedKernels = {{
     {{0.862325, 1.624835, 0.767583, 1.862321}},
     {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}},
@@ -59,8 +59,8 @@ const std::array<Kernel, 5> publishedKernels = {{
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
     Values weights;       // areas of the quadrature nodes
-    Values roots;         // square roots of `weights`, which count more in the square's corners (`guard`)
-    Values target;        // disk values times `roots`
+    Values roots;         // square roots of `weights`, increased by `guard` in the square's corners
+    Values target;        // values of the disk at the nodes, times `roots`
 };
 
 Problem problemOf(double extent, double guard) {
@@ -142,7 +142,7 @@ struct Residual : Eigen::DenseFunctor<double> {
     const Problem& problem;
 };
 
-// Runs the Levenberg–Marquardt method with numerical derivatives until the relative gain of a step is below
+// Runs the Levenberg–Marquardt method with numerical derivatives until a step reduces the error by a fraction below
 // `tolerance`.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());
@@ -198,9 +198,9 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
 // ---- tables -----------------------------------------------------------------------------------------------------
 
 struct Ripple {
-    double insideMax = 0;  // max |K − 1| for r < 0.9; K is the kernel's value
-    double insideRms = 0;  // RMS of K − 1 for r < 0.9
-    double highest = 0;    // max K for r > 1.1 within the square
+    double insideMax = 0;  // max |value − 1| of the kernel for r < 0.9
+    double insideRms = 0;  // RMS of the kernel's value − 1 for r < 0.9
+    double highest = 0;    // max value of the kernel for r > 1.1 within the square
     double lowest = 0;
 };
 

@@ -1,12 +1,12 @@
 // Measures the time that cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that
-// face away or lie outside the image for all lens samples and moments (plan/visible/visibility.h). Step 2 also culls
-// clusters that are occluded in a sample (render/occlusion/occlusion.h).
+// face away or lie outside the image for all lens samples and instants of the exposure (plan/visible/visibility.h).
+// Step 2 also culls clusters that are occluded in a sample (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
-// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn alternately.
-// The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends less on
-// other load. The images are compared bit by bit.
+// Held constant: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn
+// alternately. The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends
+// less on other load. The images are compared bit by bit.
 
 #include <fmt/format.h>
 
@@ -67,7 +67,7 @@ FramePlan withHidden(FramePlan plan) {
     return plan;
 }
 
-// Returns the plan with all clusters of its levels: step 1 is disabled.
+// Returns the plan with all clusters of its levels, without cluster culling (step 1).
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {
         object.visible.clear();

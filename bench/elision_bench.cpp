@@ -1,8 +1,8 @@
-// Measures the time and memory that a plan saves by omitting unneeded work. Each scene is drawn with everything kept
-// and with omissions. There is one scene per kind of omission, and one scene without any omission.
+// Measures the time and memory that a plan saves by omitting unneeded work. Each scene is drawn twice: with everything
+// kept and with omissions. There is one scene per kind of omission, and one scene without any omission.
 //
-// Held equal: size, samples, levels, renderer and process. Runs alternate; the fastest of each counts. The PSNR between
-// the two images is infinite if the omissions don't change the image.
+// Held constant: size, samples, levels, renderer and process. The two variants run alternately; the fastest run of each
+// variant counts. The PSNR between the two images is infinite if the omissions don't change the image.
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ void prepare(Fish& fish) {
     fish.view.worldFromCamera = placed.worldFromCamera;
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
-    fish.settings.sequence = Sequence::halton;  // sequence of the committed table
+    fish.settings.sequence = Sequence::halton;  // sequence used for the committed results
 }
 
 struct Measured {

@@ -4,10 +4,10 @@
 // triangle doesn't grow with the blur. A limit saves only triangles outside the image that their blur would extend into
 // it. It also makes levels of detail finer.
 //
-// Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
-// is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
-// touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
-// lens cover a pixel. A stochastic rasteriser tests all of the latter.
+// Held constant: camera, lens, size, lens samples, renderer and process. Variants run alternately; the fastest run of
+// each variant counts. CPU is the time of all threads, which depends less on other load. `work` is the heat map of
+// --aov work: triangles that touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles
+// whose bounds over the complete lens cover a pixel. A stochastic rasteriser tests all swept triangles.
 
 #include <fmt/format.h>
 

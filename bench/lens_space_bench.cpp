@@ -4,7 +4,7 @@
 //
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
-// Held equal within a table: scene, camera, light, image size and process. In Table 1, the blur of the most blurred
+// Held constant within a table: scene, camera, lights, image size and process. In Table 1, the blur of the most blurred
 // object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focus is in front of all
 // objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
 // RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x
@@ -213,7 +213,7 @@ void printFigure7(const std::string& model, int width, int height) {
         frame.sceneName);
     for (const std::uint32_t lines : {4u, 8u, 16u, 32u})
         for (const double share : {0.02, 0.05, 0.1, 0.2}) {
-            if (lines != 16 && share != tableBlur) continue;  // vary either the lines or the blur
+            if (lines != 16 && share != tableBlur) continue;  // vary either the number of lines or the blur, not both
             const View view = blurredView(frame, share, true);
             const std::vector<Measured> all = measured(view, {{&frame, "line", settingsOf(lines)},
                                                               {&frame, "line", byScore(lines)},

@@ -1,6 +1,6 @@
-// Micro-benchmarks of the CPU side of a frame. Held equal: one thread, the same inputs in every run (a mesh, pyramid,
-// world or image pair), default lens and settings. GPU and disk are not used. Each benchmark checks its result and
-// reports an error instead of a time if the result is wrong.
+// Micro-benchmarks of the CPU side of a frame. Held constant: one thread, the same inputs in every run (a mesh,
+// pyramid, world or image pair), default lens and settings. GPU and disk are not used. Each benchmark checks its result
+// and reports an error instead of a time if the result is wrong.
 
 #include <benchmark/benchmark.h>
 
@@ -94,7 +94,7 @@ void pyramidOfFish(benchmark::State& state) {
 }
 BENCHMARK(pyramidOfFish)->Unit(benchmark::kMillisecond);
 
-// Computes all metrics for two 256×256 images that differ, on half of the pixels, by a display-encoded grey of 0.1.
+// Computes all metrics for two 256×256 images whose display-encoded grey differs by 0.1 on half of the pixels.
 void differenceOfImages(benchmark::State& state) {
     constexpr int size = 256;
     Image reference(size, size, 3);

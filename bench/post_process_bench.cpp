@@ -1,9 +1,12 @@
-// Measures the method "circular" (Garcia 2018): the time of the separable blur depending on the radius, compared with a
-// direct gather of the same kernel over its complete square; the possible saving by one pass for near and far field;
-// the flatness of the disks by number of components; the error of storage formats.
+// Measures the method "circular" (Garcia 2018):
+// - the time of the separable blur depending on the radius, compared with a direct gather of the same kernel over its
+//   complete square;
+// - the time that a single pass for near and far field could save;
+// - the flatness of the disks depending on the number of components;
+// - the error of storage formats.
 //
-// Held equal within a table: image, process, kernel. Runs alternate; the median counts. Checks that the separable and
-// the direct blur agree.
+// Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
+// the separable and the direct blur agree.
 
 #include <fmt/format.h>
 
@@ -175,7 +178,8 @@ void disks() {
                 max = std::max(max, std::abs(deviation));
                 inside += 1;
             }
-        // Measure the width of the disk's edge, from 90 % to 10 % of the level inside, along the row of the centre.
+        // Measure the width of the disk's edge, from 90 % to 10 % of the value inside the disk, along the row through
+        // its centre.
         double high = 0, low = size;
         for (int x = centre; x < size; ++x) {
             const double value = *image.at(x, centre) / level;

@@ -1,20 +1,20 @@
 // Compares pyramids with levels from meshoptimizer and OpenMesh: build time, and similarity of the levels to the mesh.
 //
-// Time (CPU time). Held equal: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is the
-// complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is repair
-// and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer" is
-// meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a mesh
-// with welded positions. Neither of the two produces attributes. "times as fast" compares levels and pyramid with
-// DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the result. --million
-// adds a fish with a million triangles, smooth and flat-shaded.
+// Time (CPU time). Held constant: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is
+// the complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is
+// repair and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer"
+// is meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a
+// mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast" compares levels and
+// pyramid with DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the
+// result. --million adds a fish with a million triangles, smooth and flat-shaded.
 //
-// Distance. Held equal: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
+// Distance. Held constant: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
 // level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
 // geometric mean of the ratios over all levels.
 //
-// Looks. Held equal: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our counts),
-// camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds select
-// it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
+// Looks. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our
+// counts), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds
+// select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
 // vertices; its meshopt_simplify ignores attributes (version 0.18).
 //
 // Normals. Compares our levels with three kinds of normals: fitted; area-weighted means over the level's faces at each
@@ -155,7 +155,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds our levels without fits and error measurements. Returns the number of triangles in the last level.
+// Builds our levels without fitting attributes and measuring errors. Returns the number of triangles in the last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -196,8 +196,8 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     std::fflush(stdout);
 }
 
-// Statistics over levels of the ratio of our level's distance to the other simplifier's. All levels have equal weight;
-// the mean is geometric.
+// Statistics of a ratio: the distance of our level from level 0, over that of the other simplifier's level. All levels
+// have equal weight; the mean is geometric.
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
@@ -313,7 +313,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // sequence of the committed tables
+    settings.sequence = Sequence::halton;  // sequence used for the committed results
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -339,7 +339,7 @@ Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
 }
 
 // Calls visit(level, CoC) for each level that is selected at a CoC from 1 to 60 px (a ninth of the image's width). Sets
-// the stage to that CoC before.
+// the stage to the level's CoC before each call.
 void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, double)>& visit) {
     const std::size_t count = stage.world.pyramids[0].levels.size();
     if (count < 2) return;

@@ -1,9 +1,9 @@
 // Measures the Embree ray tracer: time per sample, and error against a converged image. Compares separate lens samples
 // for each pixel with lens samples that all pixels share.
 //
-// Held equal: the unlit school of fish, view, lens, size, samples and process. Runs alternate; the fastest of each
-// counts. CPU is the time of all threads, which depends less on other load. The RMSE is of display-encoded values at a
-// quarter of the size, against a converged image with another seed.
+// Held constant: the unlit school of fish, view, lens, size, samples and process. Variants run alternately; the fastest
+// run of each variant counts. CPU is the time of all threads, which depends less on other load. The RMSE is of
+// display-encoded values at a quarter of the size, against a converged image with another seed.
 //
 //   defocus_ray_tracer_bench [--samples 32] [--size 1024x768] [--runs 5] [--reference-samples 2048] [--shading lit]
 

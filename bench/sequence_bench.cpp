@@ -2,10 +2,10 @@
 // patterns are Vogel's spiral, rings of points, and a set relaxed to blue noise.
 //
 // The first table shows area errors of the points, on the lens and in the pixel. The second shows image errors by
-// number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference per scene. The
-// reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
-// display-encoded values is averaged as a root mean square, and FLIP as a mean. With the patterns, points in the pixel
-// come from `sobol`.
+// number of lens samples. Held constant: scene, camera, lens, full detail, 32-bit layers, and one reference per scene.
+// The reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
+// display-encoded values is averaged as a root mean square, and FLIP as a mean. The patterns are used on the lens only;
+// their points in the pixel come from `sobol`.
 //
 //   defocus_sequence_bench [MODEL…]
 //
@@ -147,7 +147,7 @@ std::vector<Region> boxes() {
 }
 
 struct Discrepancy {
-    double all = 0;     // RMS over the regions of the area error, with all points
+    double all = 0;     // RMS area error over the regions, with all points
     double prefix = 0;  // max area error over all regions and all prefixes of at least 16 points
     double suffix = 0;
 };
@@ -236,7 +236,7 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
 }
 
 // Renders a plan once. Returns its images after each number of samples in `reads` (ascending). `samples` replaces the
-// plan's samples unless empty.
+// plan's samples unless it is empty.
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;

@@ -1,12 +1,12 @@
-// Compares the rasteriser's accumulation with the Embree ray tracer at full image size. Held equal: geometry at full
+// Compares the rasteriser's accumulation with the Embree ray tracer at full image size. Held constant: geometry at full
 // detail, baked unlit colours, view, lens, size, samples per pixel; RGBA32F layers. Deliberately different: the code
-// for sampling, projection and visibility. A second comparison uses the plan's lens points for both, so that only
-// geometry and visibility can differ; it gives the PSNR, and by how many px the image is shifted or scaled. Prints one
-// line of JSON per scene. The exit code is 1 if the first PSNR of a scene is below 45 dB.
+// for sampling, projection and visibility. A second comparison uses the plan's lens points for both renderers, so that
+// only geometry and visibility can differ. It gives the PSNR, and by how many px the image is shifted or scaled. Prints
+// one line of JSON per scene. The exit code is 1 if the first PSNR of a scene is below 45 dB.
 //
 // With --shadows ANGLE, diffuse surfaces are lit by a sun with this angular diameter in degrees, which casts shadows. A
-// second pair of images without shadows shows the time of the shadows in each renderer and their part of the error. The
-// error has no limit then, because shadow maps have a finite resolution.
+// second pair of images without shadows gives the time of the shadows in each renderer and their contribution to the
+// error. The error is not limited then, because shadow maps have a finite resolution.
 //
 //   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
 //   [--output FOLDER] [SCENE.glb …]

@@ -1,9 +1,9 @@
 // Measures the fixed time of a lens sample by layer format: clearing, compositing over a sky, adding and resolving,
 // without any object.
 //
-// Held equal: 1024 × 768 px, 64 samples, an empty scene, program and process. Runs alternate; the fastest of each
-// counts. Wave sizes K: the default for the memory of each format, and 8. Prints a table and checks that every format
-// gives the sky's colour.
+// Held constant: 1024 × 768 px, 64 samples, an empty scene, program and process. Formats run alternately; the fastest
+// run of each format counts. The wave size K, the number of samples drawn at once, is the default for the memory of
+// each format, or 8. Prints a table and checks that every format gives the sky's colour.
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // adds the Python interface.
 //
 // Images are passed without copies: returned arrays own pixels allocated in C++, and arguments are read in place. The
-// GIL is released during all calls that take long.
+// GIL is released during all long-running calls.
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -59,7 +59,7 @@ Array arrayOf(defocus::Image&& image) {
     if (owner->channels > 1) shape.push_back(owner->channels);
     float* const pixels = owner->pixels.data();
     const py::capsule keeper(owner.get(), [](void* kept) { delete static_cast<defocus::Image*>(kept); });
-    static_cast<void>(owner.release());  // now owned by the capsule
+    static_cast<void>(owner.release());  // the capsule owns the image now
     return Array(shape, pixels, keeper);
 }
 

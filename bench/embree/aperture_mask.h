@@ -11,15 +11,16 @@ namespace defocus::engine {
 
 class ApertureMask {
 public:
-    // Throws Error if less than 1/500 of the disk's light passes, because sampling would reject too many candidates.
+    // Throws Error if the mask transmits less than 1/500 of the light on the disk, because sampling would reject too
+    // many candidates.
     explicit ApertureMask(const Lens& lens);
 
-    // Returns whether the lens needs a mask. It doesn't for disks and straight blades, which aperturePoint
-    // (lens_rays.h) samples directly.
+    // Returns whether the lens needs a mask. Disks and polygons with straight blades need none, because aperturePoint
+    // (lens_rays.h) samples them directly.
     [[nodiscard]] static bool isNeeded(const Lens& lens);
 
-    // Returns the light that passes at a point of the unit disk relative to the brightest point, in [0, 1]. `point`:
-    // before the rotation and the anamorphic scaling of the aperture.
+    // Returns the transmission at a point of the unit disk relative to the most transparent point, in [0, 1]. `point`
+    // is the position before the rotation and the anamorphic scaling of the aperture.
     [[nodiscard]] double at(const glm::dvec2& point) const;
 
     // Returns lens point `index` of stream `stream` (see scrambledPoint), after rotation and anamorphic scaling.

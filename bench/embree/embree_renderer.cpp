@@ -23,8 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Samples per advance(). A thread traces them one after another for a tile, while the tile's part of the scene is in
-// its cache.
+// Samples per advance(). A thread traces these samples of a tile one after another, while the tile's part of the scene
+// is in the CPU cache.
 constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;
@@ -201,8 +201,8 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the stream number of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet in
-// the tile.
+// Returns the stream number of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet's
+// index in the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;

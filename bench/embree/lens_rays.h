@@ -36,28 +36,28 @@ struct LensCamera {
 
     // Members that are used only with a foreground limit.
     double lensDepth = 0;  // α, m; 0: no foreground limit, the lens is at the eye
-    double cone = 0;       // tangent of the half angle of the eye's cone of rays, which covers c₀ px
+    double cone = 0;       // tangent of the half angle of the cone of rays from the eye
 };
 
 LensCamera lensCamera(const View& view);
 
 struct LensRay {
     glm::vec3 origin{0.0f};     // in camera space, on the lens (z = 0)
-    glm::vec3 direction{0.0f};  // z = −1: the ray parameter is the depth in m
+    glm::vec3 direction{0.0f};  // z = −1, so that the ray parameter is the depth in m
 };
 
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// Only with a foreground limit: return the ray from the eye to the lens at lensDepth, and its continuation behind that
-// lens.
+// For cameras with a foreground limit: return the ray from the eye to the lens at lensDepth, and the ray's continuation
+// behind that lens.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
 // Selects the lens's or the pixel's pair of dimensions.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream`: selects the scramble: a pixel's number, or one
+// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream` selects the scramble: a pixel's number, or one
 // number for all pixels.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 

@@ -15,15 +15,15 @@ struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) for each of the 16 orders of the points, one per lane. All packets use
-// this result.
+// Returns unscrambledPoint (sample_scramble.h) for each of the 16 orders of the points, one order per lane. All packets
+// use this result.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
 // Returns scrambleSeeds (sample_scramble.h) for 16 streams, beginning with firstStream (a multiple of 16). All samples
 // use this result.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
-// Returns the scrambled points, in [0, 1)², in `x` and `y`.
+// Writes the scrambled points, in [0, 1)², to `x` and `y`.
 void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
 // Aperture data that mapToAperture needs, computed once per lens.

@@ -12,8 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Interpolates between three corner values with barycentric weights. Differences from the first corner are added to it,
-// so that equal corner values give exactly this value.
+// Interpolates between three corner values with barycentric weights. The differences from the first corner's value are
+// added to this value, so that three equal values give exactly this value.
 DEFOCUS_ALWAYS_INLINE float mixed(float a, float b, float c, float u, float v) {
     return a + u * (b - a) + v * (c - a);
 }

@@ -113,7 +113,7 @@ glm::vec2 onDisk(const glm::vec2& place) {
     const float ring = std::max(std::abs(a), std::abs(b));
     if (!(ring > 0)) return glm::vec2(0);
     constexpr float eighth = std::numbers::pi_v<float> / 4;
-    float angle = 0;  // from the first axis; each side of a square maps to a quarter turn
+    float angle = 0;  // angle from the first axis; each side of a square spans a quarter turn
     if (std::abs(a) > std::abs(b))
         angle = a > 0 ? eighth * b / a : eighth * (4 + b / a);
     else
@@ -125,7 +125,7 @@ glm::vec2 onDisk(const glm::vec2& place) {
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre
-    float distance = 0;        // to the light's centre, m; 0: infinitely far
+    float distance = 0;        // m to the light's centre; 0: infinitely far
 };
 
 Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {

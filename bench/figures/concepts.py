@@ -15,7 +15,7 @@ from figures.command import ROOT, add_program, parser_of, run
 from figures.files import write_file
 
 FOLDER = ROOT / "docs" / "concepts"
-INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # after Okabe and Ito
+INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # palette after Okabe and Ito
 CELL_COLOURS = ("#0063a8", "#f0a070", "#35b089", "#c070a0")
 FOCUS = 2.0  # focus distance, m
 
@@ -104,7 +104,7 @@ def draw_circle_of_confusion():
     """Draws the blur diameter over depth for a 50 mm f/2 lens, 36 mm sensor, 1024 px; below, the blur disks."""
     drawing = Drawing(720, 330, "Diameter of the circle of confusion over depth")
     left, right, top, bottom, first, last, most = 60, 690, 20, 220, 0.8, 8.0, 30.0
-    scale = 0.050 / 2 * 1024 / 0.72  # A · W / (2 tan(θx/2)), with tan(θx/2) = 18/50
+    scale = 0.050 / 2 * 1024 / 0.72  # A · W / (2 tan(θx/2)) with A = 0.050/2 m, W = 1024 px, tan(θx/2) = 18/50
 
     def diameter(depth):
         return scale * abs(1 / FOCUS - 1 / depth)

@@ -53,7 +53,7 @@ def main(words):
         settings = {"scenes": arguments.scenes, "width": arguments.size[0], "height": arguments.size[1],
                     "samples": arguments.samples, "counts": COUNTS, "folder": str(folder), "program": str(arguments.program)}
         script = pathlib.Path(__file__).with_name("cycles_render.py")
-        # Debian's Blender takes the first Python of PATH as its own, so the one beside Blender goes first.
+        # Debian's Blender uses the first Python in PATH, so put Blender's folder first.
         environment = os.environ | {"PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
         process = subprocess.Popen([program, "-b", "-noaudio", "--factory-startup", "--python-exit-code", "1", "-P", script, "--",
                                     json.dumps(settings)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment)

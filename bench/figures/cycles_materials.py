@@ -98,7 +98,8 @@ def prepare_for_cycles(name, light):
         to_light = graph.add("ShaderNodeCombineXYZ", enumerate(light.matrix_world.col[2][:3])).outputs[0]
     else:
         to_light = vector("NORMALIZE", vector("SUBTRACT", light.location, geometry["Position"]))
-    # Normal = x T + y (N × T) + z N. The Normal Map node would turn normals whose mirrored direction is below the surface.
+    # Compute the normal as x T + y (N × T) + z N, because the Normal Map node changes a normal if its mirrored
+    # direction is below the surface.
     normal = smooth
     if bent:
         axes = graph.add("ShaderNodeSeparateXYZ", {0: vector("MULTIPLY_ADD", graph.texture(bent), (2, 2, 2), (-1, -1, -1))}).outputs
@@ -108,14 +109,15 @@ def prepare_for_cycles(name, light):
     half = vector("NORMALIZE", vector("ADD", to_light, to_eye))
     colour = graph.texture(base) if isinstance(base, bpy.types.Image) else base
 
-    # Fresnel F = F0 + (1 − F0) g. The diffuse part gets (1 − F) of the light.
+    # Fresnel F = F0 + (1 − F0) g. The diffuse part is scaled by 1 − F.
     g = math("POWER", math("SUBTRACT", 1.0, vector("DOT_PRODUCT", half, to_eye)), 5.0)
     if metallic:
         fresnel = vector("ADD", graph.scaled(colour, math("SUBTRACT", 1.0, g)), graph.scaled((1, 1, 1), g))
     else:
         fresnel = graph.scaled((1, 1, 1), math("ADD", 0.04, math("MULTIPLY", 0.96, g)))
 
-    # Masking: with a = √(1 + α² tan²) for either direction, height-correlated Smith is 2 / (a + b).
+    # Height-correlated Smith masking is 2 / (a + b), where a and b are √(1 + α² tan²θ) for the directions to the light
+    # and to the eye.
     def product(*factors):
         return functools.reduce(lambda left, right: math("MULTIPLY", left, right), factors)
 
@@ -131,7 +133,8 @@ def prepare_for_cycles(name, light):
     both = math("ADD", a, b)
     matt = graph.scaled(colour, product(0.96, math("SUBTRACT", 1.0, g))) if not metallic else (0, 0, 0)
     if bent:
-        # A diffuse closure on the smooth normal gets all factors, because Cycles turns normals and darkens light on them.
+        # Put the complete BRDF into the colour of a diffuse closure on the smooth normal. With a bent normal, Cycles
+        # would change the normal and darken the light.
         base = math("ADD", 1.0, product(alpha2 - 1, nh, nh))
         lobe = math("DIVIDE", alpha2 / 2, product(base, base, nl, nv, both))
         light = vector("ADD", matt, graph.scaled(fresnel, lobe))

@@ -154,7 +154,7 @@ def frame_time_plot(rows):
 def speedup_plot(rows):
     lines = []
     for label, line in speedup_series(rows):
-        if all(row["speedUp"] == 1 for row in line):  # full detail itself
+        if all(row["speedUp"] == 1 for row in line):  # full detail, the reference of the speed-up
             continue
         lines.append((label, [(row["samples"], row["speedUp"]) for row in line]))
         for part, name in (("sizeOnly", "size only"), ("blurOnly", "blur only")):

@@ -7,7 +7,7 @@ from figures.command import ROOT
 from figures.files import read_json
 
 RESULTS = ROOT / "bench" / "results"
-# Options to append to the commands of runs that were measured with the size as the default metric.
+# Options to append to the commands of runs that were measured when `size` was the default LOD metric.
 BY_SIZE = {"llvmpipe-methods-fish": " --metrics size", "llvmpipe-speedup-fish": " --lod-metric size"}
 # Runs that were measured with near-components=1 and near-field=coverage as defaults of method "circular".
 CIRCULAR_BY_COVERAGE = ("llvmpipe-methods-fish", "llvmpipe-methods-lens-space")

@@ -34,7 +34,8 @@ struct BoardScene {
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 
-// Returns a square board that is `pixels` px wide. `offset`: of its centre from the image's centre, px (right, up).
+// Returns a square board that is `pixels` px wide. `offset` is the position of its centre relative to the image's
+// centre, px (right, up).
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
@@ -50,15 +51,15 @@ double largestError(const Image& a, const Image& b);
 // depth z in m, and W the width of the image in px. Computed in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 
-// Errors of a blurred light from squareAt relative to the closed form. The measured diameter is derived from the second
-// moment.
+// Errors of a blurred light made by squareAt, relative to the closed form. The measured diameter is derived from the
+// second moment.
 struct BlurredLight {
     double diameterError = 0;  // px
     double placeError = 0;     // px, distance of the disk's centre from its exact position
 };
 
-// The light's arguments of squareAt, and the image channel to measure. Near the light's disk, this channel must contain
-// no other light.
+// Arguments of squareAt for a light, and the image channel in which the light is measured. Near the light's disk, this
+// channel must contain no other light.
 struct LightPlace {
     double depth = 6;      // m
     double pixels = 3;     // width of the light, px

@@ -1,4 +1,4 @@
-// Straight edges under extreme blur. In closed form, their profile is the area of the blur disk on one side of the
+// Straight edges under extreme blur. The exact profile of such an edge is the area of the blur disk on one side of the
 // edge.
 
 #include <algorithm>
@@ -47,7 +47,7 @@ double edgeError(const Edge& edge) {
         glm::translate(turned, glm::dvec3(edgeOffset * pixel - half, 0, -edge.depth)), glm::dvec3(half, half, 1));
 
     const Image image = rendered(boards);
-    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // out of the half plane; y is up
+    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // points out of the half plane; y is up
     const double diameter = blurDiameter(view, edge.depth);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)

@@ -11,9 +11,9 @@
 
 namespace defocus::engine {
 
-inline constexpr double honestDiameter = 0.5;  // max diameter error of a disk that follows the lens, px
-// Max energy error of a disk that follows the lens, relative to the energy of the sharp light. Noise alone gives 0.02
-// for methods with 256 independent samples per pixel.
+inline constexpr double honestDiameter = 0.5;  // px; max diameter error of a disk that counts as following the lens
+// Max energy error of a disk that counts as following the lens, relative to the energy of the sharp light. Noise alone
+// gives 0.02 for methods with 256 independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
@@ -22,7 +22,7 @@ struct HonestyRow {
     double expected = 0;       // diameter by the formula, px
     double measured = 0;       // diameter by the second moment, px
     double energy = 0;         // relative to the energy of the sharp light
-    std::string leftOut = {};  // why the driver cannot draw it; empty if it can
+    std::string leftOut = {};  // why the driver cannot draw the method; empty if it can
     [[nodiscard]] bool followsLens() const;
 };
 

@@ -18,7 +18,8 @@ constexpr double halfSide = 8;  // half the side of the white square, px
 constexpr double way = 40;      // length of the square's path, px
 constexpr double squareDepth = 4;
 
-// Returns the square's matrix at a time in [0, 1] of the exposure. `middle`: its matrix at the image's centre.
+// Returns the square's matrix at `time` in [0, 1] of the exposure. `middle` is the square's matrix at the image's
+// centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
 Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose per sample
@@ -39,7 +40,7 @@ Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose p
     return rendered(square);
 }
 
-// Returns a path along which the square moves to and fro `turns` times at constant speed.
+// Returns a path along which the square moves back and forth `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);

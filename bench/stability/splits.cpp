@@ -1,5 +1,5 @@
-// Levels of detail λ near integers and near sample boundaries: a tiny change of λ changes the level of at most one
-// sample, in the split of the samples and in the image.
+// Levels of detail λ near integers and near sample boundaries. A tiny change of λ must change the level of at most one
+// sample, both in the split of the samples and in the image.
 
 #include <fmt/format.h>
 
@@ -85,7 +85,8 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the max change of a pixel between two values of λ, in units of 1/N: one sample changes a pixel by at most 1.
+// Returns the max change of a pixel between two values of λ, in units of 1/N for N samples: one sample changes a pixel
+// by at most 1.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);

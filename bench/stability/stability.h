@@ -26,7 +26,7 @@ struct StabilityCase {
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // this program lacks the method of the reference
+    bool leftOut = false;  // true if this program lacks the method of the reference
     [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
 };
 
@@ -35,7 +35,7 @@ std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});
 
-// Each adds the cases of one file to stabilityCases().
+// Each function adds the cases of one file to stabilityCases().
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
 void addEdgeCases(std::vector<StabilityCase>& cases);

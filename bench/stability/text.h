@@ -15,7 +15,8 @@ namespace defocus::engine {
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);
-// Returns a line for each method and its settings: the largest error, and the number of rows that follow the lens.
+// Returns a line for each method and its settings: the largest error, and the number of rows whose blur follows the
+// lens (see lens_honesty.h).
 std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);

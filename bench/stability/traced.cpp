@@ -1,5 +1,5 @@
-// Compares extreme scenes with the ray tracer, with the same points on the lens and in the pixel for both, so that only
-// geometry and visibility can differ.
+// Compares the rasteriser with the ray tracer on extreme scenes. Both use the same points on the lens and in the pixel,
+// so that only geometry and visibility can differ.
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -25,7 +25,8 @@ struct TracedCase {
     double fromOrigin = 0;     // distance of scene and camera from the origin, m
 };
 
-// Returns the RMSE for three boards in front of, in and behind the focus that partly hide each other.
+// Returns the RMSE between rasteriser and ray tracer for three boards that partly hide each other: one in front of, one
+// in and one behind the focus plane.
 double tracedError(const TracedCase& subject) {
     View view = boardView();
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(glm::radians(0.5 * subject.fieldOfView)));

@@ -88,7 +88,7 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // the texel is behind the camera, where the wall faces
+    const Image image = picture(0);  // the texel is behind the camera, in the direction that the wall faces
     const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)

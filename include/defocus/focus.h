@@ -9,7 +9,7 @@
 
 namespace defocus {
 
-// Uses the focus distance of the camera in the scene file; if there is none, FocusAuto.
+// Uses the focus distance of the camera in the scene file, or FocusAuto if the file gives none.
 struct CameraFocus {
     bool operator==(const CameraFocus&) const = default;
 };
@@ -31,8 +31,8 @@ struct FocusPixel {
     bool operator==(const FocusPixel&) const = default;
 };
 
-// Focuses on the surfaces visible in 3 to 16 pixels. Three pixels define a tilted focus plane; more pixels define a
-// curved focus surface that passes near the points.
+// Focuses on the surfaces visible in 3 to 16 pixels. Three pixels define a tilted focus plane. More pixels define a
+// curved focus surface, fitted to these surface points by least squares.
 struct FocusPoints {
     std::vector<Pixel> pixels;
     bool operator==(const FocusPoints&) const = default;

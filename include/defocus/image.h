@@ -13,7 +13,7 @@
 namespace defocus {
 
 // Image of linear Rec.709 colour. Row 0 is the top row, and channels are interleaved. Alpha is coverage, and colours
-// are premultiplied by it.
+// are premultiplied by alpha.
 struct Image {
     int width = 0;
     int height = 0;
@@ -60,7 +60,7 @@ struct ImageView {
     // Creates a view of pixels in the layout of Image::pixels, without gaps.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
         : ImageView(viewWidth, viewHeight, viewChannels, values, packedStrides(viewWidth, viewChannels)) {}
-    // Creates a view of pixels at arbitrary distances, such as a part of a larger image.
+    // Creates a view of pixels with arbitrary strides, such as a part of a larger image.
     ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values, ImageStrides between)
         : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values), strides(between) {}
     // NOLINTNEXTLINE(google-explicit-constructor): implicit, so that functions that only read pixels accept an Image
@@ -82,7 +82,7 @@ private:
     }
 };
 
-// Position of a pixel in an image: column from the left, row from the top, from 0.
+// Position of a pixel in an image: column from the left and row from the top, both starting at 0.
 struct Pixel {
     int column = 0;
     int row = 0;
@@ -112,7 +112,8 @@ DEFOCUS_API Image readImage(const std::filesystem::path& path);
 //   .exr: linear 32-bit float with ZIP compression;
 //   .png: tone-mapped, sRGB-encoded, 8 bits, with straight alpha if the image has 4 channels;
 //   .jpg, .jpeg: like .png, but composited over black.
-// The write is atomic: a failure leaves no partial file. Throws Error naming the file and the fault.
+// The write is atomic: a failure leaves no partial file. Throws Error, with the path and the reason in its message, if
+// writing fails.
 DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& image,
                             const WriteOptions& options = {});
 
@@ -125,7 +126,7 @@ struct Difference {
     double ssim = 1;               // mean structural similarity (Wang et al. 2004), on luma
     double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     double maxError = 0;           // max absolute difference of a colour channel
-    Pixel maxErrorPixel;           // first pixel with maxError, row by row
+    Pixel maxErrorPixel;           // first pixel with maxError, in row-major order
     std::uint64_t pixelCount = 0;  // number of compared pixels
     std::uint64_t nonFinite = 0;   // compared pixels that are NaN or infinite in at least one image
 };

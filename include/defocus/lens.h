@@ -10,13 +10,13 @@ namespace defocus {
 
 struct LensSettings {
     // Camera.
-    std::optional<double> focalLength;         // mm; sets the field of view. Default: that of the camera
+    std::optional<double> focalLength;         // mm; sets the field of view. Default: from the camera
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // mm, sensor width. Default: 36
     std::optional<bool> dofEnabled;            // false: pinhole camera, for any f-number
     std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1, physical
-    std::optional<bool> focusBreathing;        // true: the field of view narrows for near focus, as of a thin lens
-    std::optional<double> exposureTime;        // s; with f-number and ISO, exposure of 8-bit images; 0: unused
+    std::optional<bool> focusBreathing;        // true: the field of view narrows for near focus, as for a thin lens
+    std::optional<double> exposureTime;        // s; with f-number and ISO, sets the exposure of 8-bit images; 0: unused
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
 
     // Aperture.
@@ -28,22 +28,22 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
     std::optional<double> catEye;                    // [0, 1]; part of the aperture's radius hidden in image corners
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor, length of a focused point at side edges
-    std::optional<double> coma;                      // mm on the sensor, tail at left and right edges; > 0: outwards
-    std::filesystem::path apertureImage;             // aperture as an image, replaces blades and rings; empty: none
+    std::optional<double> astigmatism;               // mm on the sensor; length of a focused point at the side edges
+    std::optional<double> coma;                      // mm on the sensor; comet tail at the side edges; > 0: outwards
+    std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
     std::optional<double> foregroundLimit;    // px, max blur diameter in front of the focus plane
     std::optional<double> backgroundLimit;    // px, max blur diameter behind the focus plane
     std::optional<double> focusRangeFront;    // m; sharp range in front of the focus distance
     std::optional<double> focusRangeBehind;   // m; sharp range behind the focus distance
-    std::optional<bool> focusRangeRefocuses;  // true: blur behind the range is that of focus at its far end
+    std::optional<bool> focusRangeRefocuses;  // true: blur behind the range as if the lens were focused at its far end
     std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
     std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;
-    std::optional<double> radialBlurGain;  // κ of the factor 1 + κr² on the blur; r = 1 at left and right edges
+    std::optional<double> radialBlurGain;  // g of the factor 1 + g·r² on the blur; r = 1 at left and right edges
 
     bool operator==(const LensSettings&) const = default;
 };

@@ -18,7 +18,7 @@ namespace defocus {
 // A level of detail of an object, and the range of lens samples that draw this level.
 struct PlannedDraw {
     std::uint32_t level = 0;
-    std::uint32_t triangles = 0;    // drawn per sample; triangles invisible from all lens points are culled
+    std::uint32_t triangles = 0;    // drawn per sample; triangles that no lens point sees are culled
     std::uint32_t firstSample = 0;  // index into the frame's samples
     std::uint32_t sampleCount = 0;
 };
@@ -34,14 +34,14 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;        // px, mean edge length of level 0, projected at the nearest depth
+    double projectedEdge = 0;        // px, mean edge length of level 0 at the nearest depth
     double lambda = 0;               // fractional level of detail λ (Jeong, Kim and Lee 2011)
-    double pixelRate = 1;            // render resolution per axis with blurred lens cells; 1: full
+    double pixelRate = 1;            // resolution per axis relative to the image; < 1: blurred lens cells
     bool blended = false;            // true if the object has alpha-blended materials
     bool transmits = false;          // true if the object has transmitting materials
     bool moves = false;              // true if the object moves during the exposure
-    std::vector<PlannedDraw> draws;  // 1 or 2, the coarser level first
-    // With LodMode::continuous, one sample may mix both levels: fraction of its pixels with the coarser level.
+    std::vector<PlannedDraw> draws;  // one or two, the coarser level first
+    // If a sample mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
 
@@ -75,9 +75,9 @@ struct Plan {
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // px
-    std::uint64_t moments = 0;        // number of times at which the scene is posed; 0: nothing moves
+    std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
-    // Levels of detail: thresholds of Request, with defaults where the request has none.
+    // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
@@ -93,7 +93,7 @@ struct Plan {
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::vector<PlannedObject> objects;  // front to back
+    std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.
     std::uint64_t trianglesDrawn = 0;

@@ -30,7 +30,7 @@ struct RenderStatistics {
     double setupMilliseconds = 0;             // uploads and shader compilation
     double renderMilliseconds = 0;            // drawing all samples
     std::uint64_t trianglesDrawn = 0;         // sum over all samples
-    std::uint64_t trianglesAtFullDetail = 0;  // the same sum if all objects were drawn at full detail
+    std::uint64_t trianglesAtFullDetail = 0;  // trianglesDrawn if all objects were drawn at full detail
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
     StopReason stopped = StopReason::sampleCount;  // why the frame ended

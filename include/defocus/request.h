@@ -30,7 +30,7 @@ struct ImageSize {
     bool operator==(const ImageSize&) const = default;
 };
 
-// Shows the environment: Request::environment, else that of the scene file, else a gradient sky.
+// Shows Request::environment, else the environment of the scene file, else a gradient sky.
 struct EnvironmentBackground {
     bool operator==(const EnvironmentBackground&) const = default;
 };
@@ -44,13 +44,13 @@ using Background = std::variant<EnvironmentBackground, TransparentBackground, Co
 struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
-    bool strict = false;            // true: missing or damaged parts of the file, such as textures, are an Error
+    bool strict = false;            // true: missing or damaged parts of the file, such as textures, throw Error
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
     double time = 0;                // time of the animation in s
-    std::string clip;               // name or index of the animation; empty: the first
-    bool loop = false;              // true: the animation repeats; false: before its start and after its end, it rests
+    std::string clip;               // name or index of the animation; empty: the first animation
+    bool loop = false;              // true: the animation repeats; false: its first and last pose are held
     double shutter = 0;             // s, duration of the exposure; > 0 gives motion blur
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
@@ -60,8 +60,8 @@ struct Request {
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
     Shadows shadows = Shadows::automatic;
-    std::optional<double> lightAngle;   // angular diameter of directional lights. Default: that of each light
-    std::optional<double> lightRadius;  // radius of point and spot lights. Default: that of each light
+    std::optional<double> lightAngle;   // angular diameter of directional lights. Default: from each light
+    std::optional<double> lightRadius;  // radius of point and spot lights. Default: from each light
 
     // Camera and image.
     CameraChoice camera;
@@ -78,7 +78,7 @@ struct Request {
 
     // Samples and levels of detail.
     std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, for `quality`
-    Quality quality = Quality::good;       // ignored with `samples`, `targetError` or `timeLimit`
+    Quality quality = Quality::good;       // used if samples, targetError and timeLimit are unset
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
     // error is below the target. `samples` is the max number of samples.
     std::optional<double> targetError;
@@ -100,7 +100,7 @@ struct Request {
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Display of PNG, JPEG and video.
+    // Conversion to PNG, JPEG and video.
     ToneMap toneMap = ToneMap::neutral;
     Exposure exposure;
 
@@ -110,7 +110,7 @@ struct Request {
     LodCoc lodCoc = LodCoc::smallest;
     // Max error in px, > 0, of linear interpolation of the circle of confusion within a triangle.
     double cocTolerance = 0.5;
-    bool keepAll = false;                 // true: invisible parts are drawn too; the image must not change
+    bool keepAll = false;                 // true: no culling of invisible parts; the image must not change
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;

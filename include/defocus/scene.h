@@ -37,8 +37,8 @@ public:
     // (200 … 10,000,000).
     static Scene schoolOfFish(int fishCount = 20, int trianglesPerFish = 90'000, const Progress& progress = {});
 
-    // Creates a scene from data in memory, which is copied. Throws UsageError that names the faulty part: sizes that
-    // don't match, indices and values out of range, NaN or infinity, or a scene without instances.
+    // Creates a scene from data in memory, which is copied. Throws UsageError, with the faulty part in its message, for
+    // sizes that don't match, indices or values out of range, NaN, infinity, or a scene without instances.
     static Scene create(const SceneData& data);
 
     [[nodiscard]] SceneInfo info() const;

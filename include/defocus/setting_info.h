@@ -31,7 +31,7 @@ struct SettingInfo {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double min = 0;       // range of a number or integer: [min, max]
     double max = 0;
-    std::vector<std::string> choices;  // allowed values; for a number: words allowed instead
+    std::vector<std::string> choices;  // allowed values; for a number: words allowed in its place
     std::string help;
     std::optional<std::string> defaultValue;  // value in a default Request; nullopt: unset
     std::vector<std::string> excludes;        // names of settings that cannot be combined with this one

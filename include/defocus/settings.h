@@ -10,8 +10,8 @@ namespace defocus {
 inline constexpr std::uint32_t maxSamples = 65'536;  // max lens samples per frame
 inline constexpr int maxImageSide = 16'384;          // px, max width and height of an image
 
-// Error at which a frame with an automatic number of samples is complete: a FLIP against the converged image of about
-// 0.03 (draft), 0.01 (good) or 0.005 (fine).
+// Target error of a frame with an automatic number of samples: a FLIP of about 0.03 (draft), 0.01 (good) or 0.005
+// (fine) against the converged image.
 enum class Quality { draft, good, fine };
 
 // Low-discrepancy sequences for sample points on the lens, in the pixel and in the exposure. All are infinite, and
@@ -20,7 +20,7 @@ enum class Sequence {
     // Halton points: bases 2, 3 on the lens and 5, 7 in the pixel (Jeong, Kim and Lee 2011), then 11, 13, 17 and 19 in
     // the exposure time, in the spectrum and on the lights.
     halton,
-    scrambledHalton,  // Halton with random permutations of each digit, which depend on the digits before
+    scrambledHalton,  // Halton points with random permutations of each digit, which depend on the preceding digits
     sobol,            // Owen-scrambled Sobol points
     r2,               // additive recurrence with powers of the plastic number (R2 sequence)
 };
@@ -39,12 +39,12 @@ enum class LodMetric {
     automatic,  // `size` if a blur or size threshold is set, else `measured`
     size,       // target edge length in px, compared with each level's mean edge length
     error,      // target deviation of the surface in px
-    measured,   // target error of the object's light after the blur, relative to the light's variation
+    measured,   // target error of the object's blurred radiance, relative to the radiance's variation
     // Level proportional to the blur at the bounding box's centre, and to the reciprocal of the box's projected size
     // (Jeong, Kim and Lee 2011).
     proportional,
-    // Target edge length from the blur only, compared with the edge length projected at the object's centre (Tzeng et
-    // al. 2012).
+    // Like `size`, but with a target edge length from the blur only, compared with the edge length projected at the
+    // object's centre (Tzeng et al. 2012).
     score,
 };
 
@@ -58,7 +58,7 @@ enum class LodCoc {
 enum class LevelVertices {
     fitted,     // positions, normals, colours and texture coordinates fitted to full detail
     surviving,  // unchanged vertices of the full-detail mesh
-    quarters,   // like surviving, with three levels of 100, 75 and 50 % (Tzeng et al. 2012)
+    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of them (Tzeng et al. 2012)
 };
 
 // Shadows from lights and from the environment.

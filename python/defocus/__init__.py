@@ -79,7 +79,7 @@ class Difference(NamedTuple):
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
     flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     max_error: float  # max absolute difference of a colour channel
-    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, row by row
+    max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, in row-major order
     pixel_count: int
     non_finite: int  # pixels that are NaN or infinite in at least one image
 
@@ -105,7 +105,7 @@ class Statistics(NamedTuple):
     gpu_bytes: int
     device: str
     stopped: str  # why the frame ended: "samples", "target error", "time limit" or "nothing blurred"
-    estimated_error: Optional[float]  # with target_error or time_limit: RMSE of the display-encoded image at EV 0
+    estimated_error: Optional[float]  # RMSE of the display-encoded image at EV 0; only with target_error or time_limit
 
 
 def settings() -> List[Setting]:

@@ -273,7 +273,7 @@ def _shape(array: numpy.ndarray) -> str:
 
 
 def _float32(array: numpy.ndarray) -> numpy.ndarray:
-    with numpy.errstate(over="ignore"):  # C++ reports values that become infinite
+    with numpy.errstate(over="ignore"):  # values that overflow to infinity are reported by the C++ code
         return numpy.ascontiguousarray(array, dtype=numpy.float32)
 
 

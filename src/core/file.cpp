@@ -100,12 +100,13 @@ void syncFolder(const fs::path& folder) {
     ::close(descriptor);
 }
 
-// Returns the name of a temporary file for `target`: ".STEM.PROCESS-COUNT.EXTENSION".
+// Returns the name of a temporary file for `target`, ".STEM.PROCESS-COUNT.EXTENSION", with the process id and a
+// counter.
 std::string temporaryName(const fs::path& target, std::string_view number) {
     return fmt::format(".{}.{}{}", target.stem().string(), number, target.extension().string());
 }
 
-// Temporary files of this process.
+// Paths of the temporary files that this process is writing.
 class PendingNames {
 public:
     void add(const fs::path& path) {
@@ -132,10 +133,10 @@ PendingNames& pendingNames() {
     return names;
 }
 
-// Removes the temporary files of `target` that killed processes have left.
+// Removes the temporary files of `target` that killed processes left behind.
 void removeAbandonedOf(const fs::path& target) {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-    const std::size_t begin = target.stem().string().size() + 2;  // of the process number
+    const std::size_t begin = target.stem().string().size() + 2;  // start of the process id in a temporary file's name
     std::error_code fault;
     for (auto entry = fs::directory_iterator(folder, fault); !fault && entry != fs::directory_iterator();
          entry.increment(fault)) {
@@ -160,8 +161,8 @@ std::vector<std::byte> readFile(const fs::path& path) {
 }
 
 std::optional<std::vector<std::byte>> readOwnFile(const fs::path& path) {
-    // O_NONBLOCK: opening a pipe would wait for its writer. The type is that of the opened file, so that no other
-    // process can exchange the file between test and reading.
+    // O_NONBLOCK: otherwise, opening a pipe would wait for its writer. The file type is read from the open descriptor,
+    // so that no other process can replace the file between the check and the read.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     const FileHandle file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "rb"), &std::fclose);
     if (!file) {

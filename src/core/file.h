@@ -1,9 +1,9 @@
 #pragma once
 // Atomic reads and writes of complete files. Data goes to a temporary file beside the target, is flushed to disk, and
 // is renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
-// Concurrent writers use separate temporary files; the last rename wins. Symbolic links at a name that the user gives
-// are followed: the linked file is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a
-// copy of the complete data instead. Neither holds for files that the program names itself: see NamedBy.
+// Concurrent writers use separate temporary files; the last rename wins. A symbolic link at a path that the user gives
+// is followed: the linked file is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a
+// copy of the complete data instead. Paths that the program chooses itself are treated differently: see NamedBy.
 
 #include <cstddef>
 #include <filesystem>
@@ -18,21 +18,21 @@ namespace defocus::engine {
 // file is missing, unreadable, a directory, a device or a pipe.
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
-// Returns the bytes of a file that the program names itself, such as a cache entry. Returns nullopt if the file is
-// missing or isn't a regular file: links are not followed, and a pipe is never waited for. Throws Error if it is
+// Returns the bytes of a file at a path that the program chose, such as a cache entry. Returns nullopt if the file is
+// missing or isn't a regular file: links are not followed, and a pipe is never waited for. Throws Error if the file is
 // unreadable.
 std::optional<std::vector<std::byte>> readOwnFile(const std::filesystem::path& path);
 
-// Creates a folder for files that the program names itself; only the user may enter it (mode 0700). Missing parents get
-// the default mode. Does nothing if the folder, or a link to one, exists. Throws Error on failure.
+// Creates a folder at a path that the program chose; only the user may enter it (mode 0700). Missing parents get the
+// default mode. Does nothing if the folder, or a link to a folder, exists. Throws Error on failure.
 void createOwnFolder(const std::filesystem::path& folder);
 
 // Returns the path of `relative` inside `folder`, for a path that comes from another file. Throws Error if `relative`
 // is absolute, leaves the folder, or is a device, pipe or directory. A missing file is not an error.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
-// Origin of a file's name. The program never creates links, pipes or devices, so those at a name of the program are
-// replaced by the file, and nothing is written through them.
+// Who chose a file's path. The program never creates links, pipes or devices. A link, pipe or device at a path that the
+// program chose is therefore replaced by the file and never written through.
 enum class NamedBy { user, program };
 
 // Creates or atomically replaces the file at `path`. Throws Error, with the path in its message, if writing fails.
@@ -65,7 +65,7 @@ private:
     bool committed_ = false;
 };
 
-// Removes the temporary files of all PendingFile objects of this process, which ends without destructors afterwards.
+// Removes the temporary files of all PendingFile objects of this process, for exits that run no destructors.
 void removePendingFiles();
 
 // Removes a temporary file that a killed process left behind. Does nothing while a process still writes the file.

@@ -5,7 +5,7 @@
 
 namespace defocus::engine {
 
-// The parser callback of nlohmann::json could count the nesting too, but takes quadratic time on long arrays.
+// Scans the text without parsing: a parser callback of nlohmann::json would take quadratic time on long arrays.
 int jsonNesting(std::string_view text) {
     int depth = 0;
     int deepest = 0;

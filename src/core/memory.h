@@ -16,7 +16,7 @@ void giveBackFreedMemory();
 // rasterizers free vertex memory after each draw; getting the pages back from the system can take longer than the draw.
 void keepFreedMemory();
 
-inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes; exact on most processors, a hint on others
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes; only a hint where huge pages have another size
 
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);
@@ -53,7 +53,7 @@ struct PageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
 
-// Returns the vector's spare capacity to the system. The values of vectors of at least fewestBytes are not moved.
+// Returns the vector's unused capacity to the system. Vectors of at least fewestBytes are not reallocated.
 template <typename T>
 void giveBackRoom(LargeVector<T>& values) {
     const std::size_t room = values.capacity() - values.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Messages to the user on stderr. Write errors are ignored; nothing throws.
+// Messages to the user on stderr. Write errors are ignored; no function throws.
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@ namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept;
 
-// Returns the text with each control character replaced by '?', because a terminal would interpret it. Line breaks
-// stay.
+// Returns the text with each control character replaced by '?', because a terminal would interpret it. Line breaks are
+// kept.
 std::string printable(std::string_view text);
 
-// Returns `text` with control characters as spaces, truncated to a few hundred bytes, so that an error with names from
-// a file stays one short line.
+// Returns `text` truncated to a few hundred bytes, with control characters replaced by spaces, so that an error with
+// names from a file stays one short line.
 std::string shortLine(std::string text);
 
 template <typename... Args>

@@ -16,7 +16,7 @@ namespace defocus::engine {
 // TBB's threads keep running between calls: a call with 64 empty bodies takes 1 µs on two cores, instead of 28 µs with
 // new threads.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-    // A shared counter gives out the indices in order. TBB's splitting of ranges would also start in the middle and
+    // A shared counter hands out the indices in order. TBB's splitting of ranges would also start in the middle and
     // could run the most expensive bodies last.
     std::atomic<std::size_t> next = 0;
     const auto work = [&](std::size_t) {
@@ -56,7 +56,7 @@ struct Tasks::Arena {
 };
 
 Tasks::Tasks(std::size_t workers) {
-    // TBB prints a warning on stderr if more threads are requested than it has.
+    // TBB prints a warning on stderr if more threads are requested than TBB has.
     const auto available = static_cast<std::size_t>(tbb::info::default_concurrency() - 1);
     if (workers > 0) arena_ = std::make_unique<Arena>(std::min(workers, available));
 }

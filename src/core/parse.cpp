@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Describes the range: "a number above 0 and at most 100" or "a number from 0 to 100".
+// Describes the range in words: "a number above 0 and at most 100" or "a number from 0 to 100".
 std::string inWords(const Range& range) {
     if (range.aboveMin) return fmt::format("a number above {:g} and at most {:g}", range.min, range.max);
     return fmt::format("a number from {:g} to {:g}", range.min, range.max);

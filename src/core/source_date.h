@@ -7,12 +7,12 @@
 
 namespace defocus::engine {
 
-// Returns the value of the environment variable SOURCE_DATE_EPOCH, in seconds since 1970. If it is set, files get this
-// date instead of the current one, and no metadata about the run, such as its time. Returns nullopt if the variable is
-// unset or not a number from 0 to 253402300799 (the year 9999).
+// Returns the value of the environment variable SOURCE_DATE_EPOCH, in seconds since 1970. If it is set, files store
+// this date instead of the current date, and omit render times. Returns nullopt if the variable is unset or not a
+// number from 0 to 253402300799 (the year 9999).
 std::optional<std::time_t> sourceDate();
 
-// Returns a time as text in UTC, in a format of strftime.
+// Formats a time in UTC; `format` is a format string of strftime.
 std::string utcText(std::time_t time, const char* format);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Measures elapsed wall-clock time for reports.
+// Measures elapsed wall-clock time.
 
 #include <chrono>
 

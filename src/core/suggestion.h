@@ -9,14 +9,14 @@
 
 namespace defocus::engine {
 
-// Returns the closest known word, or an empty string if none is close. Close means at most one edit, or edits up to a
-// third of the word's length. Edits are insertions, deletions, substitutions and swaps of neighbours (optimal string
-// alignment; Damerau 1964). If no word is close, returns the shortest that contains `word`, which must then have at
-// least three letters. ASCII case is ignored.
+// Returns the known word with the smallest edit distance to `word`: at most one edit, or a third of the word's length.
+// Edits are insertions, deletions, substitutions and swaps of neighbours (optimal string alignment; Damerau 1964).
+// Otherwise returns the shortest known word that contains `word`, if `word` has at least three letters. Returns an
+// empty string if there is none. ASCII case is ignored.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
 
-// Returns the index of the name in `known`. Exact matches come first; otherwise ASCII case is ignored. Returns nullopt
-// without a match, or if several different spellings match.
+// Returns the index of `name` in `known`. An exact match takes precedence; otherwise ASCII case is ignored. Returns
+// nullopt without a match, or if `known` has several spellings that differ only in case.
 std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace defocus::engine

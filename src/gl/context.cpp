@@ -53,8 +53,7 @@ bool listed(const char* extensions, std::string_view name) {
     return false;
 }
 
-// EGL display on which a context can be attempted. Creating a display may load a driver, so it is created only for the
-// attempt.
+// EGL display to try. The display is created only when it is tried, because creation may load a driver.
 struct Candidate {
     std::string name;
     EGLenum platform = EGL_NONE;  // EGL_NONE: default display
@@ -62,8 +61,8 @@ struct Candidate {
     std::string missing = {};  // reason why this display is unavailable; empty if available
 };
 
-// Returns the EGL devices, GPUs before software rasterizers. Without devices, returns one candidate with the reason in
-// `missing`.
+// Returns the EGL devices, GPUs before software rasterizers. If there are no devices, returns one candidate with the
+// reason in `missing`.
 std::vector<Candidate> devices(const char* extensions) {
     const auto none = [](std::string why) {
         return std::vector<Candidate>{{"EGL devices", EGL_PLATFORM_DEVICE_EXT, nullptr, std::move(why)}};
@@ -107,7 +106,8 @@ public:
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext() override { close(); }
 
-    // Creates a context on one display. Returns an empty string on success; otherwise cleans up and returns the reason.
+    // Creates a context on one display. Returns an empty string on success; otherwise cleans up and returns the reason
+    // of the failure.
     std::string open(const Candidate& candidate) {
         const std::string reason = tryOpen(candidate);
         if (!reason.empty()) close();

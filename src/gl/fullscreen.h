@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Vertex shader for programs of Fullscreen.
+// Vertex shader for the programs that Fullscreen draws.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owner of an OpenGL object, by its name.
+// Move-only owner of an OpenGL object, which it stores as an OpenGL name (GLuint).
 
 #include <epoxy/gl.h>
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t softwareBatch = 500'000;  // triangles; each takes about 250 bytes in llvmpipe's bins
 constexpr std::size_t openBatches = 2;
-constexpr GLuint64 longestWait = 10'000'000'000;  // ns; a timeout is harmless: it only costs memory
+constexpr GLuint64 longestWait = 10'000'000'000;  // ns; a timeout only costs memory
 
 bool softwareDriver() {
     const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

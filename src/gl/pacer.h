@@ -1,5 +1,5 @@
 #pragma once
-// Limits the draw calls that are submitted but not finished. Mesa's llvmpipe keeps all submitted triangles in memory
+// Limits the amount of submitted but unfinished draw calls. Mesa's llvmpipe keeps all submitted triangles in memory
 // until its rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
 
 #include <cstdint>
@@ -16,10 +16,10 @@ public:
     SubmissionPacer(const SubmissionPacer&) = delete;
     SubmissionPacer& operator=(const SubmissionPacer&) = delete;
 
-    // Returns the maximum triangles per draw call; 0: unlimited.
+    // Returns the maximum number of triangles per draw call; 0: unlimited.
     [[nodiscard]] std::uint64_t maxTriangles() const { return batch_; }
-    // Records a draw call of `triangles` triangles; call it after each. Waits for earlier draw calls if too many are
-    // pending.
+    // Records a draw call of `triangles` triangles; call it after each draw call. Waits for earlier draw calls if too
+    // many triangles are pending.
     void submitted(std::uint64_t triangles);
 
 private:

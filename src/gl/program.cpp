@@ -111,7 +111,7 @@ Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {
     for (const std::string& path : info.shaders) {
         const GLuint shader = compiled(path, info);
         glAttachShader(name(), shader);
-        glDeleteShader(shader);  // marks it: the driver deletes it with the program
+        glDeleteShader(shader);  // only flags the shader; the driver deletes it with the program
         names += (names.empty() ? "" : ", ") + path;
     }
     glLinkProgram(name());

@@ -13,8 +13,8 @@
 
 namespace defocus::engine {
 
-// Names and values. A name in capitals becomes a macro. Any other name sets a constant of shader_constants.cpp, which
-// all shaders have.
+// Names and values for shaders. A name in capitals becomes a macro. Any other name sets one of the constants of
+// shader_constants.cpp.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {

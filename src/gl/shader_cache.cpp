@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t room = std::uint64_t{16} << 20;  // bytes; the index and the shaders of a frame need a third
+constexpr std::uint64_t room = std::uint64_t{16} << 20;  // bytes; the cache index and one frame's shaders need a third
 
 fs::path pathIn(const char* variable) {
     const char* const value = std::getenv(variable);
@@ -29,7 +29,7 @@ fs::path cacheFolder() {
     return home.empty() ? home : home / ".cache" / "mesa_shader_cache";
 }
 
-// Returns the folder, or its nearest parent that exists.
+// Returns the folder, or its nearest existing ancestor.
 fs::path existing(fs::path folder) {
     std::error_code fault;
     while (!fs::exists(folder, fault) && folder.has_parent_path() && folder != folder.parent_path())
@@ -47,7 +47,7 @@ std::string protectedFolder() {
     return folder.string();
 }
 
-// Folder whose cache is off; empty otherwise.
+// Folder of the disabled shader cache; empty if the cache is enabled.
 std::string& folderWithoutRoom() {
     static std::string folder;
     return folder;

@@ -13,8 +13,8 @@ struct ShaderConstant {
     std::string_view type;  // GLSL type
     std::string_view name;
     std::string_view standard;  // default value
-    // Macro that is defined if the constant's value isn't the default; empty: none. Shaders use it for inputs and
-    // outputs that depend on the constant, because `if` cannot remove them.
+    // Macro that is defined if the constant differs from its default; empty: no macro. Shaders use it to declare inputs
+    // and outputs that depend on the constant, because `if` cannot remove declarations.
     std::string_view macro = {};
 };
 
@@ -25,15 +25,15 @@ constexpr ShaderConstant constants[] = {
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
-    {"float", "environmentLighting", "1.0"},  // scale of the environment's light on surfaces
+    {"float", "environmentLighting", "1.0"},  // factor on the environment's lighting of surfaces
     {"int", "lightCount", "0"},
-    {"int", "maxLights", "1"},         // length of the uniform arrays of lights
+    {"int", "maxLights", "1"},         // length of the lights' uniform arrays
     {"bool", "usesOwnBlur", "false"},  // surfaces have blur modifiers
     {"bool", "chromatic", "false"},
     {"bool", "cocControls", "false"},
     {"bool", "aberrations", "false"},
     {"float", "catEye", "0.0"},
-    {"float", "layerLargest", "0.0"},  // max value of a layer; 0: no limit
+    {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
 
     // Surfaces
@@ -56,8 +56,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "textureCount", "1"},
     {"int[14]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
-    {"bool", "coarseShare", "false"},                       // draws only the pixels of the coarser of two levels
-    {"bool", "fineShare", "false"},                         // draws only the pixels of the finer of two levels
+    {"bool", "coarseShare", "false"},                       // blend of two levels: draws the coarser level's pixels
+    {"bool", "fineShare", "false"},                         // blend of two levels: draws the finer level's pixels
 
     // Poses
     {"bool", "moving", "false", "MOVING"},
@@ -92,7 +92,7 @@ constexpr ShaderConstant constants[] = {
 
     // Lens space
     {"int", "tileSize", "1"},  // px; the circular method uses it, too
-    {"int", "maxRays", "1"},   // max lens samples drawn at once
+    {"int", "maxRays", "1"},   // max lens samples drawn in one pass
     {"uint", "rayVariants", "1u"},
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
@@ -101,7 +101,7 @@ constexpr ShaderConstant constants[] = {
 
     // Circular
     {"int", "kernelSize", "1"},
-    {"int", "components", "1"},  // components of the kernel that a pass filters
+    {"int", "components", "1"},  // number of kernel components that a pass filters
     {"vec2", "kernelAxes", "vec2(1.0)"},
     {"bool", "bracketed", "false"},
     {"float", "largestSum", "0.0"},
@@ -147,7 +147,7 @@ std::string shaderPreamble(const ShaderDefines& defines, const std::string& sour
         const std::string_view value = set != defines.end() ? std::string_view(set->second) : constant.standard;
         if (!constant.macro.empty() && value != constant.standard)
             macros += fmt::format("#define {}\n", constant.macro);
-        // Compilers take about 5 µs for each declaration.
+        // Declare only the constants that the source mentions: compilers take about 5 µs for each declaration.
         if (source.find(constant.name) == std::string::npos) continue;
         declarations += fmt::format("const {} {} = {};\n", constant.type, constant.name, value);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Constants that every shader has.
+// Constants that all shaders can use.
 
 #include <string>
 

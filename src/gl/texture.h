@@ -28,7 +28,7 @@ struct TextureInfo {
     int levels = 1;  // number of mip levels
 };
 
-struct TexelRectangle {  // origin at the lower left corner
+struct TexelRectangle {  // in texels; origin at the lower left corner
     int x = 0;
     int y = 0;
     int width = 0;

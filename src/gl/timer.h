@@ -1,6 +1,6 @@
 #pragma once
-// GPU time between pairs of GL_TIMESTAMP queries, because llvmpipe's GL_TIME_ELAPSED is wrong by orders of magnitude.
-// With software drivers, the time lacks the vertex work.
+// Measures GPU time with pairs of GL_TIMESTAMP queries, because llvmpipe's GL_TIME_ELAPSED is wrong by orders of
+// magnitude. With software drivers, the time excludes vertex processing.
 
 #include <vector>
 

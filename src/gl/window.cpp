@@ -141,7 +141,7 @@ void Window::installCallbacks() {
 WindowEvent& Window::add(WindowEvent::Type type) {
     WindowEvent& event = events_.emplace_back();
     event.type = type;
-    event.position = mouse_;  // latest position; GLFW passes none with key and button events
+    event.position = mouse_;  // latest mouse position; GLFW passes none with key and button events
     return event;
 }
 

@@ -16,7 +16,7 @@ struct GLFWwindow;
 namespace defocus::engine {
 
 // Key codes, equal to GLFW's. Keys of letters, digits and punctuation have the ASCII code (upper case) of a US
-// keyboard; these constants are other keys.
+// keyboard; the other keys have these constants.
 namespace key {
 inline constexpr int escape = 256;
 inline constexpr int enter = 257;
@@ -43,7 +43,7 @@ struct WindowEvent {
     Type type = Type::move;
     glm::dvec2 position{0.0};  // mouse position in window units from the top left
     MouseButton button = MouseButton::left;
-    bool pressed = false;    // for button and key events
+    bool pressed = false;    // true: pressed, false: released; for button and key events
     bool repeated = false;   // for key events: the key is held down
     glm::dvec2 scroll{0.0};  // wheel steps; x > 0: left, y > 0: away from the user
     int key = 0;             // key code, for key events
@@ -78,7 +78,7 @@ public:
     // If `on`, covers the window's current screen; otherwise restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Return sizes that were both read during the latest poll().
+    // Both sizes are read during the same poll(), so that they match.
     [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
     [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
     [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen
@@ -93,12 +93,11 @@ public:
     void setClipboard(const std::string& text);
     [[nodiscard]] GLFWwindow* native() const { return window_; }
     [[nodiscard]] const std::string& device() const { return device_; }
-    [[nodiscard]] bool software() const { return software_; }  // true if it renders on the CPU
+    [[nodiscard]] bool software() const { return software_; }  // true if OpenGL renders on the CPU
 
 private:
     void installCallbacks();
-    // Sets size_ and framebufferSize_ to values of the same moment: during a resize, GLFW may report one old and one
-    // new.
+    // Updates size_ and framebufferSize_ together: during a resize, GLFW may report one old and one new size.
     void readSizes();
     WindowEvent& add(WindowEvent::Type type);
 
@@ -106,7 +105,7 @@ private:
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
     glm::ivec2 size_{0}, framebufferSize_{0};
-    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored after full screen
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored when full screen ends
     std::string device_;
     bool software_ = false;
 };

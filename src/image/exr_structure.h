@@ -10,8 +10,8 @@
 namespace defocus::engine {
 
 // Throws Error, with `name` in its message, if an attribute exceeds the file or has the wrong size for its type, or if
-// rows exceed 2²⁰ px. `head` is the start of a file of `fileBytes` bytes and may end within the header. OpenEXR detects
-// other faults.
+// the rows are wider than 2²⁰ px. `head` is the start of a file of `fileBytes` bytes and may end within the header.
+// OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
 }  // namespace defocus::engine

@@ -40,7 +40,7 @@ constexpr std::array<SensitivityTerm, 2> blueYellowTerms = {{{34.1, 0.04}, {13.5
 constexpr float colourExponent = 0.7f;
 constexpr float kneeIn = 0.4f;
 constexpr float kneeOut = 0.95f;
-// Section 4.2: feature width in degrees, and exponent of feature differences.
+// Section 4.2: feature width in degrees, and exponent of the feature difference.
 constexpr double featureWidth = 0.082;
 constexpr float featureExponent = 0.5f;
 
@@ -148,7 +148,7 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
         const std::vector<double> weights = weightsOf(term);
         return scaled(weights, 1 / sum(weights));
     };
-    // The blue-yellow filter is a sum of two Gaussians. Each is separable; `share` is its weight, the sum over its 2D
+    // The blue-yellow filter is a sum of two separable Gaussians. `share` is a Gaussian's weight, the sum over its 2D
     // kernel.
     std::array<double, 2> share;
     for (std::size_t i = 0; i < share.size(); ++i) {
@@ -179,7 +179,8 @@ FeatureFilters featureFilters(double pixelsPerDegree) {
     return {scaled(smooth, 1 / sum(smooth)), balanced(edge), balanced(point)};
 }
 
-template <typename ToDisplay>  // float(float): maps a linear channel to displayed light in [0, 1]
+// ToDisplay is a function float(float) that maps a linear channel to the displayed linear value in [0, 1].
+template <typename ToDisplay>
 ColourPlanes opponentPlanes(const Image& rgb, const ToDisplay& toDisplay) {
     ColourPlanes planes(rgb.width, rgb.height);
     forEachRow(rgb.height, [&](int y) {
@@ -254,14 +255,14 @@ public:
     }
 
 private:
-    float largest_;  // difference between green and blue, the maximum
+    float largest_;  // max difference: that between green and blue
 };
 
 // Computes LDR-FLIP of the images mapped by `toDisplay`. Raises each pixel of `map` to the result if the result is
 // larger.
 template <typename ToDisplay>
 void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDisplay& toDisplay, Image& map) {
-    // Convert displayed light to the opponent space.
+    // Convert the displayed linear colours to the opponent colour space.
     const ColourPlanes opponentA = opponentPlanes(pair.reference, toDisplay);
     const ColourPlanes opponentB = opponentPlanes(pair.test, toDisplay);
     // Run the colour pipeline.

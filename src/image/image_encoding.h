@@ -20,8 +20,8 @@ const char* formatName(FileKind kind);  // name in OpenImageIO
 // Returns OpenImageIO's description of an image file. JPEG files drop alpha and all metadata except `comments`.
 OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, const Metadata& metadata);
 
-// Converts linear rows to the 8-bit values of a PNG or JPEG file. `firstRow` is the file's index of the first row; the
-// dither pattern depends on it.
+// Converts linear rows to the 8-bit values of a PNG or JPEG file. `firstRow` is the index of the first row within the
+// file; the dither pattern depends on it.
 std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
                                        int firstRow);
 

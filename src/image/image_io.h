@@ -35,8 +35,8 @@ using defocus::writeImage;
 // files are strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
-// Reads an image in strips of rows, as readImage does, for images that do not fit into memory. Formats whose decoder
-// only returns complete images (interlaced PNG, tiled TIFF and EXR) are kept in memory.
+// Reads an image in strips of rows, as readImage does, for images that do not fit into memory. An image is kept in
+// memory if its format's decoder only returns complete images (interlaced PNG, tiled TIFF and EXR).
 class StripReader {
 public:
     // Throws Error if the file cannot be read.

@@ -29,7 +29,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with more is probably damaged.
+// Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with a larger size is probably damaged.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
 // Maximum pixels per byte of a JPEG file: each 8 × 8 block takes at least one bit. For shorter files, libjpeg would
 // spend a long time filling the missing pixels.
@@ -229,7 +229,7 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     if (type == OIIO::TypeString) return attribute.get_string();
     if (type == OIIO::TypeInt) return attribute.get_int();
     if (type == OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE)) return *static_cast<const double*>(attribute.data());
-    if (type == OIIO::TypeFloat)  // by the shortest decimal, so that 1.4f gives 1.4 instead of 1.39999998
+    if (type == OIIO::TypeFloat)  // shortest decimal text, so that 1.4f gives 1.4, not 1.39999998
         return std::stod(fmt::format("{}", attribute.get_float()));
     if (type == OIIO::TypeMatrix) {
         glm::mat4 matrix;
@@ -283,7 +283,7 @@ ImageView StripReader::rows(int first, int count) {
     if (s.tiled && s.strip.empty()) s.strip = s.read(0, s.height);
     if (s.tiled) return rowsOf(s.strip, first, count);
 
-    // Move the rows that the strips share to the front; then append the others.
+    // Move the rows that the old and the new strip share to the front, then append the other rows of the new strip.
     const int end = s.begin + s.strip.height;
     assert(first >= s.begin && first <= end && count >= 1 && first + count <= s.height);
     const int kept = std::min(count, end - first);

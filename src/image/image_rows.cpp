@@ -114,7 +114,7 @@ struct ImageRowWriter::State {
     CheckedFile file;
     std::unique_ptr<OIIO::ImageOutput> output;
     OIIO::ImageSpec spec;
-    int channels = 0;  // of the rows passed to write()
+    int channels = 0;  // channels of the rows passed to write()
     int written = 0;   // rows written so far
 };
 
@@ -177,7 +177,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     s.name = path.string();
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason why it cannot be read
+        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
     checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));

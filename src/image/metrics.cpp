@@ -48,13 +48,13 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
 struct Strip {
     int first = 0;  // compared rows
     int end = 0;
-    int from = 0;  // rows with margins
+    int from = 0;  // rows including the margins: [from, to)
     int to = 0;
 };
 
 // Divides the image into strips that fit into memory together with all intermediate planes.
 std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
-    constexpr double bytesPerPixel = 160;  // measured maximum: HDR-FLIP
+    constexpr double bytesPerPixel = 160;  // measured; HDR-FLIP needs the most
     const int margin = std::max(windowRadius, flipRadius());
     const double fitting = static_cast<double>(maxBytes) / (bytesPerPixel * width);
     const int rows = std::max(static_cast<int>(std::min(fitting, 1e9)) - 2 * margin, margin);
@@ -156,8 +156,8 @@ struct Mean {
     [[nodiscard]] double orElse(double empty) const { return pixels > 0 ? total / static_cast<double>(pixels) : empty; }
 };
 
-// Sums over the strips of an image. Values are added row by row, so that the result depends neither on the number of
-// cores nor on the strips.
+// Sums of pixel differences over the strips of an image. Values are added row by row, so that the result depends
+// neither on the number of cores nor on the strips.
 class DifferenceSums {
 public:
     DifferenceSums(int width, int height, const CompareOptions& options)

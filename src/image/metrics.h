@@ -27,7 +27,7 @@ struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
     const Image* mask = nullptr;            // 1 channel; only pixels where the mask is > 0 are compared
     Image* flipMap = nullptr;               // if set: receives FLIP per pixel, regardless of the mask; 1 channel
-    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: receives the same in strips, from the top
+    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: receives FLIP in strips of rows from the top
 };
 
 // Image that is read in strips of rows, from the top. rows(first, count) returns linear rows, which are valid until the
@@ -40,8 +40,8 @@ struct ImageStrips {
 
 inline constexpr std::uint64_t defaultCompareBytes = std::uint64_t{512} << 20;
 
-// Same as compareImages below, bit for bit, with about `maxBytes` of memory beside the strips; more if 30 rows need
-// more. Both images must have the same size.
+// Same as compareImages below, bit for bit, but with only about `maxBytes` of memory beside the strips, or more if 30
+// rows need more. Both images must have the same size.
 Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
                          std::uint64_t maxBytes = defaultCompareBytes);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Moments of an image: the centroid and the variance of its light, for measuring the blur of a point.
+// Moments of an image: the centroid and the variance of its intensity, for measuring the blur of a point.
 //
 // The variance along an axis is R²/4 for a uniform disk of radius R, and R²/12·(2 + cos(2π/n)) for a regular n-gon with
 // circumradius R. If the blurred object is a square of w px, it adds w²/12. The pixel's box filter adds 1/12 px²
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-struct Moments {             // of the first channel
+struct Moments {             // moments of an image's first channel
     double energy = 0;       // sum over all pixels
     glm::dvec2 mean{0};      // px from the top left corner; NaN if energy is 0
     glm::dvec2 variance{0};  // px²

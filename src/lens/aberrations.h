@@ -8,8 +8,8 @@
 // and 8):
 //   W(l) = ½·A·(m·l)² + B·|l|²·(m·l),
 //   ∇W   = A·(m·l)·m + B·(2·(m·l)·l + |l|²·m),
-// in halves of the image's width. Astigmatism turns a point in focus into a line of length A·|m|² that points to the
-// image's centre. Coma turns it into a comet: each circle on the lens maps to a circle that is traversed twice. The
+// in units of half the image's width. Astigmatism turns a point in focus into a line of length A·|m|² that points to
+// the image's centre. Coma turns it into a comet: each circle on the lens maps to a circle that is traversed twice. The
 // largest offset of a ray through the lens's rim is 3·B·|m|. The total offset is ∇W + C·l, where C·l is the defocus. A
 // and B are fractions of the image's width.
 
@@ -19,11 +19,11 @@
 
 namespace defocus::engine {
 
-// Returns the coma coefficient B that gives points at the left and right edges a tail of `length`. Both are fractions
-// of the image's width.
+// Returns the coma coefficient B for which points at the left and right edges get a coma tail of `length`. Both are
+// fractions of the image's width.
 double comaOfTail(double length);
 
-// Returns ∇W, the image offset of a ray by astigmatism and coma, in halves of the image's width. `ndc` is the image
+// Returns ∇W, the image offset of a ray by astigmatism and coma, in units of half the image's width. `ndc` is the image
 // position, and `lensPoint` lies in the unit disk.
 glm::dvec2 aberration(const ClipCircleOfConfusion& coc, const glm::dvec2& ndc, const glm::dvec2& lensPoint);
 

@@ -70,16 +70,16 @@ glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
 
 // ---- radial light distribution --------------------------------------------------------------------------------------
 
-// Returns the fraction t of the area that contains the fraction `share` of the light: ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t +
-// kt² = share, k ∈ [−1, 1].
+// Returns the fraction t of the aperture's area that transmits the fraction `share` of the light, counted from the
+// centre: ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² = share. k ∈ [−1, 1] is the spherical aberration.
 double aberratedShare(double k, double share) {
     const double linear = 1 - k;
     const double divisor = linear + std::sqrt(std::max(linear * linear + 4 * k * share, 0.0));
     return divisor > 0 ? std::min(2 * share / divisor, 1.0) : 0;
 }
 
-// Moves a disk point along its radius. Uniformly distributed points then have the density of the ring and of the
-// spherical aberration.
+// Moves a disk point along its radius. Uniformly distributed points then follow the light density of a lens with a
+// central obstruction and spherical aberration.
 glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
     const double share = glm::dot(disk, disk);
     const double lit = aberratedShare(aperture.sphericalAberration, share);
@@ -105,7 +105,7 @@ glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
     return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};
 }
 
-// Returns the light of each cell; 0 if the cell's centre lies outside the unit disk.
+// Returns the transmission of each cell; 0 if the cell's centre lies outside the unit disk.
 std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
     const int longer = std::max(image.width, image.height);
     const int parts = (fewestCells + longer - 1) / longer;  // cells per pixel, along each axis
@@ -155,15 +155,15 @@ double placeAmong(Iterator first, Iterator last, double share) {
     return static_cast<double>(found - first) + place;
 }
 
-// Maps (r, s) ∈ [0, 1)² to a lens point by inverting the cumulative light: s selects the row, and r the position in the
-// row.
+// Maps (r, s) ∈ [0, 1)² to a lens point by inverting the cumulative transmission: s selects the row, and r the position
+// in the row.
 glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
-    const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1: a black last row is never selected
+    const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1, so that a black last row is never selected
     const double row = placeAmong(image.rowEnds.begin(), image.rowEnds.end(), share);
     const auto index = std::min(static_cast<std::ptrdiff_t>(row), static_cast<std::ptrdiff_t>(image.rows) - 1);
     const auto first = image.cellEnds.begin() + index * image.columns;
     const glm::dvec2 point = lensPoint(image, placeAmong(first, first + image.columns, square.x), row);
-    // Cells on the rim extend beyond the disk by less than a cell.
+    // Clamp to the disk, because cells on the rim extend beyond it by less than a cell.
     return point / std::max(glm::length(point), 1.0);
 }
 

@@ -40,7 +40,7 @@ Interval squared(const Interval& p) {
 // Ranges of the terms of the circle of confusion C over a box (circle_of_confusion.h).
 struct Parts {
     Interval radius2;  // r²
-    Interval factor;   // blur factor of the surface times (1 + g·r²)
+    Interval factor;   // surface's blur factor times the radial blur gain 1 + g·r²
     Interval front;    // F
     Interval behind;   // B
 };
@@ -67,7 +67,7 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     return parts;
 }
 
-// Returns the range of C/w without the blur limits, as a fraction of the image's width.
+// Returns the range of C/w, as a fraction of the image's width, before the foreground and background blur limits apply.
 Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
     const Interval ofLens = times({std::min(0.0, parts.front.min) + std::max(0.0, parts.behind.min),
                                    std::min(0.0, parts.front.max) + std::max(0.0, parts.behind.max)},
@@ -178,9 +178,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     deviation.kinks = change * longestEdge / 4 * pixels;
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
-    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Lengths are
-    // measured in clip space and divided by the nearest depth. Then the second derivatives of r²·w are at most
-    // 2·(1 + r)², where r is the distance from the image's centre.
+    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Here lengths
+    // are measured in clip space and divided by the nearest depth. The second derivatives of r²·w are then at most 2·(1
+    // + r)², where r is the distance from the image's centre.
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *

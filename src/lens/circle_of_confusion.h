@@ -68,7 +68,7 @@ double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, 
 struct CocRange {
     double nearest = 0;   // min signed CoC, px: at the nearest depth
     double farthest = 0;  // max signed CoC, px: at the farthest depth
-    double smallest = 0;  // min |CoC|, px; 0 if the range contains the focus
+    double smallest = 0;  // min |CoC|, px; 0 if the range contains the focus distance
     double largest = 0;   // max |CoC|, px
 };
 
@@ -107,7 +107,7 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
     double kinks = 0;   // error where the slope of C jumps; cutting triangles there removes it
-    double curved = 0;  // error where C is curved, or by vertex blur; only smaller triangles reduce it
+    double curved = 0;  // error from the curvature of C and from vertex blur; only smaller triangles reduce it
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

@@ -18,12 +18,12 @@ DepthOfField depthOfField(const Lens& lens, double acceptable) {
     if (!(aperture > 0)) return {0, 0, infinity};
     const double f = lens.focalLength * millimetre;
     const double imageDistance = lens.horizontalAperture * millimetre / (2 * tanHalfHorizontalFov(lens));
-    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // 1/m, half range of 1/z in focus
+    const double inFocus = acceptable * millimetre / (aperture * imageDistance);  // half the range of 1/z in focus, 1/m
     DepthOfField result;
     result.hyperfocal = aperture * f / (acceptable * millimetre) + (lens.focusBreathing ? f : 0);
     result.near = 1 / (1 / lens.focusDistance + inFocus);
     const double far = 1 / lens.focusDistance - inFocus;
-    // Despite rounding, a lens focused at its hyperfocal distance must get an infinite far limit.
+    // Ignore rounding errors: the far limit of a lens focused at its hyperfocal distance is infinite.
     result.far = far > 1e-12 * inFocus ? 1 / far : infinity;
     return result;
 }

@@ -33,7 +33,7 @@ struct Lens {
     double bladeCurvature = 0;            // 0: straight blades, 1: a circle
     double anamorphicRatio = 1;           // > 1 narrows the aperture horizontally (tall ovals)
     double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
-    double sphericalAberration = 0;       // [−1, 1]; > 0 moves light to the rim (soap bubbles), < 0 inwards (creamy)
+    double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim (soap bubbles), < 0: creamy
     double catEye = 0;                    // [0, 1]; fraction of the aperture's radius hidden in the corners
     double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
     double astigmatism = 0;               // mm on the sensor; see aberrations.h
@@ -48,8 +48,8 @@ struct Lens {
     bool focusRangeRefocuses = false;  // true: blur behind the range as if focused at its far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
-    double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κr²); r is 1 at the left and right edges
-    double radialBlurGain = 0;  // κ of the gain 1 + κr² on the blur
+    double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κ·r²); r is 1 at the left and right edges
+    double radialBlurGain = 0;  // g of the blur's gain 1 + g·r²; r is 1 at the left and right edges
 };
 
 // Throws Error, with the name of the invalid value in its message, if the lens is impossible. Examples: NaN, fStop ≤ 0,

@@ -172,7 +172,7 @@ constexpr Coordinates r2Steps = {1 / plastic2,
                                  1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6),
                                  1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6 * plastic6)};
 
-// Rounds to a float below 1.
+// Converts to float; clamps values that would round to 1 to the largest float below 1.
 float belowOne(double value) {
     return std::min(static_cast<float>(value), 0x1.fffffep-1f);
 }

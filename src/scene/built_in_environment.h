@@ -10,7 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns the names: "studio" (softboxes in a dark room), "overcast" (CIE overcast sky), "sunset" (low sun).
+// Returns the names of the built-in maps: "studio" (softboxes in a dark room), "overcast" (CIE overcast sky), "sunset"
+// (low sun).
 std::span<const std::string_view> builtInEnvironments();
 bool isBuiltInEnvironment(const std::string& name);
 

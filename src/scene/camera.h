@@ -21,8 +21,8 @@ struct Camera {
     double yfov = 0.6911112;            // radians, full vertical field of view
     std::optional<double> aspectRatio;  // width / height of the image for which yfov was chosen
     double znear = 0.01;                // m
-    // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1. The names with a
-    // meaning are listed in lens/lens_fields.h.
+    // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1.
+    // lens/lens_fields.h lists the names that have an effect.
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
     std::string apertureImage;                // from extras: image path relative to the scene file

@@ -17,9 +17,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double framingTangent = 18.0 / 50.0;  // tan of half the angle of view of the longer image side: 50 mm lens
-constexpr double framingFill = 0.94;            // fraction of the image's sides that the bounding box may fill
-constexpr double framingAzimuth = glm::radians(30.0);  // from +z, the front of glTF models, towards +x
+constexpr double framingTangent = 18.0 / 50.0;  // 50 mm lens: tangent of half the angle along the longer image side
+constexpr double framingFill = 0.94;  // max fraction of the image's width and height that the bounding box fills
+constexpr double framingAzimuth = glm::radians(30.0);  // camera azimuth from +z, the models' front, towards +x
 constexpr double framingElevation = glm::radians(18.0);
 constexpr std::string_view framingName = "auto";
 
@@ -223,8 +223,8 @@ double skyScale(const Pose& pose) {
 
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
-    // Light neutral studio: a bright wall around a dark floor and ceiling, which smooth metals reflect as bands.
-    // `lighting` > 1 makes the sky light the scene more strongly than its background brightness suggests.
+    // Bright neutral studio: a bright wall around a dark floor and ceiling, which smooth metals reflect as bands.
+    // `lighting` > 1 makes the sky light the scene more strongly than its background radiance suggests.
     Environment sky;
     sky.type = EnvironmentType::gradient;
     sky.zenith = {0.12f, 0.13f, 0.15f};

@@ -17,12 +17,12 @@ struct PlacedCamera {
     int node = -1;                    // index of the node that holds the camera; −1: default framing camera
 };
 
-// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node; FirstCamera skips
-// orthographic cameras, and is the default camera if the scene has no other. The default camera shows `pose.bounds`
+// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera is the
+// first camera that is not orthographic, or the default camera if there is none. The default camera shows `pose.bounds`
 // from a three-quarter view in an image of `aspect` = width / height, with matching focusDistance and znear.
-// `tanHalfHorizontal`: tangent of half the default camera's horizontal angle of view; none: as a 50 mm lens sees the
-// longer side of the image. Throws Error if the named camera is orthographic or the name is unknown; the message lists
-// the known names.
+// `tanHalfHorizontal` is the tangent of half the default camera's horizontal angle of view; none: a 50 mm lens on 36 mm
+// film along the longer side of the image. Throws Error if the named camera is orthographic or the name is unknown; the
+// message lists the known names.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect,
                           std::optional<double> tanHalfHorizontal = {});
 
@@ -37,16 +37,16 @@ struct StudioLight {
     double elevation = 0;
     glm::vec3 color{1.0f};
     float illuminance = 1;       // lux on a surface that faces the light
-    double angularDiameter = 0;  // rad, of the softbox
+    double angularDiameter = 0;  // rad; angular diameter of the softbox
     // Returns the unit vector towards the light in camera axes: +x right, +y up, +z backwards.
     [[nodiscard]] glm::dvec3 toLight() const;
 };
 std::span<const StudioLight> studioLights();
 
-// lightsOrDefault returns the pose's lights. Without any, it returns key, fill and rim lights placed relative to the
-// camera, or no lights if every drawn material is unlit or uniformly emissive. environmentOrDefault returns the scene's
-// environment; without one, a soft sky. Under the default lights and sky, a surface of 18 % reflectance appears at 18 %
-// of display white.
+// lightsOrDefault returns the pose's lights. If the pose has none, it returns key, fill and rim lights placed relative
+// to the camera, or no lights if every drawn material is unlit or uniformly emissive. environmentOrDefault returns the
+// scene's environment; without one, a soft sky. Under the default lights and sky, a surface of 18 % reflectance appears
+// at 18 % of display white.
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 

@@ -17,7 +17,7 @@ bool normalise(glm::vec3& vector) {
     const glm::dvec3 wide = vector;
     const double length = glm::length(wide);
     if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // Vectors whose length is 1 within float precision keep their bits.
+    // Leave vectors unchanged whose length is already 1 within float precision.
     if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
     return true;
 }

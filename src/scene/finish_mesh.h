@@ -13,8 +13,8 @@
 namespace defocus::engine {
 
 // Makes all attributes valid; positions must be finite. Normals and tangents get unit length, and skin weights sum to
-// 1. Replaces non-finite and near-zero normals by smooth normals, and such tangents by perpendiculars of the normals.
-// Returns the number of replaced normals.
+// 1. Replaces non-finite and near-zero normals by smooth normals, and non-finite and near-zero tangents by vectors
+// perpendicular to the normals. Returns the number of replaced normals.
 std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Returns the note for users about `count` normals that repairAttributes replaced.

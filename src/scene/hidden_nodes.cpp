@@ -17,7 +17,8 @@ bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     return false;
 }
 
-// Returns the world-space bounding box of the pose's objects except the ground. Each mesh is measured only once.
+// Returns the world-space bounding box of the pose's objects except the ground. Each mesh's own box is computed only
+// once.
 Bounds boundsOf(const Scene& scene, const Pose& pose) {
     Bounds result;
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());

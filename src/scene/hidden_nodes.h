@@ -1,5 +1,5 @@
 #pragma once
-// Hiding of nodes: objects of hidden nodes are not drawn.
+// Hides nodes: objects of hidden nodes and of their descendants are not drawn.
 
 #include <span>
 #include <string>
@@ -16,7 +16,7 @@ void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, 
 // Returns the index of the node with this name or index; see hideNodes for the syntax.
 int nodeCalled(const Scene& scene, const std::string& nameOrNumber);
 
-// Returns a text from which nodeCalled finds this node: the node's name if it is unique, else its index.
+// Returns the text that identifies this node for nodeCalled: the node's name if it is unique, else its index.
 std::string callingOf(const Scene& scene, int node);
 
 }  // namespace defocus::engine

@@ -66,7 +66,7 @@ struct Primitive {
 struct Strokes {
     int material = -1;  // index into Scene::materials; -1: glTF's default material
     bool points = false;
-    std::vector<std::uint32_t> indices;  // into `vertices`: one per point, two per line segment
+    std::vector<std::uint32_t> indices;  // indices into `vertices`: one per point, two per line segment
     Vertices vertices;                   // without normals, the strokes are not lit
 };
 
@@ -77,10 +77,10 @@ struct Mesh {
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;  // default weights, one per morph target
     VertexBlurBounds blurBounds;      // of vertices.blurs
-    std::vector<Strokes> strokes;     // not yet drawn
+    std::vector<Strokes> strokes;     // points and lines; see scene/strokes.h
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles and strokes use; empty without them
+    [[nodiscard]] Bounds bounds() const;  // bounding box of the vertices that triangles and strokes use; may be empty
 };
 
 VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs);

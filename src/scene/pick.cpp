@@ -37,7 +37,8 @@ bool reaches(const Ray& ray, const Bounds& box, double farthest) {
     return enter <= leave;
 }
 
-// Returns the ray parameter at which the ray hits triangle abc from either side; infinity if it does not.
+// Returns the ray parameter at which the ray hits triangle abc from either side; infinity if the ray misses the
+// triangle.
 double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double miss = std::numeric_limits<double>::infinity();
     const glm::dvec3 ab = b - a;
@@ -53,8 +54,8 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `place(index)` returns a
-// vertex position.
+// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `place(index)` returns the
+// position of vertex `index`.
 template <typename Place>
 double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
     for (const Primitive& primitive : mesh.primitives)

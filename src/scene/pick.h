@@ -1,5 +1,6 @@
 #pragma once
-// Finds the first surface that rays hit, by tests of all triangles on the CPU: milliseconds per million triangles.
+// Finds the first surface that a ray hits. Each ray is tested against all triangles on the CPU, in milliseconds per
+// million triangles.
 
 #include <optional>
 #include <vector>
@@ -13,8 +14,8 @@ struct Hit {
     int object = -1;      // index into Pose::objects
 };
 
-// Returns the first hit of a ray from `origin` along each direction; nullopt if it hits nothing. Each object is posed
-// only once.
+// Returns the first hit of a ray from `origin` along each direction; nullopt if the ray hits nothing. Each object is
+// posed only once.
 std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
                                           const std::vector<glm::dvec3>& directions);
 std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t namesListed = 40;  // max names in an error message
 
-// Animatable properties of a node at one time.
+// Animatable properties of a node at one instant.
 struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
@@ -26,7 +26,7 @@ struct NodeState {
     std::vector<double> morphWeights;  // one per morph target of the node's mesh
 };
 
-// Animatable properties of a scene at one time.
+// Animatable properties of a scene at one instant.
 struct SceneState {
     std::vector<NodeState> nodes;
     std::vector<Camera> cameras;
@@ -152,7 +152,7 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// Returns the matrix from mesh space to world space of each joint of the skin.
+// Returns, for each joint of the skin, the matrix from mesh space to world space.
 std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode) {
     std::vector<glm::dmat4> matrices;
     matrices.reserve(skin.joints.size());
@@ -202,7 +202,7 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
     pose.lights.push_back(placed);
 }
 
-// Keeps the maxLights lights of the largest intensity, in their order. Directional lights come first.
+// Keeps the maxLights brightest lights, in their original order. Directional lights count as brighter than all others.
 void leaveOutFaintLights(Pose& pose) {
     if (pose.lights.size() <= maxLights) return;
     const auto brightness = [&](std::size_t light) {
@@ -232,7 +232,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     const glm::dmat4 metresFromUnits = glm::scale(glm::dmat4(1.0), glm::dvec3(scene.metresPerUnit));
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
-    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // product over a node and its ancestors
+    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // blur factors: product over a node and its ancestors
     std::vector<bool> visible(scene.nodes.size());           // whether a node and its ancestors are visible
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
@@ -262,7 +262,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
 
 Pose poseAt(const Scene& scene, double time, int clip) {
     Pose pose = unmeasuredPoseAt(scene, time, clip);
-    // Compute the bounding box of all objects; each mesh is measured once.
+    // Compute the bounding box of all objects; each mesh's own box is computed once.
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
     for (const Object& object : pose.objects) {
         if (object.ground) continue;

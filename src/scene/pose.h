@@ -1,5 +1,5 @@
 #pragma once
-// Scene at one time: objects (mesh instances), lights and cameras in world space.
+// Scene at one instant: objects (mesh instances), lights and cameras in world space.
 
 #include <glm/mat4x4.hpp>
 #include <string>
@@ -30,18 +30,18 @@ struct Object {  // mesh instance with all its primitives
 struct PlacedLight {
     Light light;
     glm::dvec3 position{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector in which the light shines
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector along which the light shines
 };
 
-inline constexpr std::size_t maxLights = 336;  // that fit into a uniform block of every OpenGL driver
+inline constexpr std::size_t maxLights = 336;  // max lights; fits into a uniform block on every OpenGL driver
 
 struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;  // at most maxLights
-    std::size_t faintLights = 0;      // number of further lights, which are left out because they are fainter
+    std::size_t faintLights = 0;      // number of fainter lights that were dropped
     std::vector<Camera> cameras;      // one per entry of Scene::cameras, with animated values
-    Bounds bounds;                    // world space, of all objects except the ground
+    Bounds bounds;                    // of all objects except the ground, in world space
 };
 
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give

@@ -123,8 +123,8 @@ struct Light {  // KHR_lights_punctual
     float range = 0.0f;           // m; 0: unlimited
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
-    // Size of the light, a disk that faces the lit point; it softens shadows. glTF has no light sizes: the defaults are
-    // those of the sun and of a light bulb.
+    // Size of the light, which is a disk that faces the lit point. The size softens shadows. glTF has no light sizes:
+    // the defaults are those of the sun and of a light bulb.
     float angularDiameter = 0.00925f;  // rad; directional lights
     float radius = 0.03f;              // m; point and spot lights
 };
@@ -132,8 +132,8 @@ struct Light {  // KHR_lights_punctual
 // Type of the environment that surrounds and lights the scene. L(d) is its radiance in the unit direction d; d.y is up.
 enum class EnvironmentType {
     none,      // black and transparent: alpha is the coverage by geometry
-    uniform,   // L = zenith everywhere
-    gradient,  // L = mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below
+    uniform,   // radiance `zenith` in all directions
+    gradient,  // radiance mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below the horizon
     map,       // equirectangular HDR image; the centre column is d = −z, the right half has d.x > 0
 };
 
@@ -176,14 +176,14 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // this and the next three: properties of a node
+    translation,  // translation, rotation, scale, weights: properties of a node
     rotation,
     scale,
     weights,
-    cameraYfov,   // radians; this and the next two: properties of a camera (KHR_animation_pointer)
+    cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
     cameraZnear,  // m
-    cameraLens,   // entry `lensValue` of Camera::lens
-    lightColor,   // this and the next two: properties of a light (KHR_animation_pointer)
+    cameraLens,   // entry AnimationChannel::lensValue of Camera::lens
+    lightColor,   // light…: properties of a light (KHR_animation_pointer)
     lightIntensity,
     lightRange,  // m
 };
@@ -193,7 +193,7 @@ struct AnimationChannel {
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // per key 1, 3, 4 or the number of morph targets; times 3 for cubicSpline
+    std::vector<float> values;  // 1, 3, 4 or (morph weights) n numbers per key; three times as many for cubicSpline
     std::string lensValue;      // for ChannelPath::cameraLens: key of Camera::lens
 };
 
@@ -214,7 +214,7 @@ struct Ignored {
 struct Scene {
     std::string name;
     std::filesystem::path file;  // source file; empty: none
-    bool school = false;         // the built-in school of fish, whose lights suit an exposure of 0 EV
+    bool school = false;         // built-in school of fish, lit for an exposure of 0 EV
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;

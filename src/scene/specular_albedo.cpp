@@ -17,10 +17,10 @@ double smithLambda(double cosine, double alpha) {
     return 0.5 * (std::sqrt(1 + alpha * alpha * tangent2) - 1);
 }
 
-// Integrates over the normals that are visible from the eye (Dupuy and Benyoub 2023, Sampling Visible GGX Normals with
-// Spherical Caps). Visible normals occur in proportion to D·G₁·(v·h), so the integrand is only F·G₂/G₁. Substituting
-// 1 − (1 − t)³ for the cap's height gives few steps to normals that face the eye and many to those at grazing angles,
-// where masking changes fast. The azimuth covers half a turn because of symmetry.
+// Integrates over the microfacet normals that are visible from the eye (Dupuy and Benyoub 2023, Sampling Visible GGX
+// Normals with Spherical Caps). Normals are sampled in proportion to D·G₁·(v·h), so the integrand is only F·G₂/G₁.
+// Substituting 1 − (1 − t)³ for the cap's height concentrates the steps at grazing normals, where masking changes fast.
+// The azimuth covers half a turn because of symmetry.
 glm::vec2 integrated(double cosine, double alpha) {
     constexpr int heights = 32;
     constexpr int azimuths = 16;
@@ -41,7 +41,7 @@ glm::vec2 integrated(double cosine, double alpha) {
             const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + stretched;
             const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
             const double vh = std::clamp(glm::dot(eye, half), 0.0, 1.0);
-            const double toLight = 2 * vh * half.z - cosine;  // cosine of the reflected direction to the normal
+            const double toLight = 2 * vh * half.z - cosine;  // cosine between reflected direction and normal
             if (toLight <= 0) continue;
             const double masking = (1 + lambdaV) / (1 + lambdaV + smithLambda(toLight, alpha));
             const double schlick = std::pow(1 - vh, 5);

@@ -14,14 +14,14 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t corners = 4;  // of the quad of a point or of a line segment
+constexpr std::size_t corners = 4;  // corners of the quad that draws a point or a line segment
 
-// Adds the materials of strokes to a scene, one for each material of the file and each kind of lighting.
+// Adds the materials of strokes (points and lines) to a scene: copies of the file's materials, lit or unlit.
 class StrokeMaterials {
 public:
     explicit StrokeMaterials(Scene& scene) : scene_(scene) {}
 
-    // Returns the index of the material for strokes with the material `index` of the file.
+    // Returns the index of the lit or unlit copy of the file's material `index`.
     int of(int index, bool lit) {
         const auto [entry, isNew] = places_.try_emplace({index, lit}, static_cast<int>(scene_.materials.size()));
         if (!isNew) return entry->second;
@@ -41,7 +41,7 @@ private:
     std::map<std::pair<int, bool>, int> places_;
 };
 
-// Half the extent of a stroke at a point, in world space.
+// Half the width of a stroke (a point or line), in world space.
 class HalfWidth {
 public:
     explicit HalfWidth(const StrokeView& view) : view_(view), cameraFromWorld_(glm::inverse(view.worldFromCamera)) {}
@@ -56,7 +56,8 @@ public:
     [[nodiscard]] glm::dvec3 up(const glm::dvec3& point) const {
         return at(point) * glm::dvec3(view_.worldFromCamera[1]);
     }
-    // Returns the vector to the left of a line with this direction, seen from the camera and parallel to the image.
+    // Returns half the line's width as a vector parallel to the image plane. Seen from the camera, it points to the
+    // left of `direction`.
     [[nodiscard]] glm::dvec3 across(const glm::dvec3& point, const glm::dvec3& direction) const {
         const glm::dvec3 p(cameraFromWorld_ * glm::dvec4(point, 1));
         const glm::dvec3 d(cameraFromWorld_ * glm::dvec4(direction, 0));
@@ -71,7 +72,8 @@ private:
     glm::dmat4 cameraFromWorld_;
 };
 
-// Returns the corners of a point's or segment's quad in world space, counter-clockwise as seen from the camera.
+// Returns the corners of the quad for a point or a line segment in world space, counter-clockwise as seen from the
+// camera.
 std::array<glm::dvec3, corners> quadOf(const glm::dvec3& begin, const glm::dvec3& end, bool points,
                                        const HalfWidth& half) {
     if (points) {
@@ -82,7 +84,7 @@ std::array<glm::dvec3, corners> quadOf(const glm::dvec3& begin, const glm::dvec3
     return {begin - atBegin, end - atEnd, end + atEnd, begin + atBegin};
 }
 
-// Appends the quads of `strokes` to the mesh of an object with this matrix.
+// Appends the quads of `strokes` to `mesh`, for an object with the matrix `worldFromObject`.
 void appendQuads(const Strokes& strokes, int material, const glm::dmat4& worldFromObject, const HalfWidth& half,
                  Mesh& mesh) {
     const std::size_t ends = strokes.points ? 1 : 2;

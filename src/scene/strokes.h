@@ -6,19 +6,19 @@
 
 namespace defocus::engine {
 
-// Camera for which the points and lines are one pixel wide.
+// Camera in whose image the points and lines are one pixel wide.
 struct StrokeView {
     glm::dmat4 worldFromCamera{1.0};
     double pixelTangent = 0;  // width of a pixel at distance 1
-    double nearPlane = 0;     // m; nearer points and lines have the width of this depth
+    double nearPlane = 0;     // m; minimum depth for which the width is computed
 };
 
 [[nodiscard]] bool hasStrokes(const Scene& scene);
 
-// Returns the scene with the points and lines of its meshes as triangles. The width holds for `view` and `pose`; as
-// part of the mesh, it changes with the pose and with the distance in other views. A mesh with points or lines is
-// copied for each of its nodes; instances of a node share the width of the first. Points and lines do not follow skins
-// and morph targets.
+// Returns the scene with the points and lines of its meshes as triangles. They are one pixel wide only for `view` and
+// `pose`: the width is part of the mesh, so it changes with other poses and distances. A mesh with points or lines is
+// copied for each of its nodes; all instances of a node get the width of the first. Points and lines do not follow
+// skins and morph targets.
 Scene withStrokes(const Scene& scene, const Pose& pose, const StrokeView& view);
 
 }  // namespace defocus::engine

@@ -10,11 +10,11 @@ namespace defocus::engine {
 // otherwise.
 double metresOfUnit(const std::string& text);
 
-// Inverse of metresOfUnit: returns "m", "cm" or "mm" if `metres` is that unit, else the number.
+// Inverse of metresOfUnit: returns "m", "cm" or "mm" if `metres` is the length of that unit, else the number as text.
 std::string unitOfMetres(double metres);
 
-// Converts lengths with a suffix mm, cm or m to numbers of `unit`, which is "mm" or "m": "50cm" is "0.5" in m. Each
-// part of a text with commas is converted on its own. Parts that are not a number with a suffix stay as they are.
+// Converts lengths with a suffix mm, cm or m to numbers of `unit`, which is "mm" or "m": "50cm" is "0.5" in m. Parts
+// separated by commas are converted separately. Parts that are not a number with a suffix stay unchanged.
 std::string lengthsIn(const std::string& unit, const std::string& text);
 
 // Guesses the metres per unit of a scene from the size `extent` of the framed objects in scene units. Returns 1 for

@@ -22,8 +22,8 @@ std::vector<T> pick(const std::vector<T>& values, std::span<const std::uint32_t>
     return result;
 }
 
-// Appends `added` (`addedCount` values, or empty) to `values` (`count` values, or empty). If only one of them is empty,
-// it is first filled with `neutral`.
+// Appends `added` (`addedCount` values, or empty) to `values` (`count` values, or empty). If only one of the two is
+// empty, the empty one is first filled with `neutral`.
 template <typename T>
 void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added, std::size_t addedCount,
           const T& neutral) {

@@ -23,13 +23,13 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Returns the block with flat shading, which glTF requires for primitives without normals: each triangle gets its own
-// vertices with its face normal (+y without area). Normal displacements of morph targets lead to the face normals of
-// the displaced triangles.
+// vertices with its face normal (+y without area). Morph targets get normal displacements that produce the face normals
+// of the displaced triangles.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first vertex. Attributes that only one of the two
-// has are filled with neutral values in the other: normal +y, a perpendicular tangent, uv 0, white, the first joint, no
-// displacement, and no added blur.
+// Appends `block` to the mesh's vertices and returns the index of its first vertex. An attribute that only the mesh or
+// only the block has is filled with neutral values for the other's vertices: normal +y, a perpendicular tangent, uv 0,
+// white, the first joint, no displacement, and no added blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Returns an arbitrary unit vector perpendicular to the unit vector `normal`.

@@ -29,7 +29,8 @@ float rayLength(const std::array<float, 6>& heights, float t) {
     return std::max(length, 0.0f);
 }
 
-// Returns a wave over the ray position t: 1 on each of `rays` rays, 0 halfway between two rays.
+// Returns a cosine wave over the position t across the fin (0: first fin ray, 1: last). The wave is 1 on each of `rays`
+// fin rays and 0 halfway between two fin rays.
 float rayWave(float t, int rays) {
     return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
@@ -93,7 +94,7 @@ Fin pairedFin(const FishShape& shape, const PairedFin& fin, float side) {
     const auto ray = [=](float t) {
         const float s = 1.0f - 2.0f * t;
         const float notch = 1.0f - 0.03f * (1.0f - rayWave(t, fin.rays));
-        // Rays are longest slightly above the middle of the fin; both ends of the fin are round.
+        // Fin rays are longest slightly above the middle of the fin; both ends of the fin are round.
         const float off = (s - 0.35f) / 1.35f;
         const float length =
             fin.length * notch * (1.0f - 0.45f * off * off) * (1.0f - 0.3f * std::pow(std::abs(s), 6.0f));
@@ -130,7 +131,7 @@ float halfThickness(const Fin& fin, float t, float r) {
     return rimHalfThickness + root + rayRelief * ends * rayWave(t, fin.rays) * (1.0f - 0.7f * r);
 }
 
-// Returns the length of the vertex row at `at`.
+// Returns the length of the vertex row at position `at` (see FinRows).
 float rowLength(const Fin& fin, float at) {
     constexpr int pieces = 24;
     float sum = 0.0f;
@@ -144,8 +145,8 @@ float rowLength(const Fin& fin, float at) {
     return sum;
 }
 
-// Returns the distance between the rows at `from` and `to`, perpendicular to the rows. Rows fan out, so several
-// distances are averaged.
+// Returns the distance between the vertex rows at positions `from` and `to`, perpendicular to the rows. Rows fan out,
+// so several distances are averaged.
 float rowGap(const Fin& fin, float from, float to) {
     float sum = 0.0f;
     constexpr std::array<float, 3> places{0.15f, 0.45f, 0.8f};
@@ -199,7 +200,7 @@ FinRows finRows(const Fin& fin, float edge) {
 void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, FishSurface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
     std::vector<VertexRow> strips;
-    std::vector<glm::vec3> halves;  // half the thickness, as a vector towards the front side
+    std::vector<glm::vec3> halves;  // half the thickness at each vertex, as a vector towards the front side
     for (std::size_t row = 0; row < rows.at.size(); ++row) {
         const std::uint32_t count = rows.counts[row];
         strips.push_back({first + static_cast<std::uint32_t>(halves.size()), count, 0.0f});

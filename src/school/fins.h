@@ -1,5 +1,6 @@
 #pragma once
-// Fish fins: thin closed shells spanned by rays. Each ray is a quadratic Bézier curve from the body to the fin's edge.
+// Fish fins: thin closed shells spanned by fin rays. Each fin ray is a quadratic Bézier curve from the body to the
+// fin's edge.
 
 #include <cstdint>
 #include <functional>
@@ -17,16 +18,16 @@ struct FinRay {
 
 struct Fin {
     FinKind kind = FinKind::dorsal;
-    std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last ray
+    std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last fin ray
     glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // direction of the ripple
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
-    bool rowsAlongRays = false;  // true: vertex rows follow the rays (long low fins); false: rows cross the rays (fans)
+    bool rowsAlongRays = false;  // true: vertex rows follow the fin rays (long low fins); false: rows cross them (fans)
 };
 
-// Vertex rows of a fin. `at` is the ray position t of each row if rows follow the rays, else its fraction r of the
-// distance from root to edge. `counts` are the numbers of vertices.
+// Vertex rows of a fin. `at` is the position t of each row across the fin if rows follow the fin rays, else its
+// fraction r of the distance from root to edge. `counts` holds the number of vertices of each row.
 struct FinRows {
     std::vector<float> at;
     std::vector<std::uint32_t> counts;

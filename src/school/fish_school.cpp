@@ -36,7 +36,7 @@ constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright w
 struct Placement {
     FishSpecies species;
     int variant;
-    double x, y;        // image position in [−1, 1], right and up
+    double x, y;        // image position in [−1, 1]; +x right, +y up
     double depth;       // m
     float length;       // m, without tail fin
     double yaw, pitch;  // degrees; 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards

@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // triangle edges of the eyes relative to the body's; smaller for crisp pupils
+constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to the body; short for crisp pupils
 
 // ---- body ------------------------------------------------------------------------------------------
 
@@ -102,7 +102,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // Neighbouring sections give the slope of the outline for the normals.
+        // For the normals, derive the outline's slope from neighbouring sections.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);
@@ -225,7 +225,7 @@ Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int trian
 
 void FishSurface::add(const glm::vec3& position, const glm::vec3& color) {
     positions.push_back(position);
-    // Quantise to 8 bits, as in most files.
+    // Quantise colours to 8 bits, as most files store them.
     const glm::vec3 steps = glm::floor(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
     colors.emplace_back(steps / 255.0f, 1);
 }

@@ -126,7 +126,7 @@ glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, f
     } else {
         color = glm::mix(pattern.pairedRoot, pattern.pairedEdge, glm::smoothstep(0.1f, 0.9f, r));
     }
-    // The web between the rays is thinner and lets some light through.
+    // The web between the fin rays is thinner and transmits some light.
     const float web = 1.0f - ray;
     return color * (0.82f + 0.18f * ray) + 0.06f * web * glm::smoothstep(0.2f, 1.0f, r) * glm::vec3(0.5f, 0.8f, 1.0f);
 }

@@ -21,9 +21,9 @@ struct FishBand {  // band around the body
 
 struct FishStripes {      // stripes along the body
     float count = 0.0f;   // number of stripes over the body's height; 0: none
-    float share = 0.45f;  // painted fraction of the period
-    float slant = 0.0f;   // rise towards the tail, in half heights per body length
-    float wave = 0.0f;    // waviness, in periods
+    float share = 0.45f;  // painted fraction of a stripe's period
+    float slant = 0.0f;   // rise towards the tail, in half body heights per body length
+    float wave = 0.0f;    // amplitude of the waviness, in stripe periods
     float from = 0.3f;
     float to = 1.0f;
     glm::vec3 color{0.0f};
@@ -34,7 +34,7 @@ struct FishSpots {
     float radius = 0.3f;  // relative to `size`
     float from = 0.3f;
     float to = 1.0f;
-    float lowest = -1.0f;  // height range, in half heights of the body's section
+    float lowest = -1.0f;  // height range, from −1 at the belly to 1 at the back
     float highest = 1.0f;
     glm::vec3 color{0.0f};
     glm::vec3 halo{0.0f};
@@ -45,7 +45,7 @@ struct FishPattern {
     glm::vec3 back{0.1f};
     glm::vec3 flank{0.5f};
     glm::vec3 belly{0.8f};
-    float bellyEdge = -0.35f;  // height of the belly colour's edge, in half heights
+    float bellyEdge = -0.35f;  // height of the belly colour's edge, from −1 at the belly to 1 at the back
     glm::vec3 rear{0.5f};      // colour of the rear half
     float rearStart = 2.0f;    // position `a` of the rear half's start; above 1: no rear half
     float rearSoftness = 0.15f;
@@ -66,7 +66,7 @@ struct FishPattern {
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};
-    glm::vec3 caudalRim{0.5f};  // line along the outermost rays
+    glm::vec3 caudalRim{0.5f};  // line along the outermost fin rays
     float caudalRimWidth = 0.0f;
     glm::vec3 pairedRoot{0.5f};
     glm::vec3 pairedEdge{0.5f};
@@ -77,8 +77,8 @@ struct FishPattern {
 glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const FishSkinPoint& point,
                     const FishRelief& relief);
 
-// Returns a fin's colour at ray position `t` (0 at the first ray, 1 at the last) and fraction `r` of the distance from
-// root to edge. `ray` is 1 on a ray and 0 between two rays.
+// Returns a fin's colour at position `t` across the fin (0 at the first fin ray, 1 at the last) and fraction `r` of the
+// distance from root to edge. `ray` is 1 on a fin ray and 0 between two fin rays.
 glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, float ray);
 
 // Returns the eye's colour at `angle` radians from the pupil's centre.

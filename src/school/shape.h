@@ -30,30 +30,30 @@ enum class FinKind { dorsal, anal, caudal, pectoral, pelvic };
 
 struct MedianFin {
     FinKind kind = FinKind::dorsal;
-    float start = 0.3f;  // position `a` of the first ray
+    float start = 0.3f;  // position `a` of the first fin ray
     float end = 0.9f;
-    std::array<float, 6> heights{};  // lengths of evenly spaced rays, from first to last
+    std::array<float, 6> heights{};  // lengths of evenly spaced fin rays, from first to last
     float leanFront = 0.5f;          // radians backwards from upright
     float leanRear = 0.8f;
-    float curl = 0.1f;      // backward bend of the tips, in ray lengths
-    float scallop = 0.03f;  // depth of notches between rays, in ray lengths
+    float curl = 0.1f;      // backward bend of the tips, in fin ray lengths
+    float scallop = 0.03f;  // depth of notches between fin rays, in fin ray lengths
     int rays = 20;
 };
 
 struct CaudalFin {
     float length = 0.28f;
-    float spread = 0.6f;    // radians between the axis and the outer rays
-    float fork = 0.4f;      // shortening of the middle rays, 0 to 1
-    float rounding = 0.1f;  // shortening of the outermost rays, 0 to 1
+    float spread = 0.6f;    // radians between the axis and the outer fin rays
+    float fork = 0.4f;      // shortening of the middle fin rays, 0 to 1
+    float rounding = 0.1f;  // shortening of the outermost fin rays, 0 to 1
     int rays = 22;
 };
 
 struct PairedFin {
     FinKind kind = FinKind::pectoral;
     float a = 0.3f;        // position `a` of the root
-    float height = -0.2f;  // height of the root, in half heights of the section
+    float height = -0.2f;  // height of the root, relative to the section's halfHeight
     float length = 0.2f;
-    float spread = 0.9f;     // radians between the first and last ray
+    float spread = 0.9f;     // radians between the first and last fin ray
     float outwards = 0.5f;   // radians away from the body
     float downwards = 0.4f;  // radians below the axis
     float rootWidth = 0.05f;
@@ -64,7 +64,7 @@ struct FishShape {
     float length = 0.3f;  // m
     FishOutline outline;
     float eyeA = 0.13f;
-    float eyeHeight = 0.25f;  // height above the section's centre, in half heights of the section
+    float eyeHeight = 0.25f;  // height above the section's centre, relative to the section's halfHeight
     float eyeRadius = 0.034f;
     float mouthLength = 0.05f;
     float mouthDrop = 0.02f;
@@ -111,7 +111,7 @@ public:
 
 private:
     static constexpr int steps = 256;
-    static constexpr float first = -0.2f;  // position `a` of the first station
+    static constexpr float first = -0.2f;  // position `a` of the first tabulated spine point
     static constexpr float last = 2.3f;
     struct Station {
         glm::vec2 position{0.0f};  // x and z

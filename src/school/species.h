@@ -1,6 +1,6 @@
 #pragma once
 // Fish species of the school: free interpretations of reef and pond fish, each with its own outline, fins and palettes.
-// Fish of the same species differ in proportions, relief, bend and pattern.
+// Fish of one species differ in proportions, relief, bend and pattern.
 
 #include <cstdint>
 

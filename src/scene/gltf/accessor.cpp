@@ -9,7 +9,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// Returns the bytes of a component type; 0 for types that are not in glTF, such as tinygltf's INT and DOUBLE.
+// Returns the size in bytes of a component type; 0 for types that are not in glTF, such as tinygltf's INT and DOUBLE.
 std::size_t componentBytes(int componentType) {
     if (componentType == TINYGLTF_COMPONENT_TYPE_INT || componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) return 0;
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
@@ -105,7 +105,7 @@ double loadComponent(const std::byte* bytes, int componentType) {
 }
 
 // Calls store(element, component, value) for each component of an accessor. Values of sparse elements come last, so
-// that they replace those of the buffer view.
+// that they replace the values of the buffer view.
 template <typename Store>
 void forEachComponent(const Source& source, int index, const std::string& what, const Store& store) {
     const tinygltf::Accessor& accessor = accessorAt(source, index);

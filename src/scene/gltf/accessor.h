@@ -27,8 +27,8 @@ double normalisationScale(const Source& source, int accessor);
 // message, unless each element has `components` components.
 std::vector<float> readFloats(Source& source, int accessor, int components, const std::string& what);
 
-// Returns all elements as integers, e.g. indices and joints. Throws Error under the same condition, and for accessors
-// of float or signed type.
+// Returns all elements as integers, e.g. indices and joints. Throws Error, with `what` in its message, for a wrong
+// number of components, and for accessors of float or signed type.
 std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int components, const std::string& what);
 
 // Same as readFloats, with one glm vector per element.

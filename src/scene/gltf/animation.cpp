@@ -237,7 +237,7 @@ std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy) {
 
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins) {
-    // Find the largest joint index with a positive weight per mesh.
+    // For each mesh, find the largest joint index that has a positive weight.
     std::vector<std::size_t> largest(meshes.size());
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const auto look = [&](const std::vector<glm::u16vec4>& joints, const std::vector<glm::vec4>& weights) {

@@ -31,7 +31,7 @@ Document readDocument(const std::filesystem::path& path);
 // Returns the number of entries in the JSON's top-level array `name`; 0 if it does not exist.
 std::size_t entryCount(const Document& document, std::string_view name);
 
-// Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and follow white space.
+// Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and preceded by white space.
 bool isDataUri(const std::string& uri);
 
 // Returns the path of the file that a URI refers to, relative to the document's folder; nullopt for data URIs. A
@@ -43,7 +43,7 @@ std::optional<std::filesystem::path> uriFile(const Document& document, const std
 // (also with line breaks) or percent-encoding.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// Throws Error "FILE: message" as one line.
+// Throws Error with the one-line message "FILE: message".
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
     throw Error(document.file + ": " + shortLine(fmt::format(format, std::forward<Args>(args)...)));

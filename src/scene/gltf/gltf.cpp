@@ -19,8 +19,8 @@ namespace {
 
 // Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
-    constexpr std::uint64_t objectBytes = 2304;                   // measured per object, for its pose and its rendering
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // per joint, in the pose and in the frame's plan
+    constexpr std::uint64_t objectBytes = 2304;                   // measured memory of an object's pose and rendering
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint in the pose and the frame's plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;

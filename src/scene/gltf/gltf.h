@@ -1,11 +1,12 @@
 #pragma once
 // Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use. An invalid file
 // or an unsupported required extension throws Error with the file's path. Other content that is not drawn is listed in
-// Scene::ignored with the reason, also textures whose image is missing or damaged.
+// Scene::ignored with the reason, including textures whose image is missing or damaged.
 //
 // Missing data is completed as glTF requires. Primitives without normals are flat-shaded with unshared vertices;
 // missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer vertices than
-// its accessors. Nodes are those of the default scene, else of the first scene, else all.
+// its accessors. The nodes of the default scene are loaded; without a default scene, those of the first scene; without
+// scenes, all nodes.
 
 #include <filesystem>
 

@@ -34,7 +34,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
-// Returns why the texture is not drawn. Its extensions are those that name an image in another format.
+// Returns the reason why a texture without a supported image is not drawn. Each extension of such a texture names an
+// image in another format.
 std::string withoutImage(const nlohmann::json& texture) {
     std::vector<std::string> formats;
     if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())
@@ -186,7 +187,7 @@ AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::
     fault(source.document, "{}: unknown alphaMode '{}'", label, name);
 }
 
-// Sums over 65,536 lens samples of the largest emission stay finite in 32 bits.
+// Reads the emission and clamps it to 1e30, so that sums over 65,536 lens samples stay finite in 32-bit floats.
 void readEmission(Source& source, const nlohmann::json& json, const std::string& label, Material& material) {
     constexpr double maxEmission = 1e30;
     material.emissive = textureUse(source, json, "emissiveTexture");

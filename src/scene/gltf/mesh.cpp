@@ -110,7 +110,7 @@ void dropUnplacedStrokes(Source& source, Strokes& strokes) {
     strokes.indices = std::move(kept);
 }
 
-// Reads points or lines. Their joints and morph targets are left out.
+// Reads points or lines; drops their joints and morph targets.
 Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
     VertexBlock block = readAttributes(source, primitive, nullptr, what);
     std::vector<std::uint32_t> none;
@@ -125,7 +125,7 @@ Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const 
     strokes.vertices.weights = strokes.vertices.weights1 = {};
     strokes.indices =
         strokeList(primitive.mode, readIndices(source, primitive, strokes.vertices.count(), nullptr, what));
-    constexpr std::uint64_t quadBytes = 512;  // four vertices and two triangles
+    constexpr std::uint64_t quadBytes = 512;  // memory of four vertices and two triangles
     takeBudget(source, strokes.indices.size(), quadBytes, what);
     dropUnplacedStrokes(source, strokes);
     return strokes;

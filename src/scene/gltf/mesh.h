@@ -6,7 +6,7 @@
 namespace defocus::engine::gltf {
 
 // Returns one Mesh per glTF mesh. Primitives with the same attributes share vertices, and unused vertices are dropped.
-// Strips and fans become triangle lists; points and lines are listed in Source::ignored. Primitives without normals are
+// Strips and fans become triangle lists; points and lines become Mesh::strokes. Primitives without normals are
 // flat-shaded with unshared vertices, as glTF requires. Primitives with a normal map but without tangents get tangents.
 std::vector<Mesh> readMeshes(Source& source, const std::vector<Material>& materials, const Progress& progress);
 

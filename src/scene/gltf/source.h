@@ -29,7 +29,8 @@ public:
     // Raises the limit for a file of `fileBytes` bytes that is read. Call it once per file.
     void grant(std::uint64_t fileBytes);
     [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total size of the files passed to grant()
-    // Reserves memory for `count` elements of `elementBytes` each. Returns false if it exceeds the remaining limit.
+    // Reserves memory for `count` elements of `elementBytes` each. Returns false if the memory exceeds the remaining
+    // limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
 
 private:
@@ -43,7 +44,7 @@ struct Source {
     Document document;
     tinygltf::Model model;                                             // from readStructure
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by view; EXT_meshopt_compression only
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // decompressed; EXT_meshopt_compression only
     UnpackBudget budget;
     std::set<std::filesystem::path> files;  // external files whose size was added to the budget
     std::vector<Ignored> ignored;
@@ -62,7 +63,7 @@ std::span<const std::byte> viewBytes(const Source& source, int view);
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
 // Calls budget.grant() for the file that `uri` refers to, and lists a backslash that was read as a slash in
-// Source::ignored. Data URIs and repeated files have no effect.
+// Source::ignored. Does nothing for data URIs and for files that were granted before.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
 // Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their

@@ -9,9 +9,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr bool keepText = false;  // whether tinygltf stores extras and extensions as text; Document::json has them
+constexpr bool keepText = false;  // tinygltf need not store extras and extensions: Document::json has them
 
-// Converts each entry of array `name` of the JSON object `owner`, if the array exists, with `read` into `objects`.
+// Converts each entry of the array `owner[name]` to an element of `objects` with `read`. Does nothing if the array does
+// not exist. Throws Error, with tinygltf's message, if `read` returns false.
 template <typename Object, typename Read>
 void readEach(const Document& document, const Json& owner, const char* name, std::vector<Object>& objects,
               const Read& read) {

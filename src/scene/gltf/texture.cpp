@@ -50,7 +50,7 @@ std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& 
     return {bytes.begin(), bytes.end()};
 }
 
-// One image of the file. The image is empty if `fault` is not.
+// One image of the file. `image` is empty if `fault` is set.
 struct ReadImage {
     TextureImage image;
     std::string name;
@@ -58,7 +58,7 @@ struct ReadImage {
     std::string fault;  // why the image cannot be used
 };
 
-// Calls `step`, and stores its error as the fault of `image`.
+// Calls `step`. If it throws Error, stores the message in `image.fault`.
 void attempt(const Source& source, ReadImage& image, const auto& step) {
     try {
         step();
@@ -67,7 +67,7 @@ void attempt(const Source& source, ReadImage& image, const auto& step) {
     }
 }
 
-// Names the image and adds the size of its file to the budget.
+// Returns image `index` with its name and label, but not yet decoded. Adds the size of an external file to the budget.
 ReadImage openImage(Source& source, std::size_t index) {
     const nlohmann::json& json = source.document.json["images"][index];
     ReadImage result;
@@ -127,7 +127,7 @@ Textures readTextures(Source& source, std::vector<Material>& materials, const Pr
         result.names.push_back(std::move(read[i].name));
     }
 
-    // Connect textures with images, and remove textures without an image from the materials.
+    // Set each texture's image index, and remove textures without an image from the materials.
     for (const tinygltf::Texture& texture : source.model.textures) {
         result.textures.push_back(readTexture(source.model, texture));
         if (texture.source >= 0) result.textures.back().image = places[static_cast<std::size_t>(texture.source)];
