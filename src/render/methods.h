@@ -55,7 +55,7 @@ struct Method {
     bool sumsBlocks = false;      // true: Renderer::continueWith adds to the sum, so the sample count may be open
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsShadows = true;     // false: no shadows
-    bool drawsMotion = true;      // false: draws moving objects at one moment of the exposure
+    bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure
     ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
     MethodSettings best = {};  // settings with the smallest error, at any cost; missing: default

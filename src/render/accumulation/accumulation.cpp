@@ -23,7 +23,7 @@ namespace defocus::engine {
 
 namespace {
 
-// The error of the image may be estimated at multiples of this number of samples, so no wave may cross them.
+// Max samples per wave. The image's error may be estimated at each multiple of this number, so no wave crosses one.
 constexpr std::uint32_t maxWave = 16;
 
 // Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
@@ -33,7 +33,7 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+                                         (plan.usesTransmission ? 2 : 1) +  // a backdrop is a copy of all layers
                                      shadowMapBytes(plan);
     const std::uint64_t fitting =
         requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
@@ -45,7 +45,8 @@ bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
            a.sumHeight == b.sumHeight;
 }
 
-// Whether the image of each sample is blurred by its lens cell; automatic: where it pays (automatic_cells.h).
+// Whether each sample's image is blurred by its lens cell. `automatic` decides by the blur in the image
+// (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSide = 8;  // px; equals cellTile in shaders/include/cells.glsl
+constexpr int tileSide = 8;  // tile side in px; equals cellTile in shaders/include/cells.glsl
 
 int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;

@@ -8,10 +8,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 23;  // as in shaders/include/shadows.glsl
+constexpr GLuint mapsUnit = 23;  // texture unit in shaders/include/shadows.glsl
 constexpr GLuint projectionsUnit = 24;
 constexpr GLint firstSampleLocation = 2;
-constexpr GLint slotLocation = 3;  // as in shaders/shadows/caster.vert
+constexpr GLint slotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 
 std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;

@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 22;      // as in shaders/include/transmission.glsl
-constexpr GLint shadowSlotLocation = 3;  // as in shaders/shadows/caster.vert
+constexpr std::size_t maxBackdrops = 8;  // copies of all layers per frame
+constexpr GLuint backdropUnit = 22;      // texture unit in shaders/include/transmission.glsl
+constexpr GLint shadowSlotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -343,7 +343,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
     bindFrame();
     glDepthFunc(GL_GREATER);
     std::size_t left = transmittingObjects_;
-    std::optional<std::uint32_t> shown;  // transmitting object for which the backdrop was copied
+    std::optional<std::uint32_t> shown;  // transmitting object for which the latest backdrop was copied
     for (const Draw& item : translucent_) {
         if (!contains(objects, item.object)) continue;
         if (!scene_->material(item.material).transmits()) {

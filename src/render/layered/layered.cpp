@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    // Returns the index of a sample's pinhole. A pinhole's samples are consecutive runs of run_ samples, which are well
+    // Returns the index of a sample's pinhole. A pinhole has runs of run_ consecutive samples, which are well
     // distributed over the lens.
     [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
         return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());

@@ -89,7 +89,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    GLint rays = 0;  // the buffer with the rays, restored below: the dispatches use its binding point
+    GLint rays = 0;  // the rays' buffer, restored below because the dispatches use its binding point
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);
     placesProgram_.use();

@@ -22,11 +22,11 @@ constexpr std::size_t jobRanges = 2;  // size of a deferred job, in elements of 
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
 constexpr std::size_t stateBytes = 32u << 20;   // approximate memory for states of jobs that take several dispatches
-constexpr std::uint64_t expectedRecords = 6;    // per line; the buffer grows if a wave needs more
-constexpr std::uint32_t maxShadingPoints = 16;  // per visible interval of a line
+constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer grows if a wave needs more
+constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max of intervals per line, for exact resolve
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // shared memory per segment of a line
+constexpr std::uint32_t sharedBytes = 24;  // bytes of shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
 // Element of the uniform block BoundBlock in shaders/line/kernel.glsl (std140).

@@ -30,8 +30,8 @@ public:
 private:
     const PinholeImage* opaque_;
     PinholeImage image_;
-    GlTexture surfaceDepth_, surfaceOwnBlur_;  // of the nearest surfaces of the bucket
-    GlTexture known_;                          // depth and own blur of these surfaces with mipmaps, for extrapolation
+    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and own blur of the bucket's nearest surfaces
+    GlTexture known_;                          // both textures with mipmaps, for extrapolation
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

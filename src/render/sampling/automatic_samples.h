@@ -21,7 +21,7 @@ double flipOf(Quality quality);
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
-// tiles: that of firstSamples for points at most 2 px apart, scaled with the error of the quality.
+// tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 or 1.4 px (fine) apart.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects.

@@ -49,8 +49,8 @@ public:
     // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by
     // StopSettings::sampleLimit.
     [[nodiscard]] RenderSettings nextBlock() const;
-    // Returns whether addImage() wants the frame's image with this number of samples: half of those of the first error
-    // estimate, which compares the two images.
+    // Returns whether addImage() needs the frame's image after `samples` samples. This number is half the samples of
+    // the first error estimate, which compares the image after each of the two numbers.
     [[nodiscard]] bool wantsImage(std::uint32_t samples) const;
     void addImage(const Image& mean, std::uint32_t samples) { estimate_.add(mean, samples); }
     // Records that a block has been drawn with `plan`, made from the settings of nextBlock(). Returns whether another
@@ -58,12 +58,12 @@ public:
     // is called only if an error estimate is due.
     bool endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean);
 
-    // Returns whether the time limit, including a tolerance of 0.7 s for the end of a block, is over.
+    // Returns whether the time limit, plus a tolerance of 0.7 s for the end of a block, has passed.
     [[nodiscard]] bool outOfTime(double seconds) const;
-    // Ends the frame within a block of which `drawn` samples are drawn.
+    // Ends the frame within a block, of which `drawn` samples are complete.
     void endWithinBlock(std::uint32_t drawn);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // of all complete blocks
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // samples in complete blocks
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
@@ -83,7 +83,7 @@ private:
     RenderSettings settings_;
     StopSettings stop_;
     std::optional<LevelError> levels_;
-    std::optional<double> targetFlip_;  // of an automatic number of samples
+    std::optional<double> targetFlip_;  // FLIP at which an automatic number of samples ends
     double levelErrorSum_ = 0;          // level errors of blocks, weighted by their samples
     ErrorEstimate estimate_;            // error due to sampling only
     std::uint32_t samples_ = 0;

@@ -14,7 +14,7 @@ namespace defocus::engine {
 class ProgressiveImage {
 public:
     // `world` must outlive this object; its pose may change between frames. grow() draws waves of options.wave samples
-    // (0: 4); small waves keep its time limit. Needs a current OpenGL context.
+    // (0: 4); small waves help grow() to keep its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
     // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
@@ -36,10 +36,10 @@ public:
     // For images with a target error, return whether it is reached, and the latest estimate.
     [[nodiscard]] bool converged() const;
     [[nodiscard]] std::optional<double> estimatedError() const;
-    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the latest frame or block
+    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of latest grow()
+    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // from the latest grow()
 
 private:
     void planBlock();

@@ -187,7 +187,7 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    const double radius = largest / width;  // in the unit of |C/w|, for circle of confusion C, depth w
+    const double radius = largest / width;  // max radius in units of |C/w|, for circle of confusion C at depth w
     BlurrinessPlanes planes;
     // At depth w, C/w = a/w + b with a < 0. C/w is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);

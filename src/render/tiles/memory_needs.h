@@ -21,8 +21,8 @@ struct DrawLimits {
 // Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
-// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of what `limit` leaves to the
-// process if that is less.
+// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of the memory still available
+// within `limit` if this is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
 // Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
