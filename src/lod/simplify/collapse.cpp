@@ -50,7 +50,7 @@ struct EdgeSide {
 struct Sides {
     const SurfaceMesh& mesh;
     VertexHandle survivor;
-    double longestStep = 0;  // squared, in texture space; longer steps cross a seam
+    double longestStep = 0;  // max squared step in texture space; longer steps cross a seam
     EdgeSide both[2];
 
     [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {

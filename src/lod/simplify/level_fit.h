@@ -90,7 +90,7 @@ struct LevelFit {
 // degree share a normal; if their colours are equal, they share a colour. This prevents gaps and visible seams.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
-// Corrects a fitted level so that it preserves the properties of level 0 that a wide blur shows:
+// Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:
 // - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
 // - the mean colour over the area, including alpha: all colours are shifted by the same amount;
 // - the light that a matt surface reflects, from any direction: normals are turned slightly (light.h).

@@ -238,7 +238,7 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
     }
 
     manifold.corners.resize(surface.at.size());
-    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // the position has a vertex
+    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // 1: the position has a vertex
     Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // 1: not the first vertex at its position
     for (const SurfaceCorner corner : surface.at.numbers()) {
         const SurfaceCorner fan = root(corner);

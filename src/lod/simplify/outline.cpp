@@ -47,8 +47,8 @@ struct Edge {
 };
 
 struct Edges {
-    std::vector<Edge> all;   // one for each pair of vertex groups
-    std::vector<Edge> more;  // one for each face after the second at an edge
+    std::vector<Edge> all;   // one edge per pair of vertex groups
+    std::vector<Edge> more;  // one edge per face after the second at an edge
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {

@@ -124,8 +124,8 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each corner. If faces with a common normal face opposite ways, the faces of one side form the
-// back. A mesh vertex on both sides is split.
+// The mesh vertex at each corner. If faces that share a vertex normal face in opposite directions, the faces of one
+// side form the back. A mesh vertex on both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
     std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
@@ -279,8 +279,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// Returns a stride for each vertex of the level: of the mesh vertices that collapsed onto it, one per stride gets its
-// own anchor.
+// Returns a stride n for each vertex of the level: every n-th of the mesh vertices that collapsed onto the vertex gets
+// its own anchor.
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)
