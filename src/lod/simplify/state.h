@@ -22,9 +22,9 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // surface vertex at the mesh vertex's first corner; or invalid
+    // surface vertex at the first corner; or invalid
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // primitive of the mesh vertex's first corner
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first corner
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 

@@ -10,12 +10,13 @@
 namespace defocus::engine {
 
 // Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
-// their light and to their importance.
+// luminance × solid angle × importance.
 class EnvironmentDirections {
 public:
     EnvironmentDirections() = default;
-    // `onGround`: shadows fall mostly on a horizontal ground. Importance is then 0.25 + 0.75·max(0, cos θ), where θ is
-    // the angle to the zenith; otherwise it is 1. The first term serves the surfaces of other orientations.
+    // With `onGround`, shadows are assumed to fall mostly on horizontal ground. Importance is then 0.25 + 0.75·max(0,
+    // cos θ), where θ is the angle to the zenith; otherwise it is 1. The constant term is for surfaces of other
+    // orientations.
     explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
 
     struct Choice {

@@ -17,7 +17,7 @@ namespace {
 constexpr int rayColumns = 16;  // rays through the image
 constexpr int rayRows = 12;
 constexpr int rayDepths = 4;              // points of a ray in a bounding box
-constexpr std::size_t maxCrossings = 16;  // along a ray; farther ones are ignored
+constexpr std::size_t maxCrossings = 16;  // max boxes along a ray; farther boxes are ignored
 
 // Part of a ray inside the bounding box of an object. Depths in m.
 struct Crossing {
@@ -26,8 +26,8 @@ struct Crossing {
     const ObjectPlan* object = nullptr;
 };
 
-// Returns where a ray from the camera crosses the object's box; `leave` < `enter` if it misses. `direction` has depth 1
-// m.
+// Returns where a ray from the camera crosses the object's box; `leave` < `enter` if the ray misses the box.
+// `direction` has depth 1 m.
 Crossing crossing(const ObjectPlan& object, const glm::dvec3& direction, double nearPlane) {
     Crossing found{nearPlane, std::numeric_limits<double>::infinity(), &object};
     for (int axis = 0; axis < 3; ++axis) {

@@ -43,7 +43,7 @@ struct RowRange {
 // Returns part `index` (0 … count − 1) of `count` nearly equal parts of the image's rows. `count` is at most `height`.
 RowRange rowsOfPart(int height, int index, int count);
 
-// Returns the plan of a tile. Objects that no lens sample shows in the tile are left out, unless the frame has
+// Returns the plan of a tile. Objects that no lens sample sees in the tile are left out, unless the frame has
 // transmissive objects. Levels, lens samples and everything else are the same as in the entire frame.
 FramePlan tileOf(const FramePlan& plan, const Tile& tile);
 
