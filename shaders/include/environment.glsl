@@ -34,7 +34,7 @@ vec3 gradientRadiance(float height) {
     return mix(lighting.environment[1].rgb, pole, abs(height));
 }
 
-// Returns the irradiance over π by the gradient environment, a polynomial of the unit normal's y (`height`).
+// Returns the irradiance over π from the gradient environment, a polynomial of the unit normal's y (`height`).
 vec3 gradientDiffuse(float height) {
     return lighting.irradiance[0].rgb + height * (lighting.irradiance[1].rgb + height * lighting.irradiance[2].rgb);
 }

@@ -10,12 +10,12 @@
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)
-    float firstOfBlock;   // number in the frame of the first lens sample of this block of blockSamples samples
-    // The next two members are the size of the area over which a texture lookup is filtered; the mean over the samples
-    // filters it over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples (all up to
-    // the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. It represents 1/N, but trilinear
-    // lookups average over more than their nominal area.
+    float firstSample;    // index within the frame of this wave's first lens sample (a wave is drawn at once)
+    float firstOfBlock;   // index within the frame of the first lens sample of this block of blockSamples samples
+    // The next two members are the size of the area over which a texture lookup is filtered. The mean over the samples
+    // filters the texture over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples
+    // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
+    // of the pixel, but trilinear lookups average over more than their nominal area.
     float footprint;      // side of that area, in px
     float mipBias;        // log2(footprint): change of the mip level that is chosen for a whole pixel
 } wave;
@@ -23,7 +23,7 @@ layout(std140, binding = 6) uniform WaveBlock {
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
 layout(binding = 27) uniform sampler2D specularAlbedos;
 
-// Returns the number in the frame of the lens sample that is shaded. Each including shader defines this function.
+// Returns the index within the frame of the lens sample that is shaded. Each including shader defines this function.
 float sampleNumber();
 
 struct SurfacePoint {
@@ -40,7 +40,7 @@ struct SurfacePoint {
     float spread;         // normalSpread(agreement)
     vec3 seen;            // seenNormal(…)
     float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
-    vec3 transmitted;     // radiance from behind the surface, without the loss by reflection
+    vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour
     float sheenRoughness; // perceptual
@@ -48,7 +48,7 @@ struct SurfacePoint {
     float coat;           // coated fraction of the surface
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit vector
-    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
 };
 
 float lightShares[lightCount + 1];   // visible fraction of each light; only if shadowed
@@ -132,7 +132,7 @@ struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
     float spread;         // weight of Beckmann's distribution
-    float shown;          // cosine to the eye of the normals of Beckmann's part: shown + shownOfH · v·h
+    float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
     float shownOfH;       // coefficient of v·h in that cosine
 };
 
@@ -151,7 +151,7 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
 }
 
 // Returns 2·(n·l)·V for height-correlated Smith masking by GGX slopes of width α, for the cosines n·l to the light and
-// n·v to the eye. Normals that face away from either reflect nothing. `width2`: α².
+// n·v to the eye. Normals that face away from the light or the eye reflect nothing. `width2`: α².
 float unmasked(float nl, float nv, float width2) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     float masking = nl * sqrt(nv * nv * (1.0 - width2) + width2) + nv * sqrt(nl * nl * (1.0 - width2) + width2);
@@ -192,7 +192,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (positionRange.w > 0.0) {                                       // the extension's recommended limit of the range
+    if (positionRange.w > 0.0) {                                       // range falloff that the extension recommends
         float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -206,7 +206,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // Returns the normal with which the environment's diffuse light is evaluated.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the fraction of a white environment that the specular part reflects.
+// Returns the directional albedo of the specular part: the fraction of a white environment that it reflects.
 vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec2 size = vec2(textureSize(specularAlbedos, 0));
     vec2 place = (vec2(sqrt(nv), point.roughness) * (size - 1.0) + 0.5) / size;
@@ -255,7 +255,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     return light * (occlusion * environmentLighting);
 }
 
-// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, matters only for point
+// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, is used only for point
 // and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away

@@ -80,7 +80,8 @@ float lightShare(int i, Facet facet, vec3 toLight) {
     return sum / float(shadowPoints);
 }
 
-// Returns the irradiance over π that occluders take from the environment's light on a surface with the given normal.
+// Returns the part of the environment's irradiance, divided by π, that occluders block on a surface with the given
+// normal.
 vec3 hiddenIrradiance(Facet facet, vec3 normal) {
     int map = shadowFirst[lightCount];
     vec3 sum = vec3(0.0);

@@ -3,7 +3,7 @@
 
 struct Surface {
     vec4 color;
-    vec4 minColor;        // min and max colour of all triangles at the vertex
+    vec4 minColor;        // min and max vertex colour of all triangles at the vertex
     vec4 maxColor;
     vec3 normal;          // in world axes, like all directions here
     float agreement;      // coarse levels: length of the mean of the represented normals, ≤ 1

@@ -1,4 +1,4 @@
-// Traces one lens sample: each pixel shows the nearest surface over all layers that its lens ray meets.
+// Traces one lens sample: outputs for each pixel the nearest surface over all layers that its lens ray hits.
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
@@ -23,22 +23,22 @@ layout(location = 2) uniform vec2 pinhole;                  // px, position in t
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // px of blur, tolerance for hitting a plane
-const float oneSurface = 1.0; // px of blur, max difference between adjacent planes of one surface
+const float rounded = 0.05;   // tolerance for hitting a plane, in px of blur
+const float oneSurface = 1.0; // max difference between adjacent planes of one surface, in px of blur
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
 struct Hit {
-    float depth;   // reversed; < 0: none
-    float end;     // blur at which the ray leaves the pixel
+    float depth;   // reversed depth; < 0: no hit
+    float end;     // blur at which the ray leaves the pixel of the hit
     ivec3 texel;
 };
 
 // A line in the layers, parameterised by blur.
 struct Ray {
     vec2 start;      // px
-    vec2 slope;      // px per px of blur
+    vec2 slope;      // change of position in px per px of blur
     vec2 perSlope;   // 1 / slope
-    float shift;     // px, added to the blur of all surfaces
+    float shift;     // px; added to the blur of all surfaces
 };
 
 vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
@@ -91,7 +91,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
-    // The clamp keeps rays to focused surfaces in their pixel despite rounding.
+    // Despite rounding, the clamp keeps rays to surfaces in focus inside their pixel.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

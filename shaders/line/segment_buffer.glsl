@@ -8,11 +8,11 @@ struct Piece {
     float first;
     float last;
     uint triangle;
-    float nextLast;      // end of the next part of the line, which shows another triangle
+    float nextLast;      // end of the next part of the line, in which another triangle is visible
     uint nextTriangle;   // triangle in that part
 };
 
-const float minLight = 1.0 / 4096.0;       // fraction of the line's light
+const float minLight = 1.0 / 4096.0;       // min fraction of the line's light; smaller segments are dropped
 const float continuation = 1e-3;             // max gap in p between a segment and its continuation
 const float sameDepth = 0.02;                // max relative difference of 1/w at the gap
 
