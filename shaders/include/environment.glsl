@@ -1,5 +1,5 @@
 // The environment: radiance along a direction, and irradiance of a surface. environmentType: 0 none, 1 uniform, 2
-// gradient, 3 map. backgroundType: type of the environment shown behind surfaces, 0 or equal to environmentType.
+// gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to environmentType.
 
 #include "include/lighting.glsl"
 

@@ -3,9 +3,9 @@
 // morphNormals and morphTangents. morphAttributes: number of morphed attributes, 1 … 3.
 //
 // A pose in the buffer `poses` begins with the three rows of the view-from-vertex matrix of each joint; without a skin,
-// the object counts as the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the
-// pose ends with a matrix from the view space at this shutter time to the view space in the middle of the exposure, in
-// which lights and sky are defined.
+// the object is the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the pose
+// ends with a matrix from the view space at this shutter time to the view space in the middle of the exposure, in which
+// lights and sky are defined.
 
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;

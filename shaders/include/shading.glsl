@@ -203,7 +203,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     return light.colorScale.rgb * falloff;
 }
 
-// Returns the normal with which the environment's diffuse light is evaluated.
+// Returns the normal for diffuse lighting by the environment.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
 // Returns the directional albedo of the specular part: the fraction of a white environment that it reflects.

@@ -44,7 +44,7 @@ struct VisibleLevel {
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
-    subdivide,  // triangles are divided into small ones because C is curved, then split
+    subdivide,  // triangles are divided into small triangles because C is curved, then split
 };
 
 // Vertex transforms and morph weights of an object at one instant.
@@ -164,7 +164,7 @@ inline constexpr double minBlur = 0.5;  // px
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
 // Returns the index of the sample that draws the object's coarse level at some pixels and the fine level at the others.
-// nullopt if there is none; only LodMode::continuous has such a sample.
+// nullopt if there is no such sample; only LodMode::continuous has one.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
 // Plans a frame. Throws Error if the lens, the size, the number of samples or the shutter times are invalid.

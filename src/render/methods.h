@@ -23,10 +23,10 @@ struct MethodSetting {
     std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;
     double max = 0;
-    bool whole = true;          // for a number: must be an integer
+    bool whole = true;          // numeric setting: the value must be an integer
     std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
     bool ofTheScene = false;    // true: no value suits all scenes; benchmarks of all settings skip it
-    bool keyed = false;         // for a number: a shot may animate it with keys; see valueAt
+    bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt
 };
 
 // Values as text, by name of the setting.

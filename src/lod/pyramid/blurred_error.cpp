@@ -28,8 +28,8 @@ constexpr double minError = 1e-6;         // min error of level 1
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
-// the error grows with the squared edge length. Twice that ratio is allowed here. It gives a lower bound of the error
-// of levels whose triangles are smaller than picture cells.
+// the error grows with the squared edge length. This limit, twice that ratio, gives a lower bound of the error of
+// levels whose triangles are smaller than picture cells.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches
@@ -45,7 +45,7 @@ class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain lit cells
         CellBox kept;                                 // `shown`, enlarged by empty patches as needed for the next size
-        std::array<LargeVector<glm::vec3>, 2> means;  // over white and over black fields; empty for single cells
+        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black fields; empty for single cells
     };
 
 public:

@@ -36,8 +36,8 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change that the
-// mesh's average texture scale gives for the edge's length.
+// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change expected from
+// the edge's length and the mesh's average texture scale.
 constexpr double longestUvStep = 4;
 
 // One side of the collapsing edge: its face (if any), and the wedges of the removed and of the surviving vertex.

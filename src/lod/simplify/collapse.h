@@ -89,7 +89,7 @@ private:
     std::vector<HalfedgeHandle> spokes_;  // temporary storage of cheapest()
 };
 
-// The modules that judge and price each collapse of a surface, and update its wedges and quadrics.
+// The modules that evaluate each collapse of a surface and its cost, and update the surface's wedges and quadrics.
 struct CollapseModules {
     explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
 

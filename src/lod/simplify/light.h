@@ -17,8 +17,8 @@ namespace defocus::engine {
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
-// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored, and a colour counts as
-// the mean of its three channels.
+// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored, and the mean of the
+// three channels replaces a colour.
 using LightMeans = std::array<double, lightCount>;
 
 // Match normalSpread() and meanCosine() in shaders/include/shading.glsl: light reflected by a distribution of normals.

@@ -98,7 +98,7 @@ void compact(Simplifier& s);
 // connect.
 bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
-// simplify these further.
+// simplify these faces further.
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components of the remaining mesh. Further calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);

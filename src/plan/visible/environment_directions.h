@@ -1,5 +1,5 @@
 #pragma once
-// Directions to the environment, for shadows of its light.
+// Directions to the environment, for shadows from environment lighting.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -209,7 +209,7 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
 // Triangle corners of a level at the shutter times, for culling if the circle of confusion C is not linear or the
 // vertices deform.
 struct LevelCorners {
-    std::vector<ClipVertices> moments;  // at each shutter time; a single entry: nothing moves
+    std::vector<ClipVertices> moments;  // one entry per shutter time; a single entry if nothing moves
     bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
     double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
     double lensRadius = 1;              // max distance of the lens samples from the lens's centre

@@ -23,7 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Max samples per wave. The image's error may be estimated at each multiple of this number, so no wave crosses one.
+// Max samples per wave. The image's error may be estimated at each multiple of this number, so waves must not cross a
+// multiple.
 constexpr std::uint32_t maxWave = 16;
 
 // Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
@@ -171,8 +172,8 @@ private:
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. The environment must be drawn if a transmitting surface shows the
-    // environment, or if alpha marks blended surfaces for the blur of lens cells.
+    // when the layers are added to the sum. The environment must be drawn if the environment is visible through a
+    // transmitting surface, or if alpha marks blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&

@@ -49,8 +49,8 @@ public:
     // Return the colour and depth textures of layers().
     [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
     [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
-    // Composites layers [0, count) over the environment and adds them to the sum. The layers show samples [first, first
-    // + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
+    // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
+    // first + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.
@@ -101,7 +101,8 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of blur classes in front and behind
+    // key: number of blur classes in front of and behind the focus plane
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;
     // Kept after the latest block with lens cells, because the next frame often has the same classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;

@@ -96,8 +96,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// Adds the draws of a level of detail: one for the samples that show only this level, one for the boundary sample,
-// which shows two levels in different pixels.
+// Adds the draws of a level of detail: one for the samples that draw only this level, one for the boundary sample,
+// which draws two levels in different pixels.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
     const std::vector<IndexRun> runs =

@@ -46,7 +46,7 @@ public:
 private:
     LensRaysInfo info_;
     GlTexture extents_;  // per square of pixels: min and max blur of the surfaces in the layers
-    GlTexture reach_;    // per pixel: range of the blurs that its rays may hit
+    GlTexture reach_;    // per pixel: range of the blurs of the surfaces that its rays may hit
     Program base_, extend_, bound_;
     Program trace_;
     ShaderDefines traceDefines_;  // defines of trace_

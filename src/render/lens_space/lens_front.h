@@ -47,8 +47,8 @@ public:
     // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
     // name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Computes the vertices and the list sizes for part `part` of the exposure, from time sample `part` of the shutter
-    // to the next. If nothing moves, there is only part 0.
+    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time `part` to the next
+    // shutter time. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
     // Fills the lists of a band and sorts them front to back, unless this band is already filled.
     void fill(const TileBand& band);
