@@ -26,9 +26,9 @@ void main() {
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y));
             vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
-            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus the weight is
-            // proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces therefore leak
-            // little into the wide disks behind them.
+            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus plane, the
+            // weight is proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces
+            // therefore leak little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
             if (nearPremultiplied) before *= min(-diameter * perNearDiameter, 1.0);

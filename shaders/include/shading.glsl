@@ -17,7 +17,7 @@ layout(std140, binding = 6) uniform WaveBlock {
     // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
     // of the pixel, but trilinear lookups average over more than their nominal area.
     float footprint;      // side of that area, in px
-    float mipBias;        // log2(footprint): change of the mip level that is chosen for a whole pixel
+    float mipBias;        // log2(footprint): bias on the mip level that is chosen for a whole pixel
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
@@ -36,7 +36,7 @@ struct SurfacePoint {
     // Sum of the squared changes of the interpolated normal over one pixel to the right and one pixel up.
     float footprint;
     // The next three members are set only if coarseLevel.
-    float agreement;      // length |n| of the mean of the represented normals, in (0, 1]
+    float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // normalSpread(agreement)
     vec3 seen;            // seenNormal(…)
     float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
@@ -79,11 +79,11 @@ float normalSpread(float agreement) {
     return lost * (0.17796 + root * (1.04019 + root * (-1.37493 + root * (1.28514 - 0.72122 * root))));
 }
 
-// Returns the mean of the represented normals weighted by their visible area, because normals that face the eye cover
-// more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has the length |n| = `agreement`. In
-// other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the component of v perpendicular to the
-// mean normal. At grazing angles few normals are visible, and a bound on the tilt keeps the length within what |n|
-// allows. The bound is fitted to the von Mises–Fisher distribution.
+// Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
+// normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
+// the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
+// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and a bound on the tilt
+// keeps the length within what |n| allows. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);

@@ -18,7 +18,7 @@ layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
 layout(binding = 1) uniform sampler2DArray layerSurfaces;   // surfaceOut of layered/peel.frag
 layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur from layered/reach.comp
 layout(location = 0) uniform int layerCount;
-layout(location = 1) uniform int border;                    // px that the layers extend beyond the image
+layout(location = 1) uniform int border;                    // border in px by which the layers extend beyond the image
 layout(location = 2) uniform vec2 pinhole;                  // subpixel position (px) at which the layers were drawn
 
 layout(location = 0) out vec4 layerOut;

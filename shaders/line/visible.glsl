@@ -119,8 +119,9 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Returns bit masks of the triangles in `kept` that this thread's line sees: xy their fronts, zw their backs. addSeen()
-// then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely idle.
+// Returns bit masks of the triangles in `kept` that this thread's line sees: xy for visible front faces, zw for visible
+// back faces. addSeen() then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely
+// idle.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     uvec4 sides = uvec4(0u);
     for (uint i = 0u; i < keptCount; ++i) {

@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D sharpImage;   // alpha: blurriness from blurriness.frag, 1/2 in focus
 layout(binding = 1) uniform sampler2D smallImage;   // reduced and pre-blurred version of sharpImage
 layout(std140, binding = 1) uniform TapBlock {
-    vec4 taps[maxDiskTaps];                           // xy in the unit disk
+    vec4 taps[maxDiskTaps];                           // xy: position in the unit disk
 };
 layout(location = 0) uniform float largestRadius;   // px
 layout(location = 1) uniform bool shaped;           // taps follow the aperture's shape instead of a disk

@@ -74,8 +74,8 @@ struct ObjectPlan {
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
-    // LodMode::continuous: both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no sample
-    // is shared.
+    // With LodMode::continuous, both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no
+    // sample is shared.
     double boundaryShare = 0;
     std::vector<VisibleLevel> visible;  // levels with culled clusters; other levels are drawn completely
     double cocScale = 1;                // factor on the object's blur, ≥ 0
@@ -142,7 +142,7 @@ struct FramePlan {
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, and samples only antialias edges
     bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
-    bool usesOwnBlur = false;      // some object or vertex modifies the lens's blur
+    bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;
     bool usesTransmission = false;

@@ -29,7 +29,7 @@ struct MethodSetting {
     bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt
 };
 
-// Values as text, by name of the setting.
+// Setting values as text, keyed by the name of the setting.
 using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {

@@ -28,7 +28,7 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return bySize(metric) ? level.meanEdge : level.error;
 }
 
-// Returns the number of triangle halvings that lengthens the edges to `target` px, limited to the number of levels.
+// Returns the number of triangle halvings after which the edges are `target` px long, limited to the number of levels.
 double halvings(const Pyramid& pyramid, double pixelsPerUnit, double target) {
     const double coarsest = static_cast<double>(pyramid.levels.size() - 1);
     const double edge = pyramid.levels.front().meanEdge * pixelsPerUnit;

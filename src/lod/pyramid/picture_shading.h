@@ -103,7 +103,7 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// Returns 2·(n·l)·V, like unmasked() in shading.glsl.
+// Returns 2·(n·l)·V with the masking term V, like unmasked() in shading.glsl.
 inline float unmasked(float nl, float nv, float width2) {
     if (nl <= 0 || nv <= 0) return 0;
     const float masking =

@@ -75,7 +75,7 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Returns those of the `count` triangles that have finite corners and positive area, in Morton order.
+// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of all triangles.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits

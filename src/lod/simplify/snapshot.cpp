@@ -30,7 +30,7 @@ constexpr int rounds = 3;  // iterations of k-means with two clusters
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Face normal in mesh winding. Its length is first twice the face's area, then the corner's angle.
+    // Face normal in mesh winding. Its length is initially twice the face's area, later the angle at the corner.
     glm::dvec3 normal;
 };
 
@@ -289,8 +289,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Other
-// vertices have no anchor.
+// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Some
+// vertices have no anchor of their own.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());

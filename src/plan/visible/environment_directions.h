@@ -21,11 +21,11 @@ public:
 
     struct Choice {
         glm::dvec3 toLight{0, 1, 0};  // unit vector
-        glm::dvec3 radiance{0.0};     // radiance over the direction's probability density, W/m²
+        glm::dvec3 radiance{0.0};     // radiance divided by the probability density of the direction, W/m²
     };
     // Maps `point` ∈ [0, 1)² to a direction.
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
-    // Returns the illuminance averaged over the orientations of a surface, weighted over colours by luminance.
+    // Returns the luminance-weighted illuminance, averaged over the orientations of a surface.
     [[nodiscard]] double meanIlluminance() const { return meanIlluminance_; }
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
 

@@ -88,7 +88,7 @@ public:
         drawWave(first, count);
         clock_.endWave();
         if (first + count == total) {
-            sum_->makeMean();  // before endFrame(), so that the frame's time includes it
+            sum_->makeMean();  // before endFrame(), so that the frame's time includes the mean
             clock_.endFrame();
         }
         return first + count < total;
@@ -157,7 +157,7 @@ private:
         const bool sameFormat = sum_ && sum_->info().format == format;
         const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
         if (!sameTarget) {
-            sum_.reset();  // free the old sums first: memory may not hold both
+            sum_.reset();  // free the old sums first, because memory may not suffice for both
             sum_.emplace(info);
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",

@@ -16,8 +16,8 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // a, per squared radius
-    double frequency;  // b, radians per squared radius
+    double decay;      // a of F(x), per squared radius
+    double frequency;  // b of F(x), radians per squared radius
     double cosine;     // A, weight of the real part
     double sine;       // B, weight of the imaginary part
 };
@@ -41,10 +41,10 @@ inline constexpr int publishedKernelLimit = 5;  // max components of publishedCi
 // the sum of their taps. Throws Error for another `count`. The data have static lifetime.
 std::span<const CircularComponent> publishedCircularKernel(int count);
 
-// Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
+// Returns the complex weight F(x) of the tap at offset x = `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);
 
-// Returns K(r) for r² = squaredRadius.
+// Returns the value K(r) of the kernel at r² = squaredRadius.
 double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius);
 
 // Quadrature node for functions f of r² over the square: ∫f dA = Σ weight·f(squaredRadius).

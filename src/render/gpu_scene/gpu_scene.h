@@ -61,7 +61,7 @@ struct GpuDeformation {
 };
 
 struct GpuMesh {
-    glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to it
+    glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to this point
     VertexArray vertexArray;
     Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, blurs, indices;
     GpuDeformation deformation;

@@ -93,7 +93,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
         target_ = Target();
-        maps_ = GlTexture();  // free the old maps first: memory may not hold both
+        maps_ = GlTexture();  // free the old maps first, because memory may not suffice for both
         maps_ = GlTexture({.format = TextureFormat::depth32f,
                            .width = plan.shadows.size,
                            .height = plan.shadows.size,

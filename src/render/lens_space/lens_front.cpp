@@ -62,7 +62,7 @@ void checkDrawable(const FramePlan& plan, const World& world, const std::string&
 }  // namespace
 
 void dispatchOver(std::uint64_t count) {
-    constexpr std::uint64_t max = 65535;  // min of GL_MAX_COMPUTE_WORK_GROUP_COUNT
+    constexpr std::uint64_t max = 65535;  // min GL_MAX_COMPUTE_WORK_GROUP_COUNT that OpenGL guarantees
     const std::uint64_t needed = (count + 255) / 256;
     if (needed == 0) return;
     glDispatchCompute(static_cast<GLuint>(std::min(needed, max)), static_cast<GLuint>((needed + max - 1) / max), 1);
@@ -94,7 +94,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     if (moving) defines_.emplace_back("moving", "true");
     objects_ = objectBlocks(plan, *scene_, poses_);
 
-    // Collect vertices and triangles of all levels that are drawn for some ray.
+    // Collect vertices and triangles of all levels that are drawn for at least one ray.
     vertices_.clear();
     runs_.clear();
     groups_.clear();
@@ -297,7 +297,7 @@ void LensFront::countTiles() {
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
     const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
     if (entries_.bytes() < bytes) {
-        entries_ = Buffer();  // free the old buffer first: memory may not hold both
+        entries_ = Buffer();  // free the old buffer first, because memory may not suffice for both
         entries_ = storage(bytes, "the triangles of a tile");
     }
     statistics_.bytes = entries_.bytes();

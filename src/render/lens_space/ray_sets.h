@@ -28,7 +28,7 @@ struct RaySets {
     std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
 };
 
-// Returns the number of variants for sets of `rays` rays: as many as have at most 262,144 rays in total, but at least 4
+// Returns the number of variants for sets of `rays` rays: as many as give at most 262,144 rays in total, but at least 4
 // and at most 64.
 std::uint32_t variantCount(std::uint32_t rays);
 

@@ -73,7 +73,7 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // free the old buffer first: memory may not hold both
+        list_ = Buffer();  // free the old buffer first, because memory may not suffice for both
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 

@@ -24,7 +24,7 @@ constexpr std::uint32_t softwareRounds = 30'000;
 constexpr std::size_t stateBytes = 32u << 20;   // approximate memory for states of jobs that take several dispatches
 constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer grows if a wave needs more
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
-constexpr std::uint32_t firstCapacity = 48;     // initial max of intervals per line, for exact resolve
+constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;
 constexpr std::uint32_t sharedBytes = 24;  // bytes of shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
@@ -193,7 +193,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // free the old buffer first: memory may not hold both
+            output_ = Buffer();  // free the old buffer first, because memory may not suffice for both
             output_ = storage(bytes, "the lines of a wave");
         }
 

@@ -89,7 +89,7 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // Pieces by mesh, level of detail and primitive.
+    // Pieces, keyed by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
     std::vector<Sorted> sorted_;  // empty if culling is off
     std::int64_t sortedBlock_ = -1;

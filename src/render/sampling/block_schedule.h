@@ -42,8 +42,8 @@ public:
     // not measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below
-    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are those
-    // for the samples expected.
+    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the
+    // defaults for the expected number of samples.
     static BlockSchedule automatic(const RenderSettings& settings, Quality quality, double expected);
 
     // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by

@@ -33,7 +33,7 @@ public:
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
     [[nodiscard]] bool finished() const { return finished_; }
-    // For images with a target error, return whether it is reached, and the latest estimate.
+    // For images with a target error, return whether the target is reached, and the latest error estimate.
     [[nodiscard]] bool converged() const;
     [[nodiscard]] std::optional<double> estimatedError() const;
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block

@@ -41,8 +41,8 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
 // says whether the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if it must
-// but `method` cannot. Needs a current OpenGL context if the method needs one.
+// Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if tiles are
+// needed but `method` cannot draw tiles. Needs a current OpenGL context if the method needs one.
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
                      std::uint64_t limit);
 
