@@ -72,7 +72,7 @@ public:
 
     // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier
     // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
-    // start a new frame. Afterwards, times in stats() are those of `plan` only; triangles and samples are totals.
+    // start a new frame. Afterwards, times in stats() cover only `plan`; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
     // Sets the samples per wave K from the next start() on; 0 restores RendererOptions::wave. K does not change the
     // image.

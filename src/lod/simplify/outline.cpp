@@ -301,7 +301,7 @@ private:
     std::vector<glm::vec3> original_;
     std::vector<std::uint32_t> corners_;
     Edges edges_;
-    std::vector<double> maxMove_;  // per vertex group
+    std::vector<double> maxMove_;  // max move per round of each vertex group
     std::span<const CoverGrid> outlines_;
     std::vector<double> areas_;  // areas of `outlines_`
     const Bounds& box_;

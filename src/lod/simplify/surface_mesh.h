@@ -72,7 +72,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
-        WedgeNumber wedge;  // wedge of the corner; invalid outside a border
+        WedgeNumber wedge;  // wedge of the corner; invalid on the outside of a border
     };
     template <class Base, class Refs>
     struct FaceT : Base {

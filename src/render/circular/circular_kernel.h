@@ -28,9 +28,9 @@ inline constexpr double circularCornerGuard = 0.2;   // weight of the corner pen
 
 // Returns the kernel of `count` components, 1 to circularKernelLimit, that best fits the disk of radius 1 with ∫K = ∫D.
 // The fit minimizes ∫(K − D)² dA over the square, plus circularCornerGuard·π·∫K² du over 1 < u < 2. The second term
-// penalizes the corners (u → 2), whose small area hardly matters in the first: without it, K falls to −0.4 … −0.7 in
-// the corners, and each highlight has four dark dots around it. Throws Error for another `count`. The data have static
-// lifetime.
+// penalizes the corners (u → 2), whose small area hardly matters in the first term. Without the second term, K falls to
+// −0.4 … −0.7 in the corners, and each highlight has four dark dots around it. Throws Error for another `count`. The
+// data have static lifetime.
 std::span<const CircularComponent> circularKernel(int count);
 
 inline constexpr int publishedKernelLimit = 5;  // max components of publishedCircularKernel()

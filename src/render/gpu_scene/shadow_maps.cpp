@@ -17,7 +17,8 @@ std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// Returns defines with the index of the first map and the number of maps for each light, and last for the environment.
+// Returns defines with the index of the first map and the number of maps for each light and, as the last entry, for the
+// environment.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);

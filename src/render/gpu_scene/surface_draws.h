@@ -31,7 +31,7 @@ struct IndexRun {
     std::uint32_t count = 0;
 };
 
-// Returns the index ranges of a primitive at a level of detail: all indices, or those of the visible clusters.
+// Returns the index ranges of a primitive at a level of detail: all indices, or the indices of the visible clusters.
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
                                 std::uint32_t primitive);
 

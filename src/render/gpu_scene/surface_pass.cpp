@@ -184,7 +184,8 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind theirs to the same array.
+// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind their own buffers to the same
+// array.
 void SurfacePass::bindSamples(VertexArray& array) const {
     array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
     array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));

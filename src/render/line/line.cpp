@@ -208,7 +208,7 @@ private:
         return readCounters();
     }
 
-    // Runs the jobs that the first dispatch deferred until all are complete, as many at once as there are states.
+    // Runs the deferred jobs until all are complete. Each dispatch runs as many jobs as there are states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {

@@ -142,7 +142,7 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred; only with a transparent background or buckets
+    GlTexture coverage_;  // blurred coverage; only with a transparent background or buckets
     GlTexture radiance_;  // blurred radiance of a bucket; only with buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;

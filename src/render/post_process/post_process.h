@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Interface of a method's blur of a pinhole image by depth.
+// Interface for methods that blur a pinhole image by depth.
 class PostProcess {
 public:
     virtual ~PostProcess() = default;

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 inline constexpr std::uint32_t maxAutomaticSamples = 1024;
 
-// Returns the FLIP against the converged image that the quality aims at.
+// Returns the target error of the quality setting: the FLIP between the image and the converged image.
 double flipOf(Quality quality);
 
 // Returns the number of samples to begin with: 16 (draft), 32 (good) or 64 (fine), or complete blocks of 64 up to

@@ -4,9 +4,9 @@
 // images and the window both use it.
 //
 // The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
-// it is measured before the first block (LevelError). Thresholds are chosen so that it is less than half the intended
-// error: the target, or the error at the expected number of samples. Without this measurement, thresholds are those for
-// four times the expected samples.
+// it is measured before the first block (LevelError). Thresholds are chosen so that this error is less than half the
+// intended error: the target, or the error at the expected number of samples. Without this measurement, thresholds are
+// the defaults for four times the expected samples.
 
 #include <functional>
 #include <optional>
@@ -38,8 +38,8 @@ struct LevelError {
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are those of the frame; their number of samples is ignored. `levels` is nullopt if the level error was
-    // not measured or level of detail is off.
+    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the level
+    // error was not measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below
     // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the

@@ -22,10 +22,10 @@ public:
     void drawFrame(FramePlan plan);
 
     // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks. The thresholds of a block
-    // are those for the samples in the sum after this block.
+    // are the defaults for the number of samples in the sum after this block.
     //
     // With `targetError`, for methods that sum blocks, the image is complete once its estimated error is below this
-    // value. Thresholds are then those of BlockSchedule.
+    // value. BlockSchedule then chooses the thresholds.
     void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
     // Draws waves until about `milliseconds` have passed, at least one wave. Returns false once the image is complete.

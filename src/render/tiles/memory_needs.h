@@ -26,7 +26,7 @@ std::uint64_t memoryLimit(const DrawLimits& limits);
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
 // Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
-// a quarter of the memory. `needs` are those of needsBeforeUpload().
+// a quarter of the memory. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and
