@@ -16,7 +16,7 @@ layout(std140, binding = 6) uniform WaveBlock {
     // filters the texture over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples
     // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
     // of the pixel, but trilinear lookups average over more than their nominal area.
-    float footprint;      // side of that area, in px
+    float footprint;      // side of the filtered area, in px
     float mipBias;        // log2(footprint): bias on the mip level that is chosen for a whole pixel
 } wave;
 
@@ -30,7 +30,7 @@ struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
-    vec3 normal;          // unit vector in world axes, like all directions here
+    vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
     vec3 emission;        // only if emissive
     // Sum of the squared changes of the interpolated normal over one pixel to the right and one pixel up.
@@ -215,8 +215,9 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     return point.specular * albedo.x + albedo.y;
 }
 
-// Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured reflections
-// the strongest channel counts, so that the layers beneath don't get the complementary colour (KHR_materials_specular).
+// Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured
+// reflections, the strongest channel is used, so that the layers beneath don't get the complementary colour
+// (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
     return ownReflectance ? vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b))) : 1.0 - reflected;
 }

@@ -43,7 +43,8 @@ struct Ray {
 
 vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 
-// Updates `hit` if the ray meets a nearer surface in this layer. Only surfaces behind the reversed depth `limit` count.
+// Updates `hit` if the ray meets a nearer surface in this layer. Only surfaces behind the reversed depth `limit` are
+// considered.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
     if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray

@@ -44,7 +44,7 @@ using SurroundSums = std::array<SquareSums, surrounds.size()>;
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain lit cells
-        CellBox kept;                                 // `shown`, enlarged by empty patches as needed for the next size
+        CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
         std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black fields; empty for single cells
     };
 
@@ -273,7 +273,7 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Interpolates a BlurTable linearly at the patch side `side`; larger sides than in the table give the last value. at(i)
+// Interpolates a BlurTable linearly at the patch side `side`; for sides beyond the table, returns the last value. at(i)
 // returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {

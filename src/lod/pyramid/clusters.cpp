@@ -49,13 +49,13 @@ struct ClusterGrowth {
     Numbered<LocalNumber, ClusterNumber> lastCluster;  // last cluster that contains the position
     Numbered<TriangleNumber, std::uint8_t> taken;
 
-    // The growing cluster: sums over its triangles.
+    // Sums over the triangles of the growing cluster.
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex: expensive to draw in another cluster
+    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex, expensive in another cluster
     std::vector<TriangleNumber> beside;    // two corners are in the cluster
     std::vector<TriangleNumber> touching;  // one corner is in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters

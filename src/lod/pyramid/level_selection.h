@@ -21,7 +21,7 @@ const char* lodMetricName(LodMetric metric);
 // edge length, is therefore in px. An unset threshold depends on the sample count, so that long renders converge to
 // full detail.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // px of target per px of CoC, ≥ 0
+    std::optional<double> blur = {};   // target in px per px of CoC, ≥ 0
     std::optional<double> size = {};   // px, ≥ 0; ignored by LodMetric::score
     std::optional<double> light = {};  // px, ≥ 0; only for LodMetric::measured, which ignores `blur` and `size`
 };
@@ -30,7 +30,7 @@ struct GivenThresholds {
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // px of target per px of CoC
+    double blur = 0;  // target in px per px of CoC
     double size = 0;  // min target in px
     // px: max product of a level's edge length in px and its error in standard deviations of the radiance within the
     // blur. Only for LodMetric::measured; see measuredLimit.

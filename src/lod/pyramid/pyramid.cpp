@@ -125,8 +125,8 @@ std::size_t percentileRank(std::size_t count) {
     return count - static_cast<std::size_t>(std::min(errorPercentile * number + 2 * deviation, number - 1));
 }
 
-// Returns the distance between the two surfaces: the larger of both directions, at most the bounding box's diagonal.
-// Without this limit, the distance to a level without area would be infinite.
+// Returns the distance between the two surfaces: the larger of the distances in both directions, at most the bounding
+// box's diagonal. Without this limit, the distance to a level without area would be infinite.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
@@ -333,7 +333,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
 
     reach(shareUntilClustered);
 
-    // Sort vertices by survival.
+    // Sort vertices by the coarsest level that uses them.
     std::vector<TriangleSet<MeshVertexNumber>> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));

@@ -94,8 +94,9 @@ struct PyramidLevel {
 };
 
 struct Pyramid {
-    // The vertices of level 0, sorted by survival; identical vertices are merged. `normals` are the normals of level 0.
-    // A few vertices are stored twice, for coarser levels that need two normals at one position.
+    // The vertices of level 0, sorted by the coarsest level that uses them; identical vertices are merged. `normals`
+    // are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals at one
+    // position.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // for each vertex, its index in Mesh::vertices; morph targets use it
     std::vector<std::uint32_t> indices;  // indices of all levels, level by level

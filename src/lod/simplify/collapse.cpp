@@ -1,4 +1,4 @@
-// Judges the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
+// Evaluates the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
 
 #include "lod/simplify/collapse.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double minTurnCosine = 0.2588;  // 75°
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// Judges the face with corners a, b and c when a moves to `target`.
+// Classifies a face with corners a, b and c after corner a moves to `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);

@@ -125,7 +125,8 @@ struct Removable {
     std::vector<FaceHandle> faces;
 };
 
-// Returns the removable components, smallest first: all except the largest and those that collapses can still simplify.
+// Returns the removable components, smallest first: all except the largest component and the components that collapses
+// can still simplify.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());
@@ -233,7 +234,7 @@ private:
         }
         template <typename Box>
         bool kdtree_get_bbox(Box&) const {
-            return false;  // nanoflann computes the bounding box
+            return false;  // false: nanoflann computes the bounding box
         }
     };
 

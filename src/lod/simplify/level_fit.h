@@ -79,7 +79,7 @@ struct LevelMesh {
 // Fitted attributes of each vertex of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
-    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the represented normals differ more
+    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the normals of level 0 differ more
     Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };

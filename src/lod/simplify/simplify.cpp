@@ -137,7 +137,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Performs the collapse of `along`, which must be the collapse that was judged last.
+// Performs the collapse of `along`, which must be the collapse that was evaluated last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);

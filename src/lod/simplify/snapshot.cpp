@@ -38,7 +38,8 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first; the mean is then long enough for any corner angles.
+// Returns true if all face normals are within 60° of the first normal; the mean is then long enough for any corner
+// angles.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -69,8 +70,8 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Moves the corners of the back side to the end of `corners` and returns the index of the first of them. Returns the
-// number of corners if no split is needed. `own` is the vertex's normal.
+// Moves the corners of the back side to the end of `corners` and returns the index of the first moved corner. Returns
+// the number of corners if no split is needed. `own` is the vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -259,7 +260,7 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
         for (const TriangleCorner corner : rings.around[nearest]) {
             const glm::dvec3& b = rings.point(nextCorner(corner));
             const glm::dvec3& c = rings.point(previousCorner(corner));
-            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // closest at the vertex itself
+            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // the vertex itself is closest
             const TriangleNumber face = faceOf(corner);
             if (!(glm::dot(rings.normals[face], side) > 0)) continue;
             const glm::dvec2 along = closestCoordinates(p, a, b, c);

@@ -81,7 +81,7 @@ struct Simplifier {
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// Judges the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
+// Classifies the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
 // Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
 // only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
