@@ -83,7 +83,7 @@ private:
     RenderSettings settings_;
     StopSettings stop_;
     std::optional<LevelError> levels_;
-    std::optional<double> targetFlip_;  // FLIP at which an automatic number of samples ends
+    std::optional<double> targetFlip_;  // target FLIP for an automatic number of samples
     double levelErrorSum_ = 0;          // level errors of blocks, weighted by their samples
     ErrorEstimate estimate_;            // error due to sampling only
     std::uint32_t samples_ = 0;
