@@ -13,10 +13,10 @@
 layout(location = 0) uniform vec4 levelMin;
 layout(location = 1) uniform vec4 levelMax;
 
-// Returns the interpolated colour, clamped to the range of the corner values. Rasterizers round corners to a fraction
-// of a pixel, so attributes of very narrow triangles are extrapolated far outside that range. Normals need no clamp,
-// because only their direction counts. Texture coordinates need no clamp either, because steep gradients select the
-// smallest mip level.
+// Returns the interpolated colour, clamped to the range of the corner values. Rasterizers round vertex positions to a
+// fraction of a pixel, so attributes of very narrow triangles are extrapolated far outside that range. Normals need no
+// clamp, because only their direction counts. Texture coordinates need no clamp either, because steep gradients select
+// the smallest mip level.
 vec4 surfaceColor() {
     if (colorRanges) return clamp(surface.color, surface.minColor, surface.maxColor);
     if (levelColorRange) return clamp(surface.color, material.baseColor * levelMin, material.baseColor * levelMax);

@@ -268,9 +268,9 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
     return triangle;
 }
 
-// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounded corners
-// can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H px. Moving the
-// corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
+// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounding of the
+// vertex positions can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H
+// px. Moving the corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
 double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
     double min = infinity;
     double max = 0;
@@ -453,7 +453,7 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 // Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
 // means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The circle of confusion of a thin lens,
 // |C(w)|, is convex, so the corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside
-// the image, one more pixel accounts for rounded triangle corners.
+// the image, one more pixel accounts for the rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;
