@@ -19,7 +19,8 @@ void main() {
         seen += 1.0;
         addLayer(sum, compensation, layerLight(ivec3(pixel + firstPixel, layer), imagePlane), layer);
     }
-    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers need no compensation
+    // alpha counts samples; integers need no compensation
+    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     sumOut = sum;
     compensationOut = compensation;
 }

@@ -31,8 +31,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
 }
 
-// Returns a bit mask of the blur classes that are not empty. The sum of such a class differs in its number of samples
-// from the sum of the next class. `samples`: number of all samples in the pixel.
+// Returns a bit mask of the blur classes that are not empty. A class is not empty if the number of samples in its sum
+// differs from the number in the next class's sum. `samples` is the number of all samples in the pixel.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;
@@ -59,7 +59,8 @@ void main() {
         addLayer(sum, compensation, value, layer);
         addToCells(cells, value, texel, ndc);
     }
-    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);   // integers need no compensation
+    // alpha counts samples; integers need no compensation
+    if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
     uint held = heldBy(cells, sum.a);

@@ -1,15 +1,15 @@
 // Computes the block's sum with blurred lens cells. The blur classes (include/cells.glsl) are composited from farthest
 // to nearest, each blurred by linear interpolation of its means. Unblurred samples are composited between the classes
-// behind the focus and the classes in front of the focus. Where only foreground samples exist, they also replace the
-// unknown background.
+// behind the focus plane and the classes in front of the focus plane. Where only foreground samples exist, they also
+// replace the unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Means of the blur classes in front of the focus (layer 0) and behind the focus (layer 1). shownMeans holds the mean
-// radiance and number of a class's own samples; openMeans holds the mean number of samples not hidden by nearer
-// classes.
+// Means of the blur classes in front of the focus plane (layer 0) and behind it (layer 1). shownMeans holds the mean
+// radiance and number of a class's own samples; openMeans holds the mean number of samples that nearer classes do not
+// hide.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
 // Columns and rows of the grid of squares of blur class 0.

@@ -14,7 +14,7 @@ layout(std140, binding = 3) uniform ShiftBlock {
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-// Pixel of the layers that belongs to pixel (0, 0) of the sums.
+// Pixel of the layers that corresponds to pixel (0, 0) of the sums.
 layout(location = 2) uniform ivec2 firstPixel;
 
 #ifdef WEIGHS_SAMPLES

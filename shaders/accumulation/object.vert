@@ -1,4 +1,4 @@
-// Draws one instance of an object per lens sample: the lens shear (include/lens.glsl) moves the vertices, and gl_Layer
+// Draws one instance of an object per lens sample. The lens shear (include/lens.glsl) moves the vertices, and gl_Layer
 // selects the sample's layer.
 
 #include "include/frame.glsl"

@@ -1,4 +1,5 @@
-// Draws a triangle at infinite depth over the layer of each lens sample, so that uncovered pixels show the environment.
+// Draws a triangle at infinite depth over the layer of each lens sample, so that the environment fills pixels without a
+// surface.
 
 #include "include/layer_choice.glsl"
 

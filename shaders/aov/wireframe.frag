@@ -1,4 +1,4 @@
-// Draws a triangle edge in the colour of the object's level of detail.
+// Draws a triangle edge in the colour that represents the object's level of detail.
 
 #include "include/frame.glsl"
 #include "include/tone_map.glsl"

@@ -1,17 +1,17 @@
 // Composites the blurred far field over the sharp image, and the blurred near field over both. The far field covers
-// only pixels behind the focus.
+// only pixels behind the focus plane.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 2) uniform sampler2D farBlurred;    // with combinedFields: near and far field in one
+layout(binding = 2) uniform sampler2D farBlurred;    // with combinedFields, both fields in one image
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
-layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus (px)
+layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus plane (px)
 // 0: no near field. ≥ 1: factor on the near field's coverage.
 layout(location = 0) uniform float blendBias;
-layout(location = 1) uniform float perFarDiameter;   // 1 / max diameter behind the focus (px)
+layout(location = 1) uniform float perFarDiameter;   // 1 / max diameter behind the focus plane (px)
 
 layout(location = 0) out vec4 image;
 
@@ -26,14 +26,15 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
 float coverageOf(float weight, vec2 place) {
     if (nearPremultiplied) {
         // Divides by the weight that split.frag gives to a surface with the gathered blur. Surfaces with that blur then
-        // cover fully, and less blurred surfaces partially.
+        // cover the pixel fully, and less blurred surfaces cover it partially.
         float diameter = 2.0 * float(reduction) * textureLod(nearRadii, place, 0.0).r;
         weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
     }
     return clamp(weight, 0.0, 1.0);
 }
 
-// Returns the factor on the coverage for compositing a near field of radiance `before` over radiance `behind`.
+// Returns the factor on the coverage for compositing a near field of radiance `before` over a background of radiance
+// `behind`.
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
     // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.
@@ -50,7 +51,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);   // fades in from 1 to 2 field px
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in for diameters from 1 to 2 field px
     vec3 color;
     if (combinedFields) {
         own += clamp(-diameter, 0.0, 1.0);

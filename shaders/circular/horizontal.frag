@@ -5,7 +5,8 @@
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
 layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: the field's max radiance, max weight
-layout(location = 16) uniform vec4 brackets[components];   // offset, scale of the real part; then of the imaginary part
+// offset and scale of the real part, then of the imaginary part
+layout(location = 16) uniform vec4 brackets[components];
 layout(location = 15) uniform int firstComponent;
 
 // Per component, the real part and the imaginary part of the sum. If bracketed (sums mapped to [0, 1]; Bracket in

@@ -10,25 +10,25 @@ layout(location = 0) uniform float largestRadius;   // image px
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
 
-layout(location = 0) out vec4 farField;             // with combinedFields: near and far field in one
+layout(location = 0) out vec4 farField;             // with combinedFields, both fields in one image
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
-layout(location = 3) out vec4 nearField;            // not for combinedFields
+layout(location = 3) out vec4 nearField;            // absent with combinedFields
 
 void main() {
     ivec2 first = reduction * ivec2(gl_FragCoord.xy);
     ivec2 last = min(first + reduction, textureSize(pinholeColor, 0)) - 1;
     vec4 farSum = vec4(0.0);
     vec4 nearSum = vec4(0.0);
-    vec2 farBlur = vec2(0.0);   // weighted sum, sum of weights
+    vec2 farBlur = vec2(0.0);   // x: weighted sum; y: sum of weights
     nearRadius = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y));
             vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
-            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus the weight is
-            // proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces therefore leak
-            // little into the wide disks behind them.
+            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus plane, the
+            // weight is proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces
+            // therefore leak little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
             if (nearPremultiplied) before *= min(-diameter * perNearDiameter, 1.0);

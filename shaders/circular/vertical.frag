@@ -4,7 +4,8 @@
 // relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
-layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];   // as in horizontal.frag
+// output of horizontal.frag
+layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];
 layout(binding = 9) uniform sampler2D brightest;
 layout(location = 16) uniform vec4 brackets[components];
 layout(binding = 8) uniform sampler2D radii;

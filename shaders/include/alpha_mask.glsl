@@ -1,7 +1,8 @@
-// Cut-outs of glTF's alphaMode MASK. A texel is shown if its alpha is at least the cutoff. Alpha in mip levels ≥ 1 of
-// the base colour is the coverage: the fraction of shown full-size texels (src/render/gpu_scene/cut_out.h). Where such a
-// level is read, a lens sample shows the fragment if the coverage exceeds the sample's dither threshold. The mean over
-// the samples is therefore the coverage (Enderton et al. 2010, Stochastic Transparency). Magnified edges stay sharp.
+// Cut-outs of glTF's alphaMode MASK. A texel is visible if its alpha is at least the cutoff. Alpha in mip levels ≥ 1 of
+// the base colour is the coverage: the fraction of visible full-size texels (src/render/gpu_scene/cut_out.h). Where
+// such a level is read, a lens sample draws the fragment if the coverage exceeds the sample's dither threshold. The
+// mean over the samples is therefore the coverage (Enderton et al. 2010, Stochastic Transparency). Magnified edges stay
+// sharp.
 
 // Returns a dither threshold in [0, 1) that is evenly distributed over neighbouring pixels, with a different offset for
 // each object, and over the lens samples in each pixel. The pattern is the R2 sequence x/ρ + y/ρ² modulo 1 with
@@ -12,14 +13,15 @@ float ditherThreshold(uvec2 pixel, float sampleOffset) {
     return fract(float(place >> 8) / 16777216.0 + sampleOffset);
 }
 
-// Returns 0 if a texture lookup reads only mip level 0, 1 if it reads none of level 0, and between the weight of level 1.
+// Returns the weight of mip levels ≥ 1 in a texture lookup: 0 if only level 0 is read, 1 if level 0 is not read.
 float minification(int unit, int slot, float mipBias) {
-    vec2 levels = textureQueryLod(materialTextures[unit], uvOf(slot, surface.uv));   // x: level read without the bias
+    // x: mip level that is read without the bias
+    vec2 levels = textureQueryLod(materialTextures[unit], uvOf(slot, surface.uv));
     return clamp(min(levels.y + mipBias, levels.x), 0.0, 1.0);
 }
 
-// Returns whether the mask hides the fragment. `alpha`: of the textured colour; `plainAlpha`: without the texture;
-// `mipBias`: bias with which the texture was read.
+// Returns whether the mask hides the fragment. `alpha` is the alpha of the textured colour, and `plainAlpha` is the
+// alpha without the texture. `mipBias` is the bias with which the texture was read.
 bool maskHides(float alpha, float plainAlpha, uvec2 pixel, float mipBias) {
     float cutoff = material.emissiveCutoff.w;
     if (baseColorTexture.x >= 0) {

@@ -2,9 +2,9 @@
 // of increasing blur, separately in front of and behind the focus plane. The array texture of sums has one layer per
 // class.
 //
-// Layer k < cellsInFront sums all samples except those in front of the focus plane of class k or more blurred. Layer
-// cellsInFront + k sums the samples behind the focus plane of class k or more blurred. A class is the difference of
-// two adjacent layers. RGB is radiance, and alpha counts samples.
+// Layer k < cellsInFront sums all samples except the samples in front of the focus plane whose class is k or more
+// blurred. Layer cellsInFront + k sums the samples behind the focus plane whose class is k or more blurred. A class is
+// the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
 // Number of the blur classes whose sums fit into a render target beside the sum of all samples.
@@ -18,15 +18,15 @@ const int besideSpread = 16;   // bit at which the second class mask of spread_c
 // −1 is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
-// Returns the fraction of a sample with blur variance `variance` that counts for blur class k and the more blurred
+// Returns the fraction of a sample with blur variance `variance` that is assigned to blur class k and the more blurred
 // classes.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
 
 // Returns the lower left texel of class k in the texture with the means of all blur classes. Class 0 is on the left;
-// the others are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip levels are
-// slower, because software drivers query their size for each pixel.
+// the other classes are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip
+// levels are slower, because software drivers query their size for each pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

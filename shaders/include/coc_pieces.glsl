@@ -4,9 +4,9 @@
 //   C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w)
 
 struct CocPieces {
-    float factor;   // blur factor of the surface times (1 + g·r²)
-    float front;    // w·F, < 0 in front of the focus
-    float behind;   // w·B, > 0 behind the focus
+    float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
+    float front;    // w·F; negative in front of the focus plane
+    float behind;   // w·B; positive behind the focus plane
     float added;
 };
 

@@ -1,6 +1,6 @@
 // Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010;
-// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. exactTaps: one tap per pixel;
-// otherwise a fixed number of taps is spread over the radius.
+// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap per
+// pixel; otherwise a fixed number of taps is spread over the radius.
 
 layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
 

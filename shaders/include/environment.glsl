@@ -1,5 +1,5 @@
 // The environment: radiance along a direction, and irradiance of a surface. environmentType: 0 none, 1 uniform, 2
-// gradient, 3 map. backgroundType: type of the environment shown behind surfaces, 0 or equal to environmentType.
+// gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to environmentType.
 
 #include "include/lighting.glsl"
 
@@ -34,7 +34,7 @@ vec3 gradientRadiance(float height) {
     return mix(lighting.environment[1].rgb, pole, abs(height));
 }
 
-// Returns the irradiance over π by the gradient environment, a polynomial of the unit normal's y (`height`).
+// Returns the irradiance over π from the gradient environment, a polynomial of the unit normal's y (`height`).
 vec3 gradientDiffuse(float height) {
     return lighting.irradiance[0].rgb + height * (lighting.irradiance[1].rgb + height * lighting.irradiance[2].rgb);
 }

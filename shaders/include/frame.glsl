@@ -11,14 +11,14 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 cocOther;
     vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
     mat4 worldFromView;   // rotation
-    vec4 lightPositions[maxLights];  // m from the camera along the world's axes; w: range, 0: unlimited
+    vec4 lightPositions[maxLights];  // xyz: m from the camera along the world's axes; w: range (m), 0: unlimited
 } frame;
 
 layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
-    mat4 normalMatrix;    // inverse transpose of the upper 3×3
+    mat4 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject
     // Fractional level of detail λ; fraction of the pixels of the boundary sample (the lens sample that mixes two
-    // levels) that show the coarser level; object number; blur factor.
+    // levels) that draw the coarser level; object number; blur factor.
     vec4 values;
     // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
     ivec4 posing;
@@ -32,7 +32,7 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without the factor w: specularFactor
     vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
     vec4 absorption;      // rgb: absorption coefficient (1/m)
-    vec4 coat;            // coated fraction, roughness, normal scale
+    vec4 coat;            // clear coat: coated fraction, roughness, normal scale
     vec4 sheen;           // rgb: colour; w: roughness
     vec4 uvRows[28];      // per texture: two rows of a 2×3 matrix; w of the first row: number of the UV set
 } material;

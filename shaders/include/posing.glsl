@@ -3,9 +3,9 @@
 // morphNormals and morphTangents. morphAttributes: number of morphed attributes, 1 … 3.
 //
 // A pose in the buffer `poses` begins with the three rows of the view-from-vertex matrix of each joint; without a skin,
-// the object counts as the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the
-// pose ends with a matrix from the view space at this shutter moment to the view space in the middle of the exposure,
-// in which lights and sky are defined.
+// the object is the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the pose
+// ends with a matrix from the view space at this shutter time to the view space in the middle of the exposure, in which
+// lights and sky are defined.
 
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -13,7 +13,8 @@ layout(location = 11) in vec4 joints1In;
 layout(location = 12) in vec4 weights1In;
 
 layout(binding = 6) uniform samplerBuffer poses;
-layout(binding = 7) uniform samplerBuffer morphDisplacements;   // per target: of positions, then normals, then tangents
+// per target: displacements of positions, then normals, then tangents
+layout(binding = 7) uniform samplerBuffer morphDisplacements;
 
 struct Rows {         // three rows of an affine matrix
     vec4 x;
@@ -80,7 +81,7 @@ Posed morphedVertex(int firstTexel, Posed vertex) {
     return vertex;
 }
 
-// Returns a vertex, given at rest, in pose number `pose`.
+// Returns the vertex `vertex`, which is in the rest pose, transformed to pose number `pose`.
 Posed posedVertex(int pose, Posed vertex) {
     int firstTexel = pose * object.posing.x;
     if (morphed) vertex = morphedVertex(firstTexel, vertex);
@@ -95,8 +96,8 @@ Posed between(Posed a, Posed b, float fraction) {
     return Posed(mix(a.position, b.position, fraction), mix(a.normal, b.normal, fraction), mix(a.tangent, b.tangent, fraction));
 }
 
-// Transforms a vertex and the lens point `eye` from the view space at `moment` to the view space in the middle of the
-// exposure.
+// Transforms a vertex and the lens point `eye` from the view space at the time `moment` (see vertexAt) to the view
+// space in the middle of the exposure.
 void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     int texel = (int(moment.x) + 1) * object.posing.x - 3;
     Rows rows = rowsAt(texel);
@@ -109,9 +110,10 @@ void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
     eye = turned(rows, eye) + middle;
 }
 
-// Returns the vertex at `moment`: x is the number of a shutter moment, y the fraction of the way to the next one.
-// Between them the clip position is linear in time (Munkberg et al. 2012), and C is evaluated at the interpolated
-// position. For a plain lens, C is then linear in time as in the paper; with blur controls, C matches a still frame.
+// Returns the vertex at the time `moment`: x is the index of a shutter time, y is the fraction of the way to the next
+// shutter time. Between the two, the clip position is linear in time (Munkberg et al. 2012), and C is evaluated at the
+// interpolated position. For a plain lens, C is then linear in time as in the paper; with blur controls, C matches a
+// still frame.
 Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
     Posed posed = posedVertex(moving ? int(moment.x) : 0, rest);
     if (moving && moment.y > 0.0) posed = between(posed, posedVertex(int(moment.x) + 1, rest), moment.y);

@@ -10,37 +10,37 @@
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;    // number in the frame of the first lens sample of this wave (samples drawn together)
-    float firstOfBlock;   // number in the frame of the first lens sample of this block of blockSamples samples
-    // The next two members are the size of the area over which a texture lookup is filtered; the mean over the samples
-    // filters it over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples (all up to
-    // the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. It represents 1/N, but trilinear
-    // lookups average over more than their nominal area.
-    float footprint;      // side of that area, in px
-    float mipBias;        // log2(footprint): change of the mip level that is chosen for a whole pixel
+    float firstSample;    // index within the frame of this wave's first lens sample (a wave is drawn at once)
+    float firstOfBlock;   // index within the frame of the first lens sample of this block of blockSamples samples
+    // The next two members are the size of the area over which a texture lookup is filtered. The mean over the samples
+    // filters the texture over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples
+    // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
+    // of the pixel, but trilinear lookups average over more than their nominal area.
+    float footprint;      // side of the filtered area, in px
+    float mipBias;        // log2(footprint): bias on the mip level that is chosen for a whole pixel
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
 layout(binding = 27) uniform sampler2D specularAlbedos;
 
-// Returns the number in the frame of the lens sample that is shaded. Each including shader defines this function.
+// Returns the index within the frame of the lens sample that is shaded. Each including shader defines this function.
 float sampleNumber();
 
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
-    vec3 normal;          // unit vector in world axes, like all directions here
+    vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
     vec3 emission;        // only if emissive
     // Sum of the squared changes of the interpolated normal over one pixel to the right and one pixel up.
     float footprint;
     // The next three members are set only if coarseLevel.
-    float agreement;      // length |n| of the mean of the represented normals, in (0, 1]
+    float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // normalSpread(agreement)
     vec3 seen;            // seenNormal(…)
     float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
-    vec3 transmitted;     // radiance from behind the surface, without the loss by reflection
+    vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour
     float sheenRoughness; // perceptual
@@ -48,7 +48,7 @@ struct SurfacePoint {
     float coat;           // coated fraction of the surface
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit vector
-    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
 };
 
 float lightShares[lightCount + 1];   // visible fraction of each light; only if shadowed
@@ -79,11 +79,11 @@ float normalSpread(float agreement) {
     return lost * (0.17796 + root * (1.04019 + root * (-1.37493 + root * (1.28514 - 0.72122 * root))));
 }
 
-// Returns the mean of the represented normals weighted by their visible area, because normals that face the eye cover
-// more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has the length |n| = `agreement`. In
-// other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the component of v perpendicular to the
-// mean normal. At grazing angles few normals are visible, and a bound on the tilt keeps the length within what |n|
-// allows. The bound is fitted to the von Mises–Fisher distribution.
+// Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
+// normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
+// the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
+// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and a bound on the tilt
+// keeps the length within what |n| allows. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -132,7 +132,7 @@ struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
     float spread;         // weight of Beckmann's distribution
-    float shown;          // cosine to the eye of the normals of Beckmann's part: shown + shownOfH · v·h
+    float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
     float shownOfH;       // coefficient of v·h in that cosine
 };
 
@@ -151,7 +151,7 @@ Lobe lobeOf(SurfacePoint point, float nv, float spread) {
 }
 
 // Returns 2·(n·l)·V for height-correlated Smith masking by GGX slopes of width α, for the cosines n·l to the light and
-// n·v to the eye. Normals that face away from either reflect nothing. `width2`: α².
+// n·v to the eye. Normals that face away from the light or the eye reflect nothing. `width2`: α².
 float unmasked(float nl, float nv, float width2) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     float masking = nl * sqrt(nv * nv * (1.0 - width2) + width2) + nv * sqrt(nl * nl * (1.0 - width2) + width2);
@@ -192,7 +192,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (positionRange.w > 0.0) {                                       // the extension's recommended limit of the range
+    if (positionRange.w > 0.0) {                                       // range falloff that the extension recommends
         float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -203,10 +203,10 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     return light.colorScale.rgb * falloff;
 }
 
-// Returns the normal with which the environment's diffuse light is evaluated.
+// Returns the normal for diffuse lighting by the environment.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the fraction of a white environment that the specular part reflects.
+// Returns the directional albedo of the specular part: the fraction of a white environment that it reflects.
 vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec2 size = vec2(textureSize(specularAlbedos, 0));
     vec2 place = (vec2(sqrt(nv), point.roughness) * (size - 1.0) + 0.5) / size;
@@ -215,8 +215,9 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     return point.specular * albedo.x + albedo.y;
 }
 
-// Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured reflections
-// the strongest channel counts, so that the layers beneath don't get the complementary colour (KHR_materials_specular).
+// Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured
+// reflections, the strongest channel is used, so that the layers beneath don't get the complementary colour
+// (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
     return ownReflectance ? vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b))) : 1.0 - reflected;
 }
@@ -255,7 +256,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     return light * (occlusion * environmentLighting);
 }
 
-// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, matters only for point
+// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, is used only for point
 // and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away

@@ -58,7 +58,8 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
     float rise = depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
     vec4 diagonal = shadowDirection(texel, toLight * (0.5 * float(shadowSize) * length(toMiddle) * width));
-    float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;   // rise at 45°
+    // change of depth along a plane that rises at 45°
+    float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;
     float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
     float nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).r;
     return nearest <= max(depth, 0.0) ? 1.0 : 0.0;
@@ -80,7 +81,8 @@ float lightShare(int i, Facet facet, vec3 toLight) {
     return sum / float(shadowPoints);
 }
 
-// Returns the irradiance over π that occluders take from the environment's light on a surface with the given normal.
+// Returns the part of the environment's irradiance, divided by π, that occluders block on a surface with the given
+// normal.
 vec3 hiddenIrradiance(Facet facet, vec3 normal) {
     int map = shadowFirst[lightCount];
     vec3 sum = vec3(0.0);

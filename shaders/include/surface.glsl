@@ -3,10 +3,10 @@
 
 struct Surface {
     vec4 color;
-    vec4 minColor;        // min and max colour of all triangles at the vertex
+    vec4 minColor;        // min and max vertex colour of all triangles at the vertex
     vec4 maxColor;
-    vec3 normal;          // in world axes, like all directions here
-    float agreement;      // coarse levels: length of the mean of the represented normals, ≤ 1
+    vec3 normal;          // in world axes, like all directions in this struct
+    float agreement;      // coarse levels: length of the mean of the unit normals that `normal` represents
     vec3 toEye;           // vector from the surface to this sample's lens point (m)
     vec3 position;        // relative to the camera (m)
     vec2 lens;            // lens point (u, k·v) of the sample

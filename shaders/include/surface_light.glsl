@@ -1,4 +1,4 @@
-// The light of a surface towards one lens sample.
+// Radiance of a surface towards one lens sample.
 
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
@@ -13,9 +13,10 @@
 layout(location = 0) uniform vec4 levelMin;
 layout(location = 1) uniform vec4 levelMax;
 
-// Returns the interpolated colour, clamped to the range of the corner values. Rasterizers round corners to a fraction
-// of a pixel, so attributes of very narrow triangles are extrapolated far outside that range. Normals need no clamp,
-// because only their direction counts. Texture coordinates need none, because steep ones select the smallest mip level.
+// Returns the interpolated colour, clamped to the range of the corner values. Rasterizers round vertex positions to a
+// fraction of a pixel, so attributes of very narrow triangles are extrapolated far outside that range. Normals need no
+// clamp, because only their direction counts. Texture coordinates need no clamp either, because steep gradients select
+// the smallest mip level.
 vec4 surfaceColor() {
     if (colorRanges) return clamp(surface.color, surface.minColor, surface.maxColor);
     if (levelColorRange) return clamp(surface.color, material.baseColor * levelMin, material.baseColor * levelMax);
@@ -29,14 +30,14 @@ float sampleNumber() { return wave.firstSample + float(gl_Layer); }
 bool showsFront() { return gl_FrontFacing; }
 
 float surfaceFootprint(vec3 normal) {
-    vec3 right = dFdx(normal);   // interpolated normal only: mip levels average normal maps
+    vec3 right = dFdx(normal);   // Use the interpolated normal only, because mip levels already average normal maps.
     vec3 up = dFdy(normal);
     return dot(right, right) + dot(up, up);
 }
 
 uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }
 
-// Returns true if this pixel shows the coarser level in a boundary sample, the lens sample that mixes two levels.
+// Returns true if this pixel draws the coarser level in a boundary sample, the lens sample that mixes two levels.
 bool drawsCoarser() { return ditherThreshold(pixelOfImage(), 0.0) < object.values.y; }
 
 // Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.

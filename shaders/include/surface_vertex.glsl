@@ -9,7 +9,7 @@ layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, 
 layout(location = 7) in vec4 eyeAndDitherIn;    // per instance: lens point (m), dither offset, layer
 layout(location = 13) in vec3 momentIn;         // per instance: `moment` of vertexAt()
 layout(location = 14) in float bandShiftIn;     // per instance: bandShift of lens.glsl
-// Min and max colour of all triangles at the vertex. Each channel is 256 · max + min, in units of 1/255.
+// Min and max vertex colour of all triangles at the vertex. Each channel is 256 · max + min, in units of 1/255.
 layout(location = 15) in vec4 colorRangeIn;
 
 Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndDitherIn.xy, 0.0)); }

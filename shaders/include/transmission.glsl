@@ -1,4 +1,4 @@
-// Light from behind a surface that transmits light.
+// Radiance from behind a surface that transmits light.
 
 #include "include/transmittance.glsl"
 
@@ -26,8 +26,8 @@ vec4 seenBehind(vec3 offset, float roughness) {
     return textureLod(backdrop, vec3(at, gl_Layer), level);
 }
 
-// Adds transmitted light (KHR_materials_transmission and KHR_materials_volume). A thin wall shows the background
-// straight behind the wall. A volume shows the background at the end of the refracted ray through its thickness.
+// Adds transmitted light (KHR_materials_transmission and KHR_materials_volume). Through a thin wall, the background
+// straight behind the wall is visible. Through a volume, the background at the end of the refracted ray is visible.
 void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = transmittedShare(metallic);
     vec3 way = volumeThickness() * refract(-point.toEye, point.normal, material.transmission.z);

@@ -6,7 +6,7 @@ float volumeThickness() {
     return scale * material.transmission.y * materialTexel(thicknessTexture).g;
 }
 
-// Returns the fraction of the light that the surface transmits before it is coloured.
+// Returns the fraction of light that the surface transmits, without the colour of the material.
 float transmittedShare(float metallic) {
     return (1.0 - metallic) * material.transmission.x * materialTexel(transmissionTexture).r;
 }

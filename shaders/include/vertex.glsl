@@ -1,4 +1,4 @@
-// Transforms a vertex of a mesh to view space; with POSED, after applying its pose.
+// Transforms a vertex of a mesh to view space. With POSED, the pose of the object is applied first.
 
 layout(location = 0) in vec3 positionIn;
 layout(location = 1) in vec3 normalIn;
@@ -15,9 +15,9 @@ struct Posed {
 };
 
 struct Vertex {
-    Posed view;     // in the view space in the middle of the exposure
+    Posed view;     // vertex in the view space in the middle of the exposure
     vec3 eye;       // lens point (m) in the same view space
-    vec3 pinhole;   // pinholePosition() in the view space at the vertex's own moment
+    vec3 pinhole;   // pinholePosition() in the view space at the time of the lens sample
 };
 
 #ifdef POSED
@@ -30,8 +30,8 @@ Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
 }
 #endif
 
-// Returns the vertex at `moment`: shutter moment, fraction of the way to the next moment, time in [0, 1]. `eye`: lens
-// point (m) in view space.
+// Returns the vertex at `moment`: index of a shutter time, fraction of the way to the next shutter time, time in [0,
+// 1]. `eye` is the lens point (m) in view space.
 Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
 
 // Returns the blur modifiers of the vertex, (factor, added fraction of the image's width), at a time in [0, 1].

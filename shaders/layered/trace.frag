@@ -1,4 +1,4 @@
-// Traces one lens sample: each pixel shows the nearest surface over all layers that its lens ray meets.
+// Traces one lens sample: outputs for each pixel the nearest surface over all layers that its lens ray hits.
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
@@ -18,32 +18,33 @@ layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
 layout(binding = 1) uniform sampler2DArray layerSurfaces;   // surfaceOut of layered/peel.frag
 layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur from layered/reach.comp
 layout(location = 0) uniform int layerCount;
-layout(location = 1) uniform int border;                    // px that the layers extend beyond the image
-layout(location = 2) uniform vec2 pinhole;                  // px, position in the pixel at which the layers were drawn
+layout(location = 1) uniform int border;                    // border in px by which the layers extend beyond the image
+layout(location = 2) uniform vec2 pinhole;                  // subpixel position (px) at which the layers were drawn
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // px of blur, tolerance for hitting a plane
-const float oneSurface = 1.0; // px of blur, max difference between adjacent planes of one surface
+const float rounded = 0.05;   // tolerance for hitting a plane, in px of blur
+const float oneSurface = 1.0; // max difference between adjacent planes of one surface, in px of blur
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
 struct Hit {
-    float depth;   // reversed; < 0: none
-    float end;     // blur at which the ray leaves the pixel
+    float depth;   // reversed depth; < 0: no hit
+    float end;     // blur at which the ray leaves the pixel of the hit
     ivec3 texel;
 };
 
 // A line in the layers, parameterised by blur.
 struct Ray {
     vec2 start;      // px
-    vec2 slope;      // px per px of blur
+    vec2 slope;      // change of position in px per px of blur
     vec2 perSlope;   // 1 / slope
-    float shift;     // px, added to the blur of all surfaces
+    float shift;     // px; added to the blur of all surfaces
 };
 
 vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 
-// Updates `hit` if the ray meets a nearer surface in this layer. Only surfaces behind the reversed depth `limit` count.
+// Updates `hit` if the ray meets a nearer surface in this layer. Only surfaces behind the reversed depth `limit` are
+// considered.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
     if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray
@@ -91,7 +92,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
-    // The clamp keeps rays to focused surfaces in their pixel despite rounding.
+    // Despite rounding, the clamp keeps rays to surfaces in focus inside their pixel.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

@@ -1,4 +1,4 @@
-// Adds the light of a wave's rays to each pixel's compensated sum, in the order of the rays. Each ray has one record
+// Adds the radiance of a wave's rays to each pixel's compensated sum, in the order of the rays. Each ray has one record
 // (records.glsl).
 
 #include "lens_space/pixel_sum.glsl"

@@ -1,5 +1,5 @@
 // Kernel 2 of the lens-space methods: finds the tiles that a triangle may cover as seen from any lens point at any
-// time. countsOnly: counts the triangles of each tile; otherwise fills the tiles' triangle lists.
+// time. With countsOnly, counts the triangles of each tile; otherwise fills the tiles' triangle lists.
 
 #include "include/frame.glsl"
 #include "lens_space/triangles.glsl"
@@ -7,7 +7,8 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-// countsOnly: number of triangles of each tile. Otherwise: index in `entries` of each tile's next free entry.
+// With countsOnly, the number of triangles of each tile. Otherwise, the index in `entries` of each tile's next free
+// entry.
 layout(std430, binding = 4) buffer CountBlock { uint counts[]; };
 #ifdef COUNTS_ONLY
 void addEntry(uint tile, uint triangle) { atomicAdd(counts[tile], 1u); }
@@ -34,7 +35,7 @@ void add(inout Area area, vec4 clip, float aspect) {
 }
 
 // Extends the area by the part of the triangle beyond the near plane, as seen from all lens points. C/w and the image
-// position are monotonic along an edge, so the part's corners bound the area.
+// position are monotonic along an edge, so the corners of this part bound the area.
 void add(inout Area area, vec4 corners[3], float aspect) {
     float near = frame.projection.z;
     for (int i = 0; i < 3; ++i) {

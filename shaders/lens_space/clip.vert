@@ -5,7 +5,7 @@
 #include "include/lens.glsl"
 #include "include/vertex.glsl"
 
-layout(location = 0) uniform vec3 moment;   // shutter moment, fraction of the way to the next, time in [0, 1]
+layout(location = 0) uniform vec3 moment;   // index of a shutter time, fraction of the way to the next, time in [0, 1]
 
 layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w of clip space; C
 

@@ -1,8 +1,9 @@
-// Shades records (ray hits) by interpolating the light of the hit triangle's vertices.
+// Shades records (ray hits) by interpolating the radiance of the hit triangle's vertices.
 
 #include "lens_space/shade.glsl"
 
-layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
+// per vertex: radiance of the front, radiance of the back
+layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };
 
 vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place) {
     uvec3 vertices = triangles[record.triangle].xyz;

@@ -6,7 +6,8 @@
 layout(local_size_x = 1) in;
 
 layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };
-layout(std430, binding = 6) writeonly buffer DispatchBlock { uint sizes[]; };   // per group: x, y, z of the dispatch
+// per group: number of workgroups in x, y, z
+layout(std430, binding = 6) writeonly buffer DispatchBlock { uint sizes[]; };
 
 layout(location = 0) uniform uint groupCount;
 

@@ -1,4 +1,4 @@
-// Sorts records (ray hits) into groups of surfaces with the same shader. countsOnly: counts each group's records;
+// Sorts records (ray hits) into groups of surfaces with the same shader. With countsOnly, counts each group's records;
 // otherwise writes the records' indices to the groups' ranges of the list.
 
 #include "include/frame.glsl"

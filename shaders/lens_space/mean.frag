@@ -1,4 +1,4 @@
-// Outputs the mean light over a pixel's rays.
+// Outputs the mean radiance of a pixel's rays.
 
 layout(std430, binding = 3) readonly buffer SumBlock { vec4 sums[]; };
 

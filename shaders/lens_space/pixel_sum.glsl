@@ -1,4 +1,4 @@
-// Compensated sum of the light of each pixel's rays.
+// Compensated sum of the radiance of each pixel's rays.
 
 #include "include/compensated.glsl"
 #include "lens_space/records.glsl"
@@ -16,7 +16,7 @@ uint pixelOfThread() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-// Adds the light of a shaded record, which replaces the record's hit (records.glsl).
+// Adds the radiance of a shaded record, which replaces the record's hit (records.glsl).
 void addRecord(inout vec4 sum, inout vec4 compensation, Record light) {
     addCompensated(sum.rgb, compensation.rgb, vec3(uintBitsToFloat(light.triangle), uintBitsToFloat(light.ray), light.place));
     addCompensated(sum.a, compensation.a, light.weight);

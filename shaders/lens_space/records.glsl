@@ -1,8 +1,8 @@
-// Records: hits of a wave's rays. Shading replaces a record's four members by red, green, blue and coverage, multiplied
-// by its weight.
+// Records: hits of a wave's rays. Shading replaces the four members of a record by red, green, blue and coverage,
+// multiplied by Record::weight.
 
 struct Record {
-    uint triangle;   // noTriangle: the sky
+    uint triangle;   // noTriangle if the ray hits the sky
     uint ray;        // (ray of the wave · height + y) · width + x
     float place;     // line sample: position along the line over the lens; point sample: depth w of the hit
     float weight;

@@ -16,8 +16,8 @@ layout(std430, binding = 5) readonly buffer ListBlock { uint list[]; };
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform float lensRadius;   // m
 
-// Returns the light (rgb, coverage) of a record's surface, or of the sky, along the ray through lens point `lens` to
-// image position `place`.
+// Returns the radiance (rgb) and coverage of a record's surface, or of the sky, along the ray through lens point `lens`
+// to image position `place`.
 vec4 lightOf(Record record, Ray ray, vec2 lens, vec2 place);
 
 vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }

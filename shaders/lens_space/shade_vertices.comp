@@ -1,7 +1,7 @@
 // Third part of kernel 1 of the lens-space methods: shades the front and the back of vertices as seen from the lens
-// centre, for surfaces with the same material and features. The light is interpolated between vertices. Texture lookups
-// and highlights are therefore filtered over half the distance to the two neighbouring vertices in the frame's first
-// triangle with this vertex.
+// centre, for surfaces with the same material and features. The radiance is interpolated between vertices. Texture
+// lookups and highlights are therefore filtered over half the distance to the two neighbouring vertices in the frame's
+// first triangle with this vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -12,8 +12,10 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
-layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };   // of each vertex; or noTriangle
+// per vertex: radiance of the front, of the back
+layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };
+// first triangle per vertex; or noTriangle
+layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };
 
 layout(location = 0) uniform uint vertexCount;
 layout(location = 1) uniform uint group;

@@ -23,7 +23,7 @@ struct Surface {
     vec4 uvRight;
     vec4 uvUp;
     vec3 normalRight;   // interpolated normal that the same lens point sees one pixel to the right
-    vec3 normalUp;      // the same one pixel up
+    vec3 normalUp;      // interpolated normal that the same lens point sees one pixel up
 };
 // Initialised because drivers warn about uninitialised values: functions read this variable before the code that
 // assigns it.
@@ -39,8 +39,8 @@ vec4 surfaceTexel(int unit, int slot) {
                        uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv));
 }
 
-// Returns one number for all samples of a block. In the first block the number is 12.5, because 1/(12.5 + 1) is the
-// mean of 1/(n + 1), the fraction of a pixel that sample n represents, over the first 64 samples.
+// Returns the same number for all samples of a block. In the first block, the number is 12.5, because 1/(12.5 + 1) is
+// the mean of 1/(n + 1), the fraction of a pixel that sample n represents, over the first 64 samples.
 float sampleNumber() { return wave.firstOfBlock + 12.5; }
 
 bool showsFront() { return surface.showsFront; }

@@ -110,7 +110,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // per piece: one of this loop, three of the loop over parts
+        ownRounds += 4u;   // four iterations per piece: one here and three in the loop over the parts below
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];

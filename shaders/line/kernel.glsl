@@ -51,18 +51,18 @@ const uint maxKept = 64u;
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
 shared uvec2 kept[maxKept];    // triangles that the tile's lines may see: number; 1 if double-sided, else 0
-shared uint keptHere[2];        // one bit per thread: its candidate is added to `kept`
+shared uint keptHere[2];        // one bit per thread: set if its candidate is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
 shared uint open;               // 1 if some line may still see later triangles of the list, else 0
-shared uint halted;             // reasons of threads to interrupt the job: the flags below
+shared uint halted;             // bits set by threads to interrupt the job: hasSegments, hasNoRounds
 
 const uint hasSegments = 1u;    // a thread has visible segments that are not yet added
 const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // continues with the triangles from the job's next entry on
-const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible triangles are known; adds their segments
+const uint jobGoesOn = 1u;      // job continues with the triangles from its next entry on
+const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible triangles are known and their segments are added
 const uint jobIsDone = 3u;
 
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.

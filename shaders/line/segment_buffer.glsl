@@ -8,11 +8,11 @@ struct Piece {
     float first;
     float last;
     uint triangle;
-    float nextLast;      // end of the next part of the line, which shows another triangle
-    uint nextTriangle;   // triangle in that part
+    float nextLast;      // end of the next part of the line, in which another triangle is visible
+    uint nextTriangle;   // triangle in the next part
 };
 
-const float minLight = 1.0 / 4096.0;       // fraction of the line's light
+const float minLight = 1.0 / 4096.0;       // min fraction of the line's light; smaller segments are dropped
 const float continuation = 1e-3;             // max gap in p between a segment and its continuation
 const float sameDepth = 0.02;                // max relative difference of 1/w at the gap
 
@@ -50,7 +50,7 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     bool before = abs(segment.y - other.x) < continuation && abs(segment.w - other.z) < sameDepth * other.z;
     if (!after && !before) return false;
     segments[slotOf(i)] = after ? vec4(other.x, segment.y, other.z, segment.w) : vec4(segment.x, other.y, segment.z, other.w);
-    // The triangle with the longer segment provides the shading for both.
+    // The triangle with the longer segment provides the shading for both segments.
     if (segment.y - segment.x > other.y - other.x) segmentTriangles[slotOf(i)] = triangle;
     ++merged;
     return true;

@@ -51,7 +51,7 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
         float from = i == 0u ? p1 : placeOfShare(p1, p2, float(i) / float(count));
         float to = i + 1u == count ? p2 : placeOfShare(p1, p2, float(i + 1u) / float(count));
         // shadingStep = 0 shades the middle, as published. Otherwise the position is random, so that the expected value
-        // is the mean light along the segment.
+        // is the mean radiance along the segment.
         float place = shadingStep == 0.0 ? 0.5 * (from + to) : placeOfShare(from, to, mine.values.z);
         records[at + i] = Record(triangle, ray, place, lightBetween(from, to, sides));
     }
@@ -119,8 +119,9 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Returns bit masks of the triangles in `kept` that this thread's line sees: xy their fronts, zw their backs. addSeen()
-// then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely idle.
+// Returns bit masks of the triangles in `kept` that this thread's line sees: xy for visible front faces, zw for visible
+// back faces. addSeen() then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely
+// idle.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     uvec4 sides = uvec4(0u);
     for (uint i = 0u; i < keptCount; ++i) {
@@ -243,7 +244,7 @@ void main() {
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    if (at + needed > recordCapacity) return;   // the buffer is enlarged and the wave drawn again
+    if (at + needed > recordCapacity) return;   // the CPU enlarges the buffer and draws the wave again
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);
 }

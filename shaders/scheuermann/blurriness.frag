@@ -1,5 +1,6 @@
 // Stores the signed blurriness of the pinhole image, which also orders surfaces by depth, in alpha. Blurriness is −1 at
-// max blur in front of the focus, 0 in focus and 1 at max blur behind the focus; [−1, 1] is stored as [0, 1].
+// max blur in front of the focus plane, 0 in focus and 1 at max blur behind the focus plane; [−1, 1] is stored as [0,
+// 1].
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -14,10 +15,10 @@ layout(location = 0) out vec4 colorAndBlurriness;
 // Returns the blurriness as published: linear in depth, −1 at the near plane, 0 at the focus plane, 1 at the far plane.
 float blurrinessByPlanes(ivec2 pixel) {
     float depth = texelFetch(pinholeDepth, pixel, 0).r;
-    // Infinite depth counts as 3e38 m behind the focus.
+    // Infinite depth counts as 3e38 m behind the focus plane.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
-    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // a pinhole (a = 0) has no blur
+    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // a pinhole (a = 0 in C = a + b·w) has no blur
 }
 
 void main() {

@@ -1,6 +1,6 @@
 // Draws a shadow caster; only depth is written. A caster that transmits a part of the light covers the corresponding
-// fraction of the texels, different texels in each lens sample (Enderton et al. 2010, Stochastic Transparency). Colours
-// count by their luminance.
+// fraction of the texels, different texels in each lens sample (Enderton et al. 2010, Stochastic Transparency).
+// Coloured transmission is converted to its luminance.
 
 #include "include/frame.glsl"
 #include "include/surface_fragment.glsl"

@@ -28,7 +28,7 @@ const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangles that the tile's rays may hit: number; 1 if double-sided, else 0
 shared uint keptCount;
-shared uint open;             // 1 if some ray may still hit a later triangle of the list, else 0
+shared uint open;             // 1 if a ray may still hit a later triangle of the list, else 0
 
 // Extends the bounds (normalised device coordinates) by the image positions of a vertex as seen from all lens points in
 // the box `lens`.

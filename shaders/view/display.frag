@@ -12,7 +12,7 @@ layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the
 
 layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of the difference
 layout(location = 1) uniform ivec4 choices;    // tone curve; overlay; flags; unused
-layout(location = 2) uniform float divider;    // fraction of the width that shows the first image
+layout(location = 2) uniform float divider;    // fraction of the width in which the first image is drawn
 layout(location = 3) uniform float cocScale;   // output px per px of cocImage
 // x: 1 / number of lens samples in workImage; y: 1 / log2(1 + triangles per sample) at the end of the colour map.
 layout(location = 4) uniform vec2 workScale;
@@ -34,13 +34,13 @@ float cocAt(vec2 uv) { return texture(cocImage, uv).r * cocScale; }
 vec3 encodedAt(sampler2D image, vec2 uv) {
     vec4 value = texture(image, uv);
     vec3 colour = displayEncoded(value.rgb, size.z, choices.x);
-    // A transparent background shows a checkerboard, as in image editors.
+    // A transparent background is drawn as a checkerboard, as in image editors.
     ivec2 tile = ivec2(gl_FragCoord.xy) / 12;
     float board = ((tile.x + tile.y) & 1) == 0 ? 0.42 : 0.50;
     return colour + (1.0 - clamp(value.a, 0.0, 1.0)) * board;
 }
 
-// Returns the display colour without overlays: of the first image, the second image, or their difference. Unused
+// Returns the display colour of the first image, the second image, or their difference, without overlays. Unused
 // features are excluded at compile time, because drivers that draw on the CPU execute both sides of each branch.
 vec3 shown(vec2 uv) {
     vec3 first = encodedAt(firstImage, uv);

@@ -137,7 +137,8 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
-// Chooses whether the triangles of the drawn levels are divided, so that C is linear inside each triangle.
+// Chooses whether the triangles of the drawn levels are divided, so that the circle of confusion is linear inside each
+// triangle.
 void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
     if (!plan.usesCocControls) return;
     if (object.nearestDepth <= plan.view.nearPlane) {
@@ -183,8 +184,8 @@ void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
     }
 }
 
-// Adds the potentially visible objects to the plan, nearest first, so that near objects occlude the rest early. If
-// `all` isn't null, it receives all objects in the order of the pose.
+// Adds the potentially visible objects to the plan, nearest first, so that near objects occlude farther objects early.
+// If `all` isn't null, it receives all objects in the order of the pose.
 void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
     const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
     std::vector<ObjectPlan>& objects = plan.objects;

@@ -18,7 +18,7 @@ namespace defocus::engine {
 // Time of a lens sample within the exposure.
 struct SampleMoment {
     std::uint32_t moment = 0;
-    float fraction = 0;  // position between this shutter moment and the next, [0, 1); 0 at the last moment
+    float fraction = 0;  // position between this shutter time and the next, [0, 1); 0 at the last shutter time
     float time = 0;      // time within the exposure, [0, 1)
 };
 
@@ -27,10 +27,11 @@ struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // index into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    std::uint32_t triangleCount = 0;  // over all primitives, without the triangles culled by ObjectPlan::visible
+    // triangles of all primitives, without the triangles culled by ObjectPlan::visible
+    std::uint32_t triangleCount = 0;
 };
 
-// The part of a level that remains after culling clusters that no lens sample can show; see visibility.h.
+// The part of a level that remains after culling clusters that no lens sample sees; see visibility.h.
 struct VisibleLevel {
     std::uint32_t level = 0;
     std::vector<std::vector<IndexRange>> primitives;  // index ranges in Pyramid::indices, one list per primitive
@@ -43,10 +44,10 @@ struct VisibleLevel {
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
-    subdivide,  // triangles are divided into small ones because C is curved, then split
+    subdivide,  // triangles are divided into small triangles because C is curved, then split
 };
 
-// Vertex transforms and morph weights of an object at one moment.
+// Vertex transforms and morph weights of an object at one instant.
 struct ObjectPose {
     // Matrices relative to the camera, computed in double precision. An object without a skin has one matrix.
     std::vector<glm::dmat4> viewFromJoint;
@@ -60,12 +61,12 @@ struct ObjectPlan {
     std::string name;
     glm::dmat4 viewFromObject{1.0};  // relative to the camera, computed in double precision
     ObjectPose pose;                 // pose in the middle of the exposure
-    // Poses at the moments of the shutter; empty if the object doesn't move relative to the camera.
+    // Poses at the shutter times (see Shutter); empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
     bool skinned = false;
     bool deformed = false;      // the skin or morph targets deform the mesh
-    Bounds viewBox;             // bounding box in view space over all moments of the frame
-    double nearestDepth = 0;    // m, of the bounding box; may be less than View::nearPlane
+    Bounds viewBox;             // bounding box in view space over the entire exposure
+    double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
     double farthestDepth = 0;   // m
     CocRange coc;               // px, range over the bounding box
     CocDeviation cocDeviation;  // px, error bounds over the drawn levels
@@ -73,8 +74,8 @@ struct ObjectPlan {
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
-    // LodMode::continuous: both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no sample
-    // is shared.
+    // With LodMode::continuous, both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no
+    // sample is shared.
     double boundaryShare = 0;
     std::vector<VisibleLevel> visible;  // levels with culled clusters; other levels are drawn completely
     double cocScale = 1;                // factor on the object's blur, ≥ 0
@@ -82,9 +83,9 @@ struct ObjectPlan {
     bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
     bool mirrored = false;   // the transform flips the winding of triangles
-    bool blended = false;    // has alpha-blended primitives
-    bool transmits = false;  // has transmissive primitives
-    bool ground = false;     // the ground plane, which casts no shadow
+    bool blended = false;    // the object has alpha-blended primitives
+    bool transmits = false;  // the object has transmissive primitives
+    bool ground = false;     // the object is the ground plane, which casts no shadow
 };
 
 // One shadow map of a light, rendered for each lens sample. A point light inside the scene has six maps.
@@ -103,8 +104,8 @@ struct ShadowPlan {
     std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
     // Corners of boxes that contain all casters, in m along the world's axes; the camera is the origin.
     std::vector<glm::dvec3> corners;
-    // Corners of the volume that the entire frame shows, in the coordinates of `corners`. Shadow maps need not extend
-    // beyond this volume.
+    // Corners of the volume that is visible in the entire frame, in the coordinates of `corners`. Shadow maps need not
+    // extend beyond this volume.
     std::vector<glm::dvec3> seen;
     double casterError = 0;  // m, maximum deviation of the casters' levels from full detail
 };
@@ -132,16 +133,16 @@ struct FramePlan {
     std::uint32_t frameSamples = 0;
     std::uint32_t frameFirst = 0;
     std::vector<SampleMoment> moments;  // one per sample; empty if nothing moves during the exposure
-    // Transforms from view space at each shutter moment to view space in the middle of the exposure; empty if the
-    // camera doesn't move.
+    // Transforms from view space at each shutter time to view space in the middle of the exposure; empty if the camera
+    // doesn't move.
     std::vector<glm::dmat4> middleFromView;
     std::vector<ObjectPlan> objects;  // objects to draw, front to back
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
-    bool usesLens = true;                       // false: no blur reaches half a pixel, and samples only smooth edges
-    bool usesCocControls = false;               // C differs from a + b·w for some object
-    bool usesOwnBlur = false;                   // some object or vertex modifies the lens's blur
+    bool usesLens = true;                       // false: no blur reaches half a pixel, and samples only antialias edges
+    bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
+    bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;
     bool usesTransmission = false;
@@ -163,10 +164,10 @@ inline constexpr double minBlur = 0.5;  // px
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
 // Returns the index of the sample that draws the object's coarse level at some pixels and the fine level at the others.
-// nullopt if there is none; only LodMode::continuous has such a sample.
+// nullopt if there is no such sample; only LodMode::continuous has one.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
-// Plans a frame. Throws Error if the lens, the size, the number of samples or the shutter's moments are invalid.
+// Plans a frame. Throws Error if the lens, the size, the number of samples or the shutter times are invalid.
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
 
 }  // namespace defocus::engine

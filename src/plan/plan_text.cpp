@@ -30,7 +30,7 @@ std::size_t movingCount(const FramePlan& plan) {
                                                   [](const ObjectPlan& object) { return !object.motion.empty(); }));
 }
 
-// Returns the number of shutter moments; 0 if nothing moves.
+// Returns the number of shutter times; 0 if nothing moves.
 std::size_t momentCount(const FramePlan& plan) {
     std::size_t count = 0;
     for (const ObjectPlan& object : plan.objects) count = std::max(count, object.motion.size());

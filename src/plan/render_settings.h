@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Effects that hide the simplification of a level. Images use both; benchmarks can isolate one.
+// Effects that hide the simplification of a level. Images use both effects; benchmarks can isolate one effect.
 enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
@@ -17,7 +17,7 @@ struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects a different set of sample points
-    std::uint32_t firstSample = 0;  // offset into the sequence; reference images use other points
+    std::uint32_t firstSample = 0;  // offset into the sequence; reference images use a different offset
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;
@@ -25,7 +25,7 @@ struct RenderSettings {
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds = {};
     Shadows shadows = Shadows::automatic;
-    double cocTolerance = 0.5;  // px, maximum error of interpolating C inside a triangle, > 0
+    double cocTolerance = 0.5;  // px, > 0: max error of a circle of confusion that is interpolated inside a triangle
     bool keepAll = false;       // disables culling; the image stays the same
 };
 

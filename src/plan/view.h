@@ -22,16 +22,17 @@ struct View {
     double nearPlane = 0.01;  // m, > 0
     int width = 1024;         // px
     int height = 768;         // px
-    // worldFromCamera at each moment of World::shutter; empty if the camera doesn't move.
+    // worldFromCamera at each shutter time (see Shutter); empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
     std::map<std::string, double> methodValues;  // values of the method's settings that a shot animates, by name
 };
 
-// Poses of the scene at moments while the shutter is open.
+// Poses of the scene at the shutter times: the times within the exposure at which motion is sampled.
 struct Shutter {
     std::vector<Pose> poses;  // same objects as World::pose; empty if the scene doesn't move
-    // false: moments are evenly spaced from opening to closing, and vertices move linearly between them. Munkberg, Toth
-    // and Akenine-Möller 2012 use one such segment. true: each lens sample has its own moment, LensSample::time.
+    // false: shutter times are evenly spaced from opening to closing, and vertices move linearly between them.
+    // Munkberg, Toth and Akenine-Möller 2012 use one such segment. true: each lens sample has its own shutter time,
+    // LensSample::time.
     bool perSample = false;
 };
 

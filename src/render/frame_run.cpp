@@ -60,7 +60,7 @@ void FrameRun::startAutomatic(RenderSettings settings, Quality quality) {
 }
 
 // Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
-// detail, and compares the images. Returns nullopt with --lod off, and if this takes half of the time limit.
+// detail, and compares the images. Returns nullopt with --lod off, and if the measurement takes half of the time limit.
 std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings, const StopSettings& stop) {
     if (settings.lod == LodMode::off) return {};
     const auto drawn = [&]() -> std::optional<Image> {
@@ -108,7 +108,7 @@ void FrameRun::startBlock(bool first) {
     plan_ = std::move(plan);
 }
 
-// Draws one wave. A driver queues draws, so the frame's time is only known once they are finished.
+// Draws one wave. A driver queues draws, so the time of a frame is known only after glFinish.
 bool FrameRun::advanceRenderer() {
     const bool more = renderer_->advance();
     if (timed_) glFinish();
@@ -135,10 +135,10 @@ bool FrameRun::advance() {
     return true;
 }
 
-// Returns false if the trial is good enough. Otherwise starts the frame again, in blocks.
+// Returns false if the error of the trial is small enough. Otherwise starts the frame again, in blocks.
 bool FrameRun::endTrial() {
     Trial& trial = *trial_;
-    if (trial.estimate.samples() == samples()) return false;  // the frame was complete before
+    if (trial.estimate.samples() == samples()) return false;  // the trial was already complete
     const bool halved = trial.estimate.samples() > 0;
     if (halved) trial.estimate.add(renderer_->image(), samples());
     const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);

@@ -58,8 +58,8 @@ private:
     Renderer* renderer_;
     View view_;
     std::optional<BlockSchedule> schedule_;  // nullopt: the frame has a single plan
-    // A complete frame of fewer samples than a block, with an automatic number of samples. If its error is above that
-    // of the quality, it is drawn again in blocks.
+    // A complete frame of fewer samples than a block, with an automatic number of samples. If its error exceeds the
+    // limit of the quality setting, the frame is drawn again in blocks.
     struct Trial {
         RenderSettings settings;
         Quality quality;

@@ -23,13 +23,13 @@ struct MethodSetting {
     std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;
     double max = 0;
-    bool whole = true;          // for a number: must be an integer
+    bool whole = true;          // numeric setting: the value must be an integer
     std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
-    bool ofTheScene = false;    // true: no value suits all scenes; benchmarks of all settings skip it
-    bool keyed = false;         // for a number: a shot may animate it with keys; see valueAt
+    bool ofTheScene = false;    // true: no value suits all scenes; benchmarks skip this setting
+    bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt
 };
 
-// Values as text, by name of the setting.
+// Setting values as text, keyed by the name of the setting.
 using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {
@@ -52,10 +52,10 @@ struct Method {
     bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
     bool blursCells = false;      // true: blurs each sample's image by its lens cell (plan/lens_cells/)
-    bool sumsBlocks = false;      // true: Renderer::continueWith adds to the sum, so the sample count may be open
+    bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsShadows = true;     // false: no shadows
-    bool drawsMotion = true;      // false: draws moving objects at one moment of the exposure
+    bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure
     ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
     MethodSettings best = {};  // settings with the smallest error, at any cost; missing: default
@@ -78,7 +78,8 @@ const std::vector<Method>& methods();
 void registerMethod(Method method);
 // Returns the method with this name. Throws Error, with a list of all names, if there is none.
 const Method& methodNamed(std::string_view name);
-// Returns the method that draws the plan: the choice of method "auto"; other methods draw all plans themselves.
+// Returns the method that draws the plan. For method "auto", this is the method that it chooses; other methods are
+// returned unchanged.
 MethodUse drawnMethod(const MethodUse& use, const FramePlan& plan);
 // Inverse of MethodUse::text. Throws Error for an unknown method or setting, or a value out of range.
 MethodUse parseMethodUse(std::string_view text);

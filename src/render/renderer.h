@@ -28,8 +28,8 @@ struct MethodFigure {
 struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;       // uploads and compilation of shaders
-    double renderMilliseconds = 0;      // from the end of the setup to the complete image
-    double gpuMilliseconds = 0;         // by timer queries; lacks vertex work with software drivers
+    double renderMilliseconds = 0;      // from the end of the setup until the image is complete
+    double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
     std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources
@@ -72,7 +72,7 @@ public:
 
     // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier
     // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
-    // start a new frame. Afterwards, times in stats() are those of `plan` only; triangles and samples are totals.
+    // start a new frame. Afterwards, times in stats() cover only `plan`; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
     // Sets the samples per wave K from the next start() on; 0 restores RendererOptions::wave. K does not change the
     // image.

@@ -23,28 +23,29 @@ constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTabl
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
-// Share of the contrast before grey at which levels meet their limit. With 1, FLIP of a smooth surface in focus rises
-// by more than a fifth.
+// A level's error on a grey background may reach this fraction of the limit. With 1, FLIP of a smooth surface in focus
+// rises by more than a fifth.
 constexpr double greyShare = 0.9;
-constexpr double minGreyContrast = 0.004;  // min contrast before grey, relative to the mean light
+constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
-// the error grows with the squared edge length. Twice this factor gives a lower bound for levels whose triangles are
-// smaller than picture cells.
+// the error grows with the squared edge length. This limit, twice that ratio, gives a lower bound of the error of
+// levels whose triangles are smaller than picture cells.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches
 
-// Sums of squares over all cells and channels, one per patch size: of the cells' values (entry 0), then of patch means.
+// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells, the other
+// entries are sums for patch means.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
-// A picture with its means over patches of 2, 4, … cells. Each patch has two means: over the white cells of a
-// checkerboard and over the black cells.
+// A picture with its means over patches of 2, 4, … cells. Each patch has two means: one over the white fields of a
+// checkerboard of cells, one over the black fields.
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain lit cells
-        CellBox kept;                                 // `shown`, enlarged by empty patches as needed for the next size
-        std::array<LargeVector<glm::vec3>, 2> means;  // over white and over black cells; empty for single cells
+        CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
+        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black fields; empty for single cells
     };
 
 public:
@@ -73,8 +74,8 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over black cells.
-    // For single cells (size 0), `black` is ignored and the row has the cells' values.
+    // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over the black
+    // fields of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells' values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -110,14 +111,14 @@ private:
     std::vector<Size> sizes_;
 };
 
-// A row of values in two pictures, before and after a change.
+// Two rows of cells or patch means that are compared.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Returns the sum of products of two changes over `count` cells of a row and all channels. Values are clamped to
-// `brightest`.
+// Returns the sum over `count` cells of a row and all channels of the product of both changes (after − before). Values
+// are clamped to `brightest`.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -137,7 +138,7 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Returns the light minus that of a grey background, so that the background becomes black.
+// Returns the radiance minus that of a grey background, so that the background becomes black.
 LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
     if (background != 0)
         for (glm::vec3& value : light)
@@ -146,11 +147,11 @@ LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
 }
 
 // Adds the squared differences between `seen` and `reference` to `sums`. If `reference` is null, the row `dark` of
-// black cells replaces each of its rows.
+// black cells replaces the rows of the reference.
 //
-// Each cell shows one point, so that a patch mean contains sampling noise. Squaring the mean would add the variance of
-// this noise. Therefore two independent means are multiplied: over the white and over the black cells of a
-// checkerboard. Their noise is uncorrelated and cancels on average.
+// Each cell samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would add
+// the variance of this noise. Therefore the mean over the white fields of a checkerboard is multiplied by the mean over
+// the black fields. The noise of the two means is uncorrelated and cancels on average.
 void addSquares(const Patches* reference, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
     for (std::size_t i = 0; i < seen.count(); ++i) {
@@ -183,8 +184,8 @@ void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums
     }
 }
 
-// Restricts the noisy sums to possible values. The mean square never grows with the patch size, so that the sum of a
-// larger patch bounds those of smaller ones. It falls at most as fast as for two spots that cancel each other.
+// Clamps the noisy sums to possible values. The mean square never grows with the patch size. From one patch size to the
+// next, it falls at most to 1/16, the decrease for two spots that cancel each other.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
@@ -217,23 +218,23 @@ private:
     LargeVector<glm::vec3> values_;  // values of the lit cells
 };
 
-// The pictures and measurements from one direction.
+// Pictures and measurements for one view direction.
 struct Sight {
     Eye eye;
     SparseCells reference;              // picture of level 0
     double covered = 0, sum = 0;        // Picture::covered and sum of level 0
-    SquareSums light{};                 // sums of squared radiance of level 0 before black, per patch size
-    SquareSums deviations{};            // sums of standard deviations of level 0 before grey, per patch size
+    SquareSums light{};                 // sums of level 0's squared radiance on black, per patch size
+    SquareSums deviations{};            // sums of level 0's standard deviations on grey, per patch size
     std::vector<SurroundSums> changes;  // sums of squared radiance differences from level 0, per level
 
-    // Measures the levels. `unit` is the mean light of the mesh.
+    // Measures the levels. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
         const LargeVector<glm::vec3> cells = reference.all();
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
-        // A lens sample shows one point, and clamping each point bounds any average. Points are therefore clamped
-        // before averaging.
+        // A lens sample sees one point, and clamping each point bounds any average. Points are therefore clamped before
+        // averaging.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> references;
@@ -272,7 +273,7 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Interpolates a BlurTable linearly at the patch side `side`; larger sides than in the table give the last value. at(i)
+// Interpolates a BlurTable linearly at the patch side `side`; for sides beyond the table, returns the last value. at(i)
 // returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {
@@ -332,7 +333,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh has no error: there is no light to serve as unit.
+    // A black mesh has no error, because its mean radiance cannot serve as unit.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -410,7 +411,7 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     for (const Surround surround : surrounds)
         contrast[indexOf(surround)] = rootOfSum([&](double side) { return squaredContrast(pyramid, side, surround); });
     if (!(contrast[indexOf(Surround::black)] > 0) || !(light > 0)) return 0;
-    // Returns the error of a level minus its limit, in units of the contrast.
+    // Returns the error of a level minus its limit, in units of the contrast V.
     const auto excess = [&](std::size_t l) {
         double error = 0;
         for (const Surround surround : surrounds) {

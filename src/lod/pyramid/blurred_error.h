@@ -1,19 +1,20 @@
 #pragma once
 // Measures the error of a level after blurring. Each level and level 0 are rendered from several directions (picture.h)
-// with the materials of the mesh. The lights are the default lights of scenes without lights. Colour, shading and
-// outlines therefore all contribute as far as they are visible. The signed difference from level 0 is averaged over
-// square patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of size s.
+// with the materials of the mesh. Lights are the default lights of scenes without lights. The error therefore includes
+// visible differences in colour, shading and outlines. The signed difference from level 0 is averaged over square
+// patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of size s.
 //
-// The pictures of level 0 also give the error of a lens sample. V(s) is the standard deviation of the light within
+// The pictures of level 0 also give the error of a lens sample. V(s) is the standard deviation of the radiance within
 // patches of side s. One sample at a random position within a blur of size s has the error V(s). N samples of a
 // sequence have the error V(s) · N^−p. E and V have the same unit, so that their ratio is independent of the object's
-// brightness and of the exposure. After averaging, light is clamped to four times the mean light of the mesh, because
-// an image shows such light as white.
+// brightness and of the exposure. After averaging, radiance is clamped to four times the mean radiance of the mesh,
+// because brighter values are white in an image.
 //
-// The background of the pictures is black, and again a grey of the mesh's mean light. Before black, outlines dominate
-// both E and V. A real background may hide the outlines, so that the samples err by the shading's contrast alone. A
-// level must meet its limit before both backgrounds. Before grey, V is the mean instead of the RMS of the standard
-// deviations within patches: samples err at few edges, but a level errs all over a smooth surface, where it shows more.
+// Errors are measured on two backgrounds: black, and a grey of the mesh's mean radiance. On black, outlines dominate
+// both E and V. A real background may hide the outlines, so that the error of the samples depends on the contrast of
+// the shading alone. A level must meet its limit on both backgrounds. On grey, V is the mean instead of the RMS of the
+// standard deviations within patches. Reason: samples have large errors only at a few edges, but a level has errors all
+// over a smooth surface, where they are more visible.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -34,17 +35,17 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
 // Returns the directions of the pictures: unit vectors from the mesh to the eye.
 std::vector<glm::dvec3> blurredErrorViews();
 
-// Light is clamped to this multiple of the mesh's mean light.
+// Radiance is clamped to this multiple of the mesh's mean radiance.
 inline constexpr double shownWhite = 4;
 
 // Return the squared error E² of a level and the squared contrast V² of level 0 for a patch of side `side` (object
-// units, ≥ 0). Both are continuous in the side. V before grey never falls below 0.4 % of the mean light. Beyond the
-// largest patch of the table, E falls as 1/side, like the error of a single spot.
+// units, ≥ 0). Both are continuous in the side. On a grey background, V is at least 0.4 % of the mean radiance. Beyond
+// the largest patch of the table, E falls as 1/side, like the error of a single spot.
 double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the λ at which the error E of the level equals measuredLimit(light, edge) · V before one surround and is at
-// most as large before the other. E and V are RMS over patches of the given sides (object units). `edge` is the level's
+// Returns the λ at which the error E of the level equals measuredLimit(light, edge) · V on one background and is at
+// most as large on the other. E and V are RMS over patches of the given sides (object units). `edge` is the level's
 // mean edge in px, projected with `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all arguments. Returns 0
 // if no errors were measured.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);

@@ -42,8 +42,8 @@ bool consistsOf(std::string_view text, const char* letters) {
     return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// Returns whether the name is that of a complete or pending cache file. Complete files are named "KEY.pyramid".
-// PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
+// Returns whether the name belongs to a complete cache file, a pending cache file, or another file. Complete files are
+// named "KEY.pyramid". PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
 NameKind kindOf(std::string_view name) {
     const bool pending = name.starts_with('.');
     if (pending) name.remove_prefix(1);

@@ -23,9 +23,9 @@ struct CachedPyramids {
     std::string failure;            // reason why a pyramid was not stored; empty on success
 };
 
-// Loads pyramids from `folder`; builds and stores the missing ones. With an empty `folder`, all are built and none is
-// stored. Creates the folder if it is missing, with mode 0700. A failure to store is not an error; after the first
-// failure, no further pyramid is stored. Meshes that are too small to be simplified are not stored.
+// Loads pyramids from `folder`; builds and stores the missing pyramids. With an empty `folder`, all pyramids are built
+// and none is stored. Creates the folder if it is missing, with mode 0700. A failure to store is not an error; after
+// the first failure, no further pyramid is stored. Meshes that are too small to be simplified are not stored.
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 

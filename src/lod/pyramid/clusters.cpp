@@ -18,9 +18,9 @@ namespace {
 
 // ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // weight of similar normals, relative to that of a compact shape
-constexpr float minTurn = 1e-3f;        // lower bound of the cost factor of a differing normal
-constexpr std::size_t seedsAhead = 64;  // max number of triangles next to earlier clusters that are considered as seeds
+constexpr float coneWeight = 0.75f;     // weight of similar normals against a compact shape, 0 … 1
+constexpr float minTurn = 1e-3f;        // lower bound of the cost factor for a differing normal
+constexpr std::size_t seedsAhead = 64;  // max triangles beside earlier clusters that are tested as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
 // vertex.
 constexpr std::size_t maxNeighbours = 1024;
@@ -43,19 +43,19 @@ struct ClusterGrowth {
     // with more than maxNeighbours corners.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
-    float radius = 0;  // radius of a full cluster on a flat, evenly tessellated surface
+    float radius = 0;  // radius of a full cluster on a flat, uniform mesh
 
     Numbered<LocalNumber, std::uint32_t> open;         // per position, the number of corners of unassigned triangles
     Numbered<LocalNumber, ClusterNumber> lastCluster;  // last cluster that contains the position
     Numbered<TriangleNumber, std::uint8_t> taken;
 
-    // The growing cluster: sums over its triangles.
+    // Sums over the triangles of the growing cluster.
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex: expensive to draw in another cluster
+    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex, expensive in another cluster
     std::vector<TriangleNumber> beside;    // two corners are in the cluster
     std::vector<TriangleNumber> touching;  // one corner is in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters
@@ -86,7 +86,7 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
 }
 
 // Returns all corners at the vertex if there are at most maxNeighbours. Otherwise returns at most maxNeighbours corners
-// of unassigned triangles. For this, corners of assigned triangles are swapped to the front, each only once.
+// of unassigned triangles. Corners of assigned triangles are moved to the front of the vertex's list, each only once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;
@@ -133,8 +133,8 @@ void take(ClusterGrowth& g, TriangleNumber triangle) {
     for (const LocalNumber v : g.cornersOf(triangle)) addVertex(g, v);
 }
 
-// Removes and returns the last triangle of the list that does not face away from the cluster; invalid if there is none.
-// Triangles that face away, such as the back of a thin sheet, move to the list `beside`.
+// Removes and returns the last triangle of the list that does not face away from the cluster, or an invalid number if
+// there is none. Triangles that face away, such as the back of a thin sheet, move to the list `beside`.
 TriangleNumber lastFacing(ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     while (!list.empty()) {
         const TriangleNumber triangle = list.back();
@@ -195,8 +195,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the neighbour of earlier clusters that is nearest to `place`, among the most recent neighbours. Returns the
-// first unassigned triangle if there are no neighbours.
+// Returns the unassigned neighbour of earlier clusters that is nearest to `place`, among the most recent neighbours.
+// Returns the first unassigned triangle if there is no such neighbour.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -270,7 +270,8 @@ struct LocalTriangles {
     Numbered<LocalNumber, glm::vec3> positions;
 };
 
-// Returns a primitive's triangles. All entries of `localOf` must be invalid; the function restores this state.
+// Returns a primitive's triangles. All entries of `localOf` must be invalid; the function makes them invalid again
+// before it returns.
 template <typename Vertex>
 LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
                               const Numbered<Vertex, PositionNumber>& places,

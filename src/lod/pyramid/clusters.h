@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-using LocalNumber = Number<struct LocalKind>;  // index of a distinct position among those of one primitive
+using LocalNumber = Number<struct LocalKind>;  // index of a distinct position within one primitive
 
 struct GrownClusters {
     std::vector<TriangleNumber> triangles;  // cluster by cluster; consecutive triangles are mostly neighbours

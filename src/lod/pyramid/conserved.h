@@ -16,9 +16,9 @@ namespace defocus::engine {
 struct Conserved {
     double area = 0;       // object units squared
     glm::dvec3 colour{0};  // mean over the area
-    LightMeans light{};    // from vertex colours; textures are ignored
-    // Area that the surface covers in a parallel projection along each direction, in object units squared. Both sides
-    // of a face count. The opposite direction gives the same area.
+    LightMeans light{};    // reflected radiance, from vertex colours; textures are ignored
+    // Area of the surface's silhouette in a parallel projection along each direction, in object units squared. Both
+    // sides of a face count. The opposite direction gives the same area.
     std::array<double, outlineDirections> outline{};
 };
 
@@ -29,8 +29,8 @@ using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::d
 // Returns a function that interpolates the level's vertex colours. The colour is white if the level has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
-// Measures a level. Colour and light are sampled at no fewer than `points` points on the surface; the outline uses a
-// grid of `resolution`² points. The mean colour is exact if the colour is linear over each triangle.
+// Measures a level. Colour and reflected radiance are sampled at no fewer than `points` points on the surface; the
+// outline uses a grid of `resolution`² points. The mean colour is exact if the colour is linear over each triangle.
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
@@ -38,8 +38,8 @@ Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt&
 struct ConservedDifference {
     double colour = 0;       // max over the colour channels
     double light = 0;        // max over all light directions
-    double outline = 0;      // relative, max over all directions
-    double meanOutline = 0;  // relative and signed change of the mean over all directions
+    double outline = 0;      // relative; max over all view directions
+    double meanOutline = 0;  // relative and signed change of the mean over all view directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

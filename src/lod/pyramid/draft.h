@@ -1,5 +1,5 @@
 #pragma once
-// Fast preview of a mesh, shown while its pyramid is built. It uses meshoptimizer's simplifier. If that simplifier
+// Fast preview of a mesh, drawn while its pyramid is built. It uses meshoptimizer's simplifier. If that simplifier
 // cannot reach the target, for example because triangles share no vertices, its sloppy variant is used. The sloppy
 // variant merges the vertices in each cell of a grid. Attributes are neither fitted nor measured.
 

@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Structured bindings unpack all members of a struct, including unused ones. A new member then causes a compile error,
+// Structured bindings name all members of a struct, including unused members. A new member then causes a compile error,
 // as a reminder to add the member to the key or the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);

@@ -34,12 +34,13 @@ struct FinishMap {
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // Returns the map's linear value, interpolated between texels. Both sets of texture coordinates are passed; uvSet
-    // selects one. Returns 1 if there is no image.
+    // Returns the map's linear value, interpolated between texels. The arguments are both sets of texture coordinates;
+    // uvSet selects a set. Returns 1 if there is no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Simplified material. The default is used for meshes without a scene: white and matt, tinted by vertex colours only.
+// Simplified material. The default is white and matt, tinted by vertex colours only; it is used for meshes without a
+// scene.
 struct Finish {
     bool unlit = false;
     glm::vec3 baseColor{1.0f};

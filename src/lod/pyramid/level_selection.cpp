@@ -12,10 +12,10 @@ namespace {
 
 constexpr double referenceSamples = 64;
 constexpr LodThresholds referenceSize{0.25, 3.3};     // mean edge in px at 64 samples
-constexpr LodThresholds referenceError{0.018, 0.18};  // error in px at 64 samples
+constexpr LodThresholds referenceError{0.018, 0.18};  // max surface distance in px at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;   // px, default of LodThresholds::light for one sample
+constexpr double lightOfSampleError = 6.7;   // px; default of LodThresholds::light for one sample
 constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; adds at most 4 % to the total error
 constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
 
@@ -115,7 +115,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
     const double target = std::max(thresholds.blur > 0 ? thresholds.blur * coc : 0, thresholds.size);
     if (!(target > 0)) return 0;
 
-    // Find the first level that is coarser than the target; λ lies between this level and the level before.
+    // Find the first level that is coarser than the target; λ lies between this level and the previous level.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const double coarse = storedSize(pyramid.levels[l], metric) * query.pixelsPerUnit;
         if (coarse <= target) continue;

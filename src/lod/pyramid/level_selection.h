@@ -33,8 +33,8 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 struct LodThresholds {
     double blur = 0;  // px of target per px of CoC, or levels for `proportional`
     double size = 0;  // min target in px
-    // px: max product of a measured level's edge length in px and its error in standard deviations of the light within
-    // the blur; see measuredLimit.
+    // px: max product of a level's edge length in px and its error in standard deviations of the radiance within the
+    // blur. Only for LodMetric::measured; see measuredLimit.
     double light = 0;
 };
 
@@ -58,19 +58,19 @@ double expectedSampleError(std::uint32_t sampleCount);
 // Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule has no number of samples.
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
-// standard deviation of the light within the blur. The error of N samples is expectedSampleError(N) times that
+// standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that
 // deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. The
 // levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
 // spots more than the outlines and fine ghosts caused by sampling.
 inline constexpr double proportionalLevels = 10;
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the light within
-// the blur. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample count whose
-// default threshold is `light`. Reason for 1/edge: halving the triangles doubles a level's error. For a given sum of
-// squared errors over the image, the fewest triangles are then needed if the squared error is proportional to triangles
-// per pixel. Objects with small triangles are therefore simplified first; objects with large triangles, which save
-// little, hardly at all.
+// Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the radiance
+// within the blur. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample count
+// whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a level's error. For a given sum
+// of squared errors over the image, the fewest triangles are then needed if the squared error is proportional to
+// triangles per pixel. Objects with small triangles are therefore simplified first. Objects with large triangles are
+// hardly simplified, because this would save little.
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
@@ -94,8 +94,8 @@ struct LevelQuery {
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 
-// Division of N lens samples between two levels. Samples [0, coarseCount) draw level `level` + 1; samples [coarseCount,
-// N) draw level `level`. Below, f = λ − ⌊λ⌋.
+// Division of N lens samples between two levels. Samples [0, coarseCount) draw level `level` + 1, and samples
+// [coarseCount, N) draw level `level`. Below, f = λ − ⌊λ⌋.
 //   fractional: coarseCount = round(f·N). As λ changes, one complete sample after another switches its level.
 //   continuous: f·N = n + g with the integer n = coarseCount and 0 ≤ g < 1.
 //     In sample n, the share g of the pixels draws the coarser level (screen door).

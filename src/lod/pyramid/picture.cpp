@@ -18,7 +18,7 @@ namespace {
 constexpr float backBias = 1e-3f;  // depth offset in cells: a front face wins against a back face at the same depth
 constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth of an empty cell
 
-constexpr int narrow = 8;  // rows up to this number of cells are tested completely
+constexpr int narrow = 8;  // row ranges of at most this number of cells are tested cell by cell
 
 constexpr int lanes = 4;
 
@@ -140,7 +140,8 @@ void Painter::drawTriangle(std::uint32_t first) {
 void Painter::draw(std::size_t number, Picture& picture) {
     const PyramidLevel& level = pyramid_.levels[number];
     const CellBox& box = eye_.box;
-    depths_.assign(box.count() + lanes, nothing);  // SIMD access to the last cells reaches past the end
+    // padding, because SIMD access to the last cells reaches past the end
+    depths_.assign(box.count() + lanes, nothing);
     firsts_.resize(box.count() + lanes);
     places_.clear();
     for (const glm::vec3& position : level.positions) places_.push_back(eye_.place(position));

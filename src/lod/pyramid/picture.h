@@ -1,7 +1,7 @@
 #pragma once
-// Renders pictures of a level by parallel projection, without a lens. Each grid cell shows the surface that is nearest
-// to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without lights
-// (scene/defaults.h).
+// Renders pictures of a level by parallel projection, without a lens. Each grid cell contains the surface that is
+// nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without
+// lights (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct CellBox {
                static_cast<std::size_t>(x - left);
     }
 };
-inline constexpr int boxAlignment = 32;  // the sides of an eye's box are multiples of this number of cells
+inline constexpr int boxAlignment = 32;  // sides of Eye::box are multiples of this number of cells
 
 // View direction and square grid of a picture. The grid is perpendicular to the direction and covers a bounding sphere
 // of the mesh.
@@ -35,7 +35,7 @@ struct Eye {
     glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: unit vector from the mesh to the eye
     double cellsPerUnit = 0;
     int resolution = 0;  // cells per side
-    // Cells that may show the mesh. The sides are multiples of boxAlignment, or equal to the side of the grid.
+    // Cells that the mesh may cover. The sides are multiples of boxAlignment, or equal to the side of the grid.
     CellBox box;
 
     // Projects a position to cell coordinates; z increases towards the eye.

@@ -56,12 +56,12 @@ struct SurfacePoint {
     glm::vec3 diffuse{0}, specular{0};
     float roughness = 1;
     glm::vec3 normal{0};
-    float agreement = 1;  // length of the mean of the unit normals that `normal` represents
+    float agreement = 1;  // length of the mean of the unit normals that `normal` replaces
 };
 
 struct DistantLight {
     glm::vec3 toLight{0};
-    glm::vec3 illuminance{0};  // divided by π
+    glm::vec3 illuminance{0};  // illuminance divided by π
     // Terms that depend only on light and eye. lv: cosine of the angle between both directions. sum2: squared length of
     // their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
@@ -84,10 +84,10 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// Visible part of the distribution of normals that one normal represents.
+// Visible part of the normal distribution that a single mean normal represents.
 struct SeenNormals {
     float spread = 0;              // normalSpread()
-    float shown = 0;               // mean cosine to the eye over the visible normals
+    float shown = 0;               // mean cosine between eye direction and visible normals
     float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
 
@@ -103,7 +103,7 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// Returns 2·(n·l)·V, like unmasked() in shading.glsl.
+// Returns 2·(n·l)·V with the masking term V, like unmasked() in shading.glsl.
 inline float unmasked(float nl, float nv, float width2) {
     if (nl <= 0 || nv <= 0) return 0;
     const float masking =
@@ -116,7 +116,7 @@ struct Gloss {
     float nv = 0;
     float width2 = 0, alpha2 = 0;
     float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shown = 0;  // mean cosine to the eye of the normals of that fraction
+    float shown = 0;  // mean cosine between eye direction and the normals of this fraction
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
         : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
@@ -127,7 +127,8 @@ struct Gloss {
         share = std::min(spread * (1 - width) / alpha2, 1.0f);
     }
 
-    // Returns the specular reflection of a light, divided by the reflectance. `cosine` is the cosine of incidence.
+    // Returns the specular reflection of a light source, divided by the reflectance. `cosine` is the cosine of the
+    // angle of incidence.
     [[nodiscard]] float reflected(const DistantLight& light, float cosine) const {
         const float cosines = std::max(cosine + nv, 0.0f);
         const float cosines2 = cosines * cosines;
@@ -152,7 +153,7 @@ inline glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point,
                                 reflectance * gloss.reflected(light, cosine));
 }
 
-// Returns the fraction of a uniform sky's light that the specular lobe reflects.
+// Returns the fraction of the radiance of a uniform sky that the specular lobe reflects.
 inline glm::vec3 specularAlbedo(const SurfacePoint& point, float nv) {
     const glm::vec2 albedo = specularAlbedo(nv, point.roughness);
     return point.specular * albedo.x + albedo.y;
@@ -200,7 +201,7 @@ public:
         ++count_;
     }
 
-    // Calls put(number, light) for each cell and then removes all cells.
+    // Calls put(number, radiance) for each cell and then removes all cells.
     template <typename Put>
     void shade(const Put& put) {
         normalise();

@@ -36,7 +36,7 @@ constexpr double errorFloor = 1e-6;      // min error, relative to the bounding 
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-// Sufficient for 2³² triangles, because each level has at most three quarters of the triangles of the level before.
+// Sufficient for 2³² triangles, because each level has at most three quarters of the triangles of the next finer level.
 constexpr std::size_t maxPossibleLevels = 128;
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
@@ -70,14 +70,14 @@ bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::
     return true;
 }
 
-// Returns whether so few vertices are duplicates that a copy without them would need more memory than the duplicates
-// do.
+// Returns whether so few of `count` vertices are duplicates that a copy without duplicates needs more memory than it
+// saves.
 bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
 // Restores the vertex numbers of the file, so that each file vertex is a mesh vertex. Triangles still use only the
-// first of several equal vertices.
+// first vertex of several equal ones.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
@@ -125,8 +125,8 @@ std::size_t percentileRank(std::size_t count) {
     return count - static_cast<std::size_t>(std::min(errorPercentile * number + 2 * deviation, number - 1));
 }
 
-// Returns the distance between the two surfaces: the larger of both directions, at most the bounding box's diagonal.
-// Without this limit, the distance to a level without area would be infinite.
+// Returns the distance between the two surfaces: the larger of the distances in both directions, at most the bounding
+// box's diagonal. Without this limit, the distance to a level without area would be infinite.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
@@ -146,7 +146,7 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
 // A level before the final vertex order is known.
 struct FittedLevel {
     TriangleSet<LevelVertexNumber> own;                     // triangles before clustering
-    TriangleSet<MeshVertexNumber> triangles;                // triangles after clustering
+    TriangleSet<MeshVertexNumber> triangles;                // `own` after clustering
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // see SimplifiedLevel
     LevelFit fit;
     std::vector<Cluster> clusters;
@@ -164,8 +164,8 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     return result;
 }
 
-// Returns the level with the original attributes of its vertices. Both vertices of a twin pair have the same
-// attributes.
+// Returns the level with the original attributes of its vertices. Both vertices of a pair of twins (copies of a vertex)
+// have the same attributes.
 FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     FittedLevel result;
     const auto own = [&]<typename T>(const std::vector<T>& values, Numbered<LevelVertexNumber, T>& kept) {
@@ -309,7 +309,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     pyramid.repairedFaces = simplification.repairedFaces;
     pyramid.end = simplification.end;
 
-    // From here on, twins are ordinary vertices; no corner of level 0 uses them.
+    // From here on, twins (copies of vertices) are ordinary vertices. No corner of level 0 uses a twin.
     const std::size_t ownCount = vertices.count();
     for (const MeshVertexNumber v : simplification.twins) positions.id.push_back(positions.id[v]);
 
@@ -333,7 +333,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
 
     reach(shareUntilClustered);
 
-    // Sort vertices by survival.
+    // Sort vertices by the coarsest level that uses them.
     std::vector<TriangleSet<MeshVertexNumber>> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));

@@ -1,6 +1,6 @@
 #pragma once
 // Pyramid: a mesh and its simplified levels. Level 0 is the mesh; each further level has about half the triangles of
-// the level before it.
+// the previous level.
 //
 // All levels index one shared vertex buffer, sorted by the coarsest level that uses each vertex. Vertices at the same
 // position are adjacent. Level l therefore uses the prefix [0, vertexCount[l]). Joints, weights, tangents and morph
@@ -34,7 +34,7 @@ struct IndexRange {
 };
 
 // A cluster is a run of triangles of one level that are close together and face similar directions. A frame skips the
-// complete run if no lens sample shows any of its triangles (plan/visible/visibility.h). All lengths are in object
+// complete run if no lens sample sees any of its triangles (plan/visible/visibility.h). All lengths are in object
 // units, measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes
 // of the triangles.
 struct Cluster {
@@ -50,14 +50,14 @@ struct Cluster {
 
 inline constexpr std::uint32_t maxClusterTriangles = 64;
 
-// Table of the RMS of a light difference after averaging over square patches of growing size. Entry 0: per point,
-// without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Light is relative to the mean
-// light of the mesh, so that 1 equals the mean light.
+// Table of the RMS of a radiance difference after averaging over square patches of growing size. Entry 0: per point,
+// without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Values are relative to the mean
+// radiance of the mesh.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
-// Background that the light of a mesh is measured against. The real background is between these two: it contrasts with
-// the outlines as black does, or as little as a grey of the mesh's mean light.
+// Background for the measurement of a mesh's radiance. The contrast of the outlines is high on black and low on a grey
+// of the mesh's mean radiance. A real background is between the two.
 enum class Surround { black, grey };
 inline constexpr std::array surrounds = {Surround::black, Surround::grey};
 using BlurTables = std::array<BlurTable, surrounds.size()>;  // one table per surround
@@ -69,8 +69,8 @@ struct PyramidLevel {
     std::vector<Cluster> clusters;  // sorted by index range; together they cover the ranges of all primitives
     // Vertex attributes of the level, fitted to level 0; level 0 and LevelVertices::surviving have the values of the
     // mesh. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same position.
-    // Fitted normals have length ≤ 1. A shorter normal represents level 0 normals that differ more; a matt surface
-    // reflects less light there.
+    // Fitted normals have length ≤ 1. A shorter normal represents level 0 normals that differ more, so that a matt
+    // surface reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
     std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
@@ -83,19 +83,20 @@ struct PyramidLevel {
     double longestEdge = 0;  // object units
 
     // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
-    // over the area in both directions. It is estimated conservatively from 256 to 1,024 points per direction
-    // (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding
-    // box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their size and at
-    // least the distance from any of their points to the level. The error never exceeds the diagonal of the bounding
-    // box.
+    // over the area in both directions. The percentile is estimated conservatively from 256 to 1,024 points per
+    // direction (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of
+    // the bounding box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their
+    // size and at least the distance from any of their points to the level. The error never exceeds the diagonal of the
+    // bounding box.
     double error = 0;
 
     BlurTables blurredError{};  // see blurred_error.h; 0 for level 0
 };
 
 struct Pyramid {
-    // The vertices of level 0, sorted by survival; identical vertices are merged. `normals` are the normals of level 0.
-    // A few vertices are stored twice, for coarser levels that need two normals at one position.
+    // The vertices of level 0, sorted by the coarsest level that uses them; identical vertices are merged. `normals`
+    // are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals at one
+    // position.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // for each vertex, its index in Mesh::vertices; morph targets use it
     std::vector<std::uint32_t> indices;  // indices of all levels, level by level
@@ -107,16 +108,16 @@ struct Pyramid {
     // For each morph target, the bounding box of its displacements and the origin, in object units.
     std::vector<Bounds> morphBounds;
     double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
-    // Standard deviation of level 0's light within patches; see blurred_error.h.
+    // Standard deviation of level 0's radiance within patches; see blurred_error.h.
     BlurTables contrast{};
     std::uint32_t repairedFaces = 0;  // faces that had to be repaired for the half-edge structure; see manifold.h
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 struct PyramidOptions {
-    // Halving ends at this number of triangles; the last collapse may remove one triangle more.
+    // Halving stops at this number of triangles; the last collapse may remove an extra triangle.
     std::uint32_t minTriangles = 64;
-    int maxLevels = 24;  // including level 0
+    int maxLevels = 24;  // max number of levels, including level 0
     LevelVertices vertices = LevelVertices::fitted;
     const Finishes* finishes = nullptr;  // materials of the scene that owns the meshes; null: white and matt
 };

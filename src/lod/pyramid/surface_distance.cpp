@@ -75,7 +75,7 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Returns those of the `count` triangles that have finite corners and positive area, in Morton order.
+// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of all triangles.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
@@ -272,7 +272,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     if (to.empty()) return std::vector<double>(count, infinity);
     std::vector<double> distances;
     distances.reserve(count);
-    std::size_t nearest = 0;  // triangle nearest to the previous point, which is close
+    std::size_t nearest = 0;  // nearest triangle of the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, 0);
         nearest = found.triangle;
@@ -284,8 +284,8 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared distances, a min-heap
-    std::size_t nearest = 0;                       // triangle nearest to the previous point, which is close
+    std::vector<double> largest(rank, min * min);  // squared distances as a min-heap
+    std::size_t nearest = 0;                       // nearest triangle of the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());
         nearest = found.triangle;

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 // Returns whether vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
-// little. For comparison, neighbours on a grid stored in rows are √n apart.
+// little. For comparison, neighbours in a grid of n vertices stored in rows are √n apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
 // Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
 // file's vertices.

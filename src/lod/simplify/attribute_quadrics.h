@@ -115,7 +115,7 @@ public:
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    struct Even {  // the part that does not depend on position
+    struct Even {  // Part of a quadric that does not depend on position.
         float c = 0;
         float weight = 0;
         AttributeRow<n> offset{};

@@ -1,4 +1,4 @@
-// Judges the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
+// Evaluates the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
 
 #include "lod/simplify/collapse.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double minTurnCosine = 0.2588;  // 75°
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// Judges the face with corners a, b and c when a moves to `target`.
+// Classifies a face with corners a, b and c after corner a moves to `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);
@@ -36,8 +36,8 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change that the
-// mesh's average texture scale gives for the edge's length.
+// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change expected from
+// the edge's length and the mesh's average texture scale.
 constexpr double longestUvStep = 4;
 
 // One side of the collapsing edge: its face (if any), and the wedges of the removed and of the surviving vertex.
@@ -50,7 +50,7 @@ struct EdgeSide {
 struct Sides {
     const SurfaceMesh& mesh;
     VertexHandle survivor;
-    double longestStep = 0;  // squared, in texture space; longer steps cross a seam
+    double longestStep = 0;  // max squared step in texture space; longer steps cross a seam
     EdgeSide both[2];
 
     [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {

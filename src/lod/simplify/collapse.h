@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Decides whether the surface allows a collapse, and judges the effect on surrounding faces. The link condition is
+// Decides whether the surface allows a collapse, and classifies the effect on surrounding faces. The link condition is
 // OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
 // decimater module, it accepts good and poor collapses.
 class ShapeModule final : public CollapseModule {
@@ -23,7 +23,7 @@ public:
     // Returns whether the collapse preserves the topology: OpenMesh's conditions hold, only one edge joins the two
     // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
-    // Judges the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
+    // Classifies the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
     // sliver, or pulls the surface away from its border. Bad: the collapse turns a face's normal by more than 75° or
     // makes a face degenerate. Impossible: a vertex of the edge's faces has more than 8,192 outgoing half-edges.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
@@ -49,7 +49,7 @@ public:
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Assigns each corner its new wedge, and adds the quadrics of the old wedges to those of the new ones.
+    // Assigns each corner its new wedge, and adds the quadrics of the old wedges to the quadrics of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
     // OpenMesh replaces a half-edge beside the removed face by a half-edge of that face. Copies the wedge to the
     // replacement.
@@ -76,7 +76,8 @@ public:
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Adds the position quadric of the removed vertex to that of the survivor. WedgeModule moves the wedges' quadrics.
+    // Adds the position quadric of the removed vertex to the position quadric of the survivor. WedgeModule moves the
+    // wedges' quadrics.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, any value from `max` to the cost
@@ -89,7 +90,7 @@ private:
     std::vector<HalfedgeHandle> spokes_;  // temporary storage of cheapest()
 };
 
-// The modules that judge and price each collapse of a surface, and update its wedges and quadrics.
+// The modules that evaluate each collapse of a surface and its cost, and update the surface's wedges and quadrics.
 struct CollapseModules {
     explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
 

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
 constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
-constexpr double manyShare = 0.25;        // manyAreSmallest(): min fraction of the faces
-constexpr std::uint32_t fewestFaces = 4;  // min faces that collapses can reach: a tetrahedron
+constexpr double manyShare = 0.25;        // min fraction of faces for manyAreSmallest()
+constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
 class Forest {
@@ -125,7 +125,8 @@ struct Removable {
     std::vector<FaceHandle> faces;
 };
 
-// Returns the removable components, smallest first: all except the largest and those that collapses can still simplify.
+// Returns the removable components, smallest first: all except the largest component and the components that collapses
+// can still simplify.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());
@@ -233,7 +234,7 @@ private:
         }
         template <typename Box>
         bool kdtree_get_bbox(Box&) const {
-            return false;  // nanoflann computes the bounding box
+            return false;  // false: nanoflann computes the bounding box
         }
     };
 
@@ -288,7 +289,8 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());  // components of the root vertices
+    // component of the root vertex of each tree of `forest`
+    Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];
         if (number.isValid()) return;

@@ -97,8 +97,8 @@ Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& posi
     return relative;
 }
 
-// Min fraction of a vertex's area that foreshortening leaves, where the vertex normal is perpendicular to the normal of
-// the anchor's triangle.
+// Min fraction of a vertex's area that remains after foreshortening, even if the vertex normal is perpendicular to the
+// normal of the anchor's triangle.
 constexpr float minForeshortening = 0.02f;
 // Vertices that share an anchor are on different sides of an edge if their normals differ by more than 60°.
 constexpr float minSharedCosine = 0.5f;

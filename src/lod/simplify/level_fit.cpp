@@ -120,8 +120,8 @@ Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber
     return sums;
 }
 
-// Returns for each group the mean cosine between the normals of the mesh and the interpolated `normals`. Only detail
-// that the level has lost lowers this mean; curvature that the level still shows does not.
+// Returns for each group the mean cosine between the normals of the mesh and the interpolated `normals`. Detail that
+// the level has lost lowers this mean; curvature that the level preserves does not lower it.
 Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMesh& level,
                                           const Numbered<MeshVertexNumber, Anchor>& anchors, const Grouping& groups,
                                           const Numbered<UnknownNumber, glm::vec3>& normals) {
@@ -261,9 +261,10 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
-// Max triangle count for which the light is corrected. Finer levels reflect the light of level 0 without correction.
+// Max triangle count of levels whose reflected light is corrected. Finer levels match the reflected light of level 0
+// without correction.
 constexpr std::size_t maxLitTriangles = 16'384;
-// Max triangle count for which the outline is corrected. Thin parts lose area at the first level already; meshes with
+// Max triangle count of levels whose outline is corrected. Thin parts lose area at the first level already; meshes with
 // more triangles would take too long.
 constexpr std::size_t maxOutlinedTriangles = 131'072;
 

@@ -79,7 +79,7 @@ struct LevelMesh {
 // Fitted attributes of each vertex of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
-    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the represented normals differ more
+    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the normals of level 0 differ more
     Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
@@ -90,7 +90,7 @@ struct LevelFit {
 // degree share a normal; if their colours are equal, they share a colour. This prevents gaps and visible seams.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
-// Corrects a fitted level so that it preserves the properties of level 0 that a wide blur shows:
+// Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:
 // - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
 // - the mean colour over the area, including alpha: all colours are shifted by the same amount;
 // - the light that a matt surface reflects, from any direction: normals are turned slightly (light.h).

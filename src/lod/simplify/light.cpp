@@ -37,7 +37,7 @@ struct LitPoint {
     glm::vec3 normal{0};   // unit length, or zero
     float agreement = 1;
     float area = 0;
-    float light = 0;  // area times mean of the colour's channels
+    float light = 0;  // area times the mean of the colour channels
 };
 
 // Calls visit(corners, point) for sample points of the surface. Returns the area of the surface.
@@ -81,14 +81,14 @@ double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const V
 constexpr std::size_t pairCount = lightCount / 2;  // pairs of opposite lights
 using PairRow = std::array<float, pairCount>;
 
-// Derivative of each light's mean with respect to x, y and z of a normal.
+// Derivatives of the mean radiance under each light with respect to x, y and z of a normal.
 struct LightSlopes {
     LightRow x, y, z;
 };
 
-// Derivatives of the mean light with respect to the normal of a group, split into two parts. For a light direction d,
-// the first part, odd · d with a symmetric matrix `odd`, changes sign with d. The second part is the same for opposite
-// lights.
+// Derivatives of the mean radiance under each light with respect to the normal of a group, split into two parts. For a
+// light direction d, the first part, odd · d with a symmetric matrix `odd`, changes sign with d. The second part is the
+// same for opposite lights.
 struct GroupSlopes {
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
     PairRow x{}, y{}, z{};
@@ -120,7 +120,7 @@ struct GroupSlopes {
 };
 
 // Returns the derivatives of meanCosine() for a point whose normal turns. Derivatives along the normal are 0. `values`
-// receives the reflected light.
+// receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
     constexpr float minRoot = 0.02f;  // limits the derivative where light grazes a surface with uniform normals
     const glm::vec3& n = point.normal;
@@ -147,14 +147,14 @@ GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
     return slopes;
 }
 
-// The mean light, and its derivatives with respect to the normals of groups.
+// Mean radiance under each light, and its derivatives with respect to the normals of groups.
 struct FollowingMeans {
     LightMeans means{};
     std::vector<float> areas;  // area of each group, as a fraction of the surface
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the mean light from each direction and its derivatives. Reuses the memory of `result`, which may be large.
+// Computes the mean radiance under each light and its derivatives. Reuses the memory of `result`, which may be large.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -181,9 +181,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the mean light by approximately `wanted`. `damping`
-// is relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping is needed because
-// only about nine of the lights are independent.
+// Returns the smallest change of the groups' normals that changes the mean radiance under each light by approximately
+// `wanted`. `damping` is relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping
+// is needed because only about nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -267,8 +267,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // Turning normals changes the shading at each point, which a narrow blur still shows. The RMS change is therefore
-    // limited to this multiple of the improvement of the mean light.
+    // Turning normals changes the shading at each point, which remains visible under a narrow blur. The RMS change is
+    // therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

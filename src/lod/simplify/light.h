@@ -17,8 +17,8 @@ namespace defocus::engine {
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
-// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored, and a colour counts as
-// the mean of its three channels.
+// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored, and the mean of the
+// three channels replaces a colour.
 using LightMeans = std::array<double, lightCount>;
 
 // Match normalSpread() and meanCosine() in shaders/include/shading.glsl: light reflected by a distribution of normals.
@@ -43,20 +43,20 @@ struct LitSurface {
     std::span<const glm::vec3> normals;
     std::span<const glm::vec4> colors;  // empty: white
     std::span<const std::uint32_t> indices;
-    bool coarse = true;  // normals shorter than 1 represent differing normals, as in shading.glsl
+    bool coarse = true;  // true: normals shorter than 1 represent differing normals, as in shading.glsl
 };
 
 // Returns the light that a matt surface reflects, averaged over its area. It uses at least three points per triangle
 // and at least `minPoints` points in total.
 LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 
-// Min number of points for lightMeans() that limits the error to 5e-4.
+// Min number of points for which lightMeans() has an error of at most 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Turns the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds of
 // the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached. The
-// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean light, because a
-// change is visible at each point. Lengths of normals are preserved, so that roughness does not change. Vertices with
+// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean radiance, because
+// a change is visible at each point. Lengths of normals are preserved, so that roughness does not change. Vertices with
 // equal numbers in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,

@@ -132,7 +132,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const SurfaceCorner a = groups[g][0];
         const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
-        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face in another primitive
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // faces of two primitives coincide
         across[a] = b;
         across[b] = a;
     }
@@ -238,7 +238,7 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
     }
 
     manifold.corners.resize(surface.at.size());
-    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // the position has a vertex
+    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // 1: the position has a vertex
     Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // 1: not the first vertex at its position
     for (const SurfaceCorner corner : surface.at.numbers()) {
         const SurfaceCorner fan = root(corner);

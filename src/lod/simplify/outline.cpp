@@ -47,8 +47,8 @@ struct Edge {
 };
 
 struct Edges {
-    std::vector<Edge> all;   // one for each pair of vertex groups
-    std::vector<Edge> more;  // one for each face after the second at an edge
+    std::vector<Edge> all;   // one edge per pair of vertex groups
+    std::vector<Edge> more;  // one edge per face after the second at an edge
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
@@ -301,7 +301,7 @@ private:
     std::vector<glm::vec3> original_;
     std::vector<std::uint32_t> corners_;
     Edges edges_;
-    std::vector<double> maxMove_;  // per vertex group
+    std::vector<double> maxMove_;  // max move per round of each vertex group
     std::span<const CoverGrid> outlines_;
     std::vector<double> areas_;  // areas of `outlines_`
     const Bounds& box_;
@@ -314,7 +314,7 @@ private:
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
-    std::vector<const Edge*> rim_;    // potential outline: edges without two faces of the same turn
+    std::vector<const Edge*> rim_;    // potential outline: edges that lack two faces of the same turn
 };
 
 }  // namespace

@@ -6,9 +6,8 @@
 //
 // Attribute quadrics: the squared difference between the attributes of a vertex and the linear interpolation of the
 // faces' attributes at the same position, weighted by face area. Source: Hoppe 1999, New Quadric Metric for Simplifying
-// Meshes with Appearance Attributes.
-// Attributes, too, are relative to those of the owning vertex. `n` is the number of attributes, so that memory is used
-// only for attributes that the mesh has.
+// Meshes with Appearance Attributes. Attributes are relative to the attributes of the vertex that owns the quadric. `n`
+// is the number of attributes, so that memory is used only for attributes that the mesh has.
 
 #include <algorithm>
 #include <array>

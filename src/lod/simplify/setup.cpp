@@ -186,7 +186,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
         linkFaces(mesh, manifold, triangles);
         origin->places = std::move(manifold.positions);
     }
-    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // before the largest allocations
+    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // return freed memory before the largest allocations
     for (const SurfaceVertexNumber v : origin->places.numbers()) {
         const glm::vec3& p = vertices.positions[positions.first[origin->places[v]].value];
         mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});

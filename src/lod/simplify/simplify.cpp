@@ -1,7 +1,7 @@
 // Source: Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. The candidate of each vertex
-// is its cheapest collapse. A candidate is tested against the rules only when its turn comes. For meshes with many
-// faces, sweeps over memory perform the collapses below an increasing cost limit. Later, a priority queue orders them.
-// Deleted elements are removed at each level.
+// is its cheapest collapse. A candidate is tested against the rules only just before it is collapsed. For meshes with
+// many faces, sweeps over memory perform the collapses below an increasing cost limit. Later, a priority queue orders
+// them. Deleted elements are removed at each level.
 
 #include "lod/simplify/simplify.h"
 
@@ -19,15 +19,16 @@ namespace {
 // Factor on the cost of poor collapses.
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // for smaller meshes, progress reports are not worthwhile
-// Up to this number of faces, the costs of all candidates are always up to date, because coarse levels show errors
-// most.
+// Up to this number of faces, the costs of all candidates are always up to date, because errors are most visible at
+// coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
 // While at least this number of faces must remain, collapses are made in sweeps.
 constexpr std::size_t minFacesToSweep = 16'384;
 constexpr std::size_t sweepsPerLevel = 8;   // a sweep makes about 1/8 of the remaining collapses of a level
 constexpr std::size_t minSweepShare = 128;  // a sweep makes at least one collapse per 128 faces, if possible
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
-// Max ratio of the triangle counts of a level and the level before: a level must save a quarter of the triangles.
+// Max ratio of the triangle counts of a level and the next finer level: each level must save a quarter of the
+// triangles.
 constexpr double largestShare = 0.75;
 // Min fraction of the reducible faces that a level keeps. If many components are as small as possible, halving the
 // total would otherwise take too many faces from the few large components.
@@ -93,10 +94,10 @@ void startQueue(Simplifier& s) {
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueue(s, v, Candidate(s.mesh->data(v).candidate)); });
 }
 
-// Updates candidates after a collapse: those of the survivor and of neighbours whose candidate is affected. Affected
-// candidates led to the survivor or to the removed vertex, or did not exist. With many faces, candidates are only
-// marked as outdated. Their costs have mostly risen, except for the few vertices that are closer to the survivor than
-// to the removed vertex.
+// Updates the candidates of the survivor and of affected neighbours after a collapse. A neighbour is affected if its
+// candidate led to the survivor or to the removed vertex, or if it had no good candidate. With many faces, candidates
+// are only marked as outdated. Their costs have mostly risen, except for the few vertices that are closer to the
+// survivor than to the removed vertex.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;
@@ -136,7 +137,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Performs the collapse of `along`, which must be the collapse that was judged last.
+// Performs the collapse of `along`, which must be the collapse that was evaluated last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);
@@ -154,8 +155,8 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse two rings away can make a collapse possible without updating its candidate. Retry all vertices
-            // once.
+            // A collapse can make another collapse two rings away possible, but does not update that candidate. Retry
+            // all vertices once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
@@ -199,7 +200,8 @@ bool sweep(Simplifier& s, std::size_t target, float max) {
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;  // most candidates are too expensive
+        // skip the many candidates that are too expensive
+        while (i < count && !(vertices[i].candidate.cost <= max)) ++i;
         if (i == count) break;
         const VertexHandle v(i);
         const Candidate& candidate = vertices[i].candidate;

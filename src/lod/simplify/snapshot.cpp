@@ -30,7 +30,7 @@ constexpr int rounds = 3;  // iterations of k-means with two clusters
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Face normal in mesh winding. Its length is first twice the face's area, then the corner's angle.
+    // Face normal in mesh winding. Its length is initially twice the face's area, later the angle at the corner.
     glm::dvec3 normal;
 };
 
@@ -38,7 +38,8 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first; the mean is then long enough for any corner angles.
+// Returns true if all face normals are within 60° of the first normal; the mean is then long enough for any corner
+// angles.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -69,8 +70,8 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Moves the corners of the back side to the end of `corners` and returns the index of the first of them. Returns the
-// number of corners if no split is needed. `own` is the vertex's normal.
+// Moves the corners of the back side to the end of `corners` and returns the index of the first moved corner. Returns
+// the number of corners if no split is needed. `own` is the vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -124,8 +125,8 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each corner. If faces with a common normal face opposite ways, the faces of one side form the
-// back. A mesh vertex on both sides is split.
+// The mesh vertex at each corner. If faces that share a vertex normal face in opposite directions, the faces of one
+// side form the back. A mesh vertex on both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
     std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
@@ -259,7 +260,7 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
         for (const TriangleCorner corner : rings.around[nearest]) {
             const glm::dvec3& b = rings.point(nextCorner(corner));
             const glm::dvec3& c = rings.point(previousCorner(corner));
-            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // closest at the vertex itself
+            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // the vertex itself is closest
             const TriangleNumber face = faceOf(corner);
             if (!(glm::dot(rings.normals[face], side) > 0)) continue;
             const glm::dvec2 along = closestCoordinates(p, a, b, c);
@@ -279,8 +280,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// Returns a stride for each vertex of the level: of the mesh vertices that collapsed onto it, one per stride gets its
-// own anchor.
+// Returns a stride n for each vertex of the level: every n-th of the mesh vertices that collapsed onto the vertex gets
+// its own anchor.
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)
@@ -289,8 +290,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Other
-// vertices have no anchor.
+// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Some
+// vertices have no anchor of their own.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());

@@ -22,8 +22,9 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // at the mesh vertex's first corner; or invalid
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // primitive of the mesh vertex's first corner
+    // surface vertex at the first corner; or invalid
+    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first corner
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
@@ -80,7 +81,7 @@ struct Simplifier {
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// Judges the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
+// Classifies the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
 // Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
 // only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
@@ -97,7 +98,7 @@ void compact(Simplifier& s);
 // connect.
 bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
-// simplify these further.
+// simplify these faces further.
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components of the remaining mesh. Further calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);

@@ -44,7 +44,8 @@ struct Frame {
     }
 };
 
-// Class of a collapse. Collapses of a worse class wait until no better one is left; simplify.h defines poor and bad.
+// Class of a collapse. Collapses of a worse class wait until no collapse of a better class is left; simplify.h defines
+// poor and bad.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The planned collapse of a vertex, which removes the vertex.
@@ -71,7 +72,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
-        WedgeNumber wedge;  // wedge of the corner; invalid outside a border
+        WedgeNumber wedge;  // wedge of the corner; invalid on the outside of a border
     };
     template <class Base, class Refs>
     struct FaceT : Base {

@@ -24,8 +24,8 @@ namespace defocus::engine {
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Weight of per-vertex blur, relative to the mesh's range of blur. The weight is four times the colour weight, because
-// a level must show blur where the file has blur.
+// Weight of per-vertex blur, relative to the mesh's range of blur. The weight is four times the colour weight, so that
+// a level has blur at the same positions as the file.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {

@@ -1,6 +1,6 @@
 #pragma once
-// The choice of method "auto": lens cells (method "multirate") where a visible part of the image is widely blurred,
-// else plain accumulation, whose samples cost less. The choice depends on the view and the scene, not on the number of
+// The choice of method "auto": lens cells (method "multirate") if a visible part of the image has a large blur, else
+// plain accumulation, whose samples cost less. The choice depends on the view and the scene, not on the number of
 // samples or the machine, so all blocks of a frame and all machines agree.
 
 #include <string>
@@ -9,15 +9,15 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-// Blur whose gaps between samples become visible first: with 64 samples, neighbouring images of a point are 0.9 px
-// apart.
+// CoC diameter from which gaps between samples become visible. With 64 samples, neighbouring images of a point are then
+// 0.9 px apart.
 inline constexpr double minBlurOfCells = 8;  // px
-// Share of the image that must have this blur.
+// Min fraction of the image with at least this CoC diameter.
 inline constexpr double minShareOfCells = 0.01;
 
 // Returns the share of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The share is estimated from
-// bounding boxes on a grid of 32 × 24 positions: each shows the nearest box that contains it, or the background, and
-// surfaces are assumed at all depths of a box, evenly in the logarithm of depth.
+// the objects' bounding boxes on a grid of 32 × 24 image positions. At each position, the nearest box that covers it is
+// visible, or else the background. Surfaces are assumed at all depths of a box, evenly in the logarithm of depth.
 double blurredShare(const FramePlan& plan, double minCoc);
 
 // Returns why method "auto" draws the plan by accumulation; empty if it uses lens cells.

@@ -23,8 +23,7 @@ constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, images are no
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max lens points in all cells together
 
-// Mean and covariance of lens points, and the fraction of the unit disk that their light fills. Defaults: a uniform
-// unit disk.
+// Mean and covariance of lens points, and the fraction of the unit disk that they cover. Defaults: a uniform unit disk.
 struct LensSpread {
     glm::dvec2 mean{0};
     glm::dmat2 covariance{0.25};
@@ -42,8 +41,8 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
     return spread;
 }
 
-// Returns the fraction of the unit disk that the light of an aperture image would fill at uniform density: (Σ w)² / Σ
-// w² over the light w of the cells, divided by the disk's number of cells.
+// Returns the fraction of the unit disk that the light through an aperture image would fill at uniform density. This is
+// (Σ w)² / Σ w² over the transmittances w of the image's cells, divided by the number of cells in the disk.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;

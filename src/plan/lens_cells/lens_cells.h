@@ -2,14 +2,14 @@
 // Lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
-// from the cell's middle, blurred slightly. The blur kernel is the lens's shape, √N times smaller. Summing pinhole
-// images without that blur shows ghost copies instead of a disk. Therefore each image is rendered from a cell's middle
+// from the cell's middle, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
+// images without that blur has ghost copies instead of a disk. Therefore each image is rendered from a cell's middle
 // and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel. The image
 // resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
 //
 // Variances of convolved kernels add. The middles therefore have the lens's mean, and the lens's covariance minus the
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
-// by their mean. σ falls as 1/√N, so the limit equals the accumulation's.
+// by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
 // Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed, and each class is blurred once
 // per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest variances, with
@@ -25,19 +25,19 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // max number of variance classes on each side of the focus
+inline constexpr int maxCellClasses = 5;  // max number of variance classes on each side of the focus plane
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
+inline constexpr double minCellVariance = 0.01;  // px²; subtracted from every variance; invisible within a pixel
 
 struct LensCells {
     double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
     std::uint32_t firstSample = 0;   // LensSample::index of the first cell's sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     glm::dvec2 pixelShift{0};        // px, added to LensSample::pixel so that the mean offset is 0
-    // Number of variance classes in front of and behind the focus. Both are 0 if the samples leave no visible gaps.
-    // Samples still move to the middles of the cells then, which avoids popping.
+    // Number of variance classes in front of and behind the focus plane. Both are 0 if the samples leave no visible
+    // gaps. Samples move to the middles of the cells even then, to avoid popping.
     int inFront = 0;
     int behind = 0;
     std::string reason;  // reason why images are not blurred; empty if images are blurred

@@ -61,8 +61,8 @@ private:
     std::vector<double> corners_;
 };
 
-// Returns the object's vertices at the moments of the exposure. Between two moments, x/w, y/w and C/w stay between the
-// values at those moments.
+// Returns the object's vertices at the shutter times. Between two shutter times, x/w, y/w and C/w stay between the
+// values at these times, where C is the circle of confusion.
 std::vector<ClipVertices> momentsOf(const FramePlan& plan, const World& world, const ObjectPlan& object,
                                     std::uint32_t level) {
     std::vector<ClipVertices> moments;

@@ -10,8 +10,8 @@ namespace defocus::engine {
 
 // Returns a one-channel image: triangles per pixel. A triangle counts in all pixels that its bounding rectangle
 // overlaps, over all lens points and times. A triangle that reaches the near plane counts in all pixels. A triangle
-// that faces away from the entire lens counts in none. A level that only some samples draw is weighted by the fraction
-// of these samples.
+// that faces away from the entire lens counts in no pixel. A level that only some samples draw is weighted by the
+// fraction of these samples.
 Image sweptWork(const FramePlan& plan, const World& world);
 
 // Number of triangles per pixel at which the colour map saturates.

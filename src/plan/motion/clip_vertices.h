@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 struct ClipVertices {
     std::vector<glm::dvec3> places;  // (x, y, w) in the clip space of the pinhole camera
-    std::vector<double> coc;         // C of each vertex; undefined for w ≤ 0 with artistic controls
+    std::vector<double> coc;         // circle of confusion C; undefined for w ≤ 0 with artistic controls
 };
 
 // Returns the vertices of a level in `pose`, one of the object's poses; `time` ∈ [0, 1] is the time in the exposure.

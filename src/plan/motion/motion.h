@@ -6,12 +6,12 @@
 namespace defocus::engine {
 
 // Throws Error if the shutter has different numbers of poses and cameras, poses with different numbers of objects, or
-// fewer moments than the samples need.
+// fewer shutter times than the samples need.
 void checkShutter(const World& world, const View& view, const RenderSettings& settings);
 
-// Returns the poses of an object at the moments of the shutter, each in the view space of that moment. The result is
-// empty if the object doesn't move relative to the camera. This is the case if all poses equal `pose` within 1e-9 of
-// each matrix's largest element.
+// Returns the poses of an object at the shutter times, each in the view space of its time. The result is empty if the
+// object doesn't move relative to the camera. This is the case if all poses equal `pose` within 1e-9 of each matrix's
+// largest element.
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
 // Returns true if the exposure has a duration.

@@ -1,5 +1,5 @@
 #pragma once
-// Pose of an object in view space at one moment, and a bounding box of all its levels in that pose.
+// Pose of an object in view space at one instant, and a bounding box of all its levels in that pose.
 
 #include "plan/frame_plan.h"
 

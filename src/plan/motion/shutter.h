@@ -1,5 +1,5 @@
 #pragma once
-// Duration of a frame's exposure, and scene poses at the moments that a plan needs.
+// Duration of a frame's exposure, and scene poses at the shutter times, which are the times that a plan needs.
 
 #include <functional>
 #include <variant>
@@ -21,7 +21,7 @@ struct ShutterSettings {
 // Returns the middle of the exposure, in seconds relative to the frame's time.
 double shutterMiddle(const ShutterSettings& shutter);
 
-// A scene and its camera at one moment.
+// A scene and its camera at one instant.
 struct ShutterMoment {
     Pose pose;
     glm::dmat4 worldFromCamera{1.0};
@@ -29,8 +29,8 @@ struct ShutterMoment {
 
 // Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. The argument of `momentAt` is
 // a time in seconds relative to the frame's time. `opened` and the cameras stay empty if the exposure has no duration;
-// the cameras also stay empty if the camera doesn't move. With exact motion, the moments are the times of the samples,
-// which follow from `view` and `settings`.
+// the cameras also stay empty if the camera doesn't move. With exact motion, the shutter times are the times of the
+// lens samples, which follow from `view` and `settings`.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

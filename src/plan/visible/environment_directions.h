@@ -1,5 +1,5 @@
 #pragma once
-// Directions to the environment, for shadows of its light.
+// Directions to the environment, for shadows from environment lighting.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -10,21 +10,22 @@
 namespace defocus::engine {
 
 // Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
-// their light and to their importance.
+// luminance × solid angle × importance.
 class EnvironmentDirections {
 public:
     EnvironmentDirections() = default;
-    // `onGround`: shadows fall mostly on a horizontal ground. Importance is then 0.25 + 0.75·max(0, cos θ), where θ is
-    // the angle to the zenith; otherwise it is 1. The first term serves the surfaces of other orientations.
+    // With `onGround`, shadows are assumed to fall mostly on horizontal ground. Importance is then 0.25 + 0.75·max(0,
+    // cos θ), where θ is the angle to the zenith; otherwise it is 1. The constant term is for surfaces of other
+    // orientations.
     explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
 
     struct Choice {
         glm::dvec3 toLight{0, 1, 0};  // unit vector
-        glm::dvec3 radiance{0.0};     // radiance over the direction's probability density, W/m²
+        glm::dvec3 radiance{0.0};     // radiance divided by the probability density of the direction, W/m²
     };
     // Maps `point` ∈ [0, 1)² to a direction.
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
-    // Returns the illuminance averaged over the orientations of a surface, weighted over colours by luminance.
+    // Returns the luminance-weighted illuminance, averaged over the orientations of a surface.
     [[nodiscard]] double meanIlluminance() const { return meanIlluminance_; }
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
 

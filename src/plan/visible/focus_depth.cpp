@@ -58,7 +58,7 @@ glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view
     return *point;
 }
 
-// With focus breathing the pixel's ray depends on the focus distance, which a few iterations find.
+// With focus breathing, the ray of a pixel depends on the focus distance, so the depth is found by iteration.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who) {
     Lens lens = unfocused(view.lens);
     const int rounds = lens.focusBreathing ? 4 : 1;

@@ -20,13 +20,13 @@ double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::
 std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose& pose, const View& view,
                                                   const Lens& lens, const std::vector<glm::dvec2>& places);
 
-// Returns the surface point that a pixel shows through `lens`. Throws Error if the pixel lies outside the image or
-// shows no surface.
+// Returns the surface point that is visible at a pixel through `lens`. Throws Error if the pixel lies outside the image
+// or no surface is visible there.
 glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view, const Lens& lens,
                           const glm::ivec2& pixel, const char* who);
 
-// Returns the depth of the surface that a pixel (column from the left, row from the top) shows. Throws Error like
-// surfaceAtPixel.
+// Returns the depth of the surface that is visible at a pixel (column from the left, row from the top). Throws Error
+// like surfaceAtPixel.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who);
 
 // Returns the median depth of the surfaces in the central third of the image; nullopt if no surface is visible there.

@@ -1,7 +1,7 @@
 #pragma once
 // Tests whether a triangle faces away from the entire lens, for any circles of confusion C of its corners and during
 // motion. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization,
-// Appendix A. The determinant has the opposite sign here: it is positive if the front shows.
+// Appendix A. The determinant has the opposite sign here: it is positive if the front face is visible.
 //
 // After the shear p + C·(u, k·v, 0), the determinant of the corners (x, y, w) is
 //   det + u·Nx + k·v·Ny,   N = Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
@@ -20,8 +20,8 @@ struct LensTriangle {
     std::array<double, 3> coc{};       // circle of confusion C of each corner
 };
 
-// Returns the largest determinant over all lens points in the disk of `radius`. The triangle faces away from all of
-// them if the result is ≤ 0.
+// Returns the largest determinant over all lens points in the disk of `radius`. The triangle faces away from all these
+// points if the result is ≤ 0.
 double largestDeterminant(const LensTriangle& triangle, double aspect, double radius = 1);
 
 // Returns an upper bound of the determinant over all lens points while the triangle moves linearly from `from` to `to`.

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the illuminance in lux that the light causes on a surface that faces it, weighted over colours by luminance.
+// Returns the luminance-weighted illuminance in lux on a surface that faces the light.
 double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const SeenPoint& seen) {
     const Light& light = placed.light;
     const double brightness = light.intensity * luminance(glm::dvec3(light.color));
@@ -29,7 +29,7 @@ double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const Se
     return brightness / (bounded * bounded);
 }
 
-// Returns the illuminance by each light, then by the environment, summed over the points.
+// Returns the illuminance from each light, then from the environment, summed over the points.
 std::vector<double> illuminances(const World& world, const FramePlan& plan, double byEnvironment,
                                  const std::vector<SeenPoint>& seen) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);

@@ -8,10 +8,10 @@
 
 namespace defocus::engine {
 
-// Returns the mean share of each light in the illuminance of the surfaces that the image shows. There is one share for
-// each of World::lights, then one for the environment. They add up to 1, or are all 0 if nothing visible is lit. Each
-// of the `rays` (seenPoints()) counts the same, so a lamp matters as much as the part of the image that it lights.
-// Occlusion and the angle of incidence are ignored.
+// Returns the mean share of each light in the illuminance of the surfaces visible in the image. The result has one
+// share per light of World::lights, then one for the environment. The shares add up to 1, or are all 0 if nothing
+// visible is lit. All `rays` (from seenPoints()) have equal weight, so a lamp's share grows with the part of the image
+// that it lights. Occlusion and the angle of incidence are ignored.
 std::vector<double> lightShares(const World& world, const FramePlan& plan,
                                 const std::vector<std::vector<SeenPoint>>& rays);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int rayColumns = 16;  // rays through the image
 constexpr int rayRows = 12;
 constexpr int rayDepths = 4;              // points of a ray in a bounding box
-constexpr std::size_t maxCrossings = 16;  // along a ray; farther ones are ignored
+constexpr std::size_t maxCrossings = 16;  // max boxes along a ray; farther boxes are ignored
 
 // Part of a ray inside the bounding box of an object. Depths in m.
 struct Crossing {
@@ -26,8 +26,8 @@ struct Crossing {
     const ObjectPlan* object = nullptr;
 };
 
-// Returns where a ray from the camera crosses the object's box; `leave` < `enter` if it misses. `direction` has depth 1
-// m.
+// Returns where a ray from the camera crosses the object's box; `leave` < `enter` if the ray misses the box.
+// `direction` has depth 1 m.
 Crossing crossing(const ObjectPlan& object, const glm::dvec3& direction, double nearPlane) {
     Crossing found{nearPlane, std::numeric_limits<double>::infinity(), &object};
     for (int axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ std::vector<std::vector<SeenPoint>> seenPoints(const FramePlan& plan) {
     parallelFor(rays.size(), [&](std::size_t i) {
         const auto column = static_cast<double>(i % rayColumns);
         const auto row = static_cast<double>(i / rayColumns);
-        // The fraction of 0.5 would give components of 0, which crossing() divides by.
+        // Not 0.5, which would give a component of 0 for an odd number of rays, and crossing() divides by it.
         rays[i] = seenAlong(plan, {2 * (column + 0.501) / rayColumns - 1, 2 * (row + 0.501) / rayRows - 1});
     });
     std::erase_if(rays, [](const std::vector<SeenPoint>& ray) { return ray.empty(); });

@@ -1,5 +1,5 @@
 #pragma once
-// Estimates where the surfaces are that the image shows, from the objects' bounding boxes.
+// Estimates the positions of the surfaces that are visible in the image, from the objects' bounding boxes.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -16,8 +16,8 @@ struct SeenPoint {
     double blur = 0;  // px, CoC diameter
 };
 
-// Returns points in the bounding boxes that rays through a coarse grid of pixels meet, for each ray that meets one. If
-// no ray does, the only entry has the middles of all boxes.
+// Casts rays through a coarse grid of pixels and returns points inside the bounding boxes along each ray. Rays that
+// meet no box are omitted. If all rays miss, the only entry has the middles of all boxes.
 std::vector<std::vector<SeenPoint>> seenPoints(const FramePlan& plan);
 
 }  // namespace defocus::engine

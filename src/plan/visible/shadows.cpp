@@ -20,17 +20,17 @@ namespace defocus::engine {
 namespace {
 
 constexpr int minMapSize = 128;               // px
-constexpr int maxImageMapSize = 2048;         // px, of maps whose size is that of the image
-constexpr double resolvedShare = 0.95;        // of the visible points, at which a texel is at most texelPixels wide
-constexpr double texelPixels = 2;             // lens samples shift the texels, so texels may be wider than pixels
-constexpr double minTexelLimit = 1 << 20;     // of a map; larger images allow twice their number of pixels
-constexpr double maxSampleTexels = 64 << 20;  // of all maps of a lens sample: 256 MiB
-constexpr double minShare = 0.01;             // lights below this fraction of the visible light cast no shadow
+constexpr int maxImageMapSize = 2048;         // px, max size of a map that has the image's size
+constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
+constexpr double texelPixels = 2;             // px; lens samples shift the texels, so texels may be wider than pixels
+constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
+constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
+constexpr double minShare = 0.01;             // lights below this share of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
 constexpr double levelErrorTexels = 0.5;      // texels, max simplification error of a caster
 constexpr std::size_t maxBoxes = 64;          // with more casters, a single box bounds them all
 constexpr double nearShare = 1e-4;            // near plane of point and spot lights, relative to the scene's size
-constexpr std::uint32_t smoothPoints = 64;    // points on a light that hide the steps of a penumbra
+constexpr std::uint32_t smoothPoints = 64;    // points on a light from which a penumbra looks smooth
 
 struct Rectangle {
     glm::dvec2 min{std::numeric_limits<double>::infinity()};
@@ -65,7 +65,7 @@ Bounds boundsOfCorners(const std::vector<glm::dvec3>& corners) {
 
 // ---- selection of lights and casters --------------------------------------------------------------------------------
 
-// Returns the bounding box of the object over all moments, in the view space of the middle of the exposure.
+// Returns the bounding box of the object over the exposure, in the view space of the middle of the exposure.
 Bounds casterBox(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     if (plan.middleFromView.empty() || object.motion.empty()) return object.viewBox;
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
@@ -87,7 +87,7 @@ std::uint32_t casterLevel(const Pyramid& pyramid, double scale, double error) {
     return level;
 }
 
-// Returns true if a single shadow map can contain everything that a point or spot light illuminates.
+// Returns true if a single shadow map can contain all that a point or spot light illuminates.
 bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const std::vector<glm::dvec3>& corners) {
     if (placed.light.type == LightType::spot &&
         std::tan(std::min(1.5, double{placed.light.outerConeAngle})) <= widestTangent)
@@ -101,7 +101,7 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct Candidate {
     int light = 0;
-    double share = 0;  // of the visible light
+    double share = 0;  // share of the visible illuminance
     int faces = 1;
 };
 
@@ -295,8 +295,8 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the maps -----------------------------------------------------------------------------------------------
 
-// Returns the number of texels across the map for which a texel at `seen` is twice as wide as what the image resolves
-// there: a pixel, or half the blur. 0 if the point is outside the map.
+// Returns the number of texels across the map for which a texel at `seen` is twice as wide as the image's resolution
+// there, which is a pixel or half the blur. Returns 0 if the point is outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);
@@ -306,8 +306,9 @@ double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, i
     return w * projection.texel * size / (texelPixels * pixel * std::max(1.0, 0.5 * seen.blur));
 }
 
-// Returns the size that suffices for all but a small fraction of what the image shows, within the limits of memory and
-// time. Sizes are rounded up to a power of two or 1.5 times one, because shaders are compiled for a size.
+// Returns the map size that suffices for all but a small fraction of the visible surfaces, within the limits of memory
+// and time. Sizes are rounded up to a power of two or 1.5 times a power of two, because
+// shaders are compiled for a size.
 int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows,
             const EnvironmentDirections& directions, const std::vector<std::vector<SeenPoint>>& rays) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);

@@ -35,7 +35,7 @@ struct ShadowProjection {
 std::uint32_t maxPointsPerSample(std::size_t maps);
 
 // Chooses the lights that cast shadows, the points on each light, the map size and the casters. Lights that cause less
-// than 1 % of the light that the image shows cast no shadow. A texel at what is in focus is about a pixel wide.
+// than 1 % of the visible illuminance cast no shadow. On surfaces in focus, a texel is at most two pixels wide.
 // `objects` are all objects of the world in the plan's pose, including objects outside the image.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
 

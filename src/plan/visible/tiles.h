@@ -4,7 +4,8 @@
 // A tile is bit-identical to the same pixels of the entire image. Tiles are drawn with the entire image's viewport, so
 // window coordinates and their rounding in the rasterizer stay the same. Only the tile's pixels are kept and summed.
 // Window coordinates and layers have a maximum size. Images larger than maxCellPixels therefore consist of cells with
-// separate window coordinates. Cells depend only on the image's size, so tiles of any size give the same bits.
+// separate window coordinates. Cells depend only on the image's size, so the pixels don't depend on the size of the
+// tiles.
 
 #include <vector>
 
@@ -29,8 +30,8 @@ struct Tile {
 
 inline constexpr int maxCellPixels = 8192;  // maximum width and height of a cell
 
-// Returns the cells of an image, row by row. All have the same size, except that the last of a row or column may be
-// smaller.
+// Returns the cells of an image, row by row. All cells have the same size, except that the last cell of a row or column
+// may be smaller.
 std::vector<PixelRectangle> cellsOf(int width, int height);
 
 // Rows [first, end) of the image.
@@ -43,7 +44,7 @@ struct RowRange {
 // Returns part `index` (0 … count − 1) of `count` nearly equal parts of the image's rows. `count` is at most `height`.
 RowRange rowsOfPart(int height, int index, int count);
 
-// Returns the plan of a tile. Objects that no lens sample shows in the tile are left out, unless the frame has
+// Returns the plan of a tile. Objects that no lens sample sees in the tile are left out, unless the frame has
 // transmissive objects. Levels, lens samples and everything else are the same as in the entire frame.
 FramePlan tileOf(const FramePlan& plan, const Tile& tile);
 

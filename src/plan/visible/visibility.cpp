@@ -23,23 +23,24 @@ constexpr double snapping = 1.0 / 128;      // px, max change of a triangle's al
 constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
-constexpr int shutterParts = 4;             // parts of the time between two moments; each has its own motion bound
-constexpr std::size_t maxMoments = 64;      // max shutter moments for culling; with more, all clusters are drawn
-constexpr std::size_t maxPosedVertices = 100'000;  // per level, over all moments; posing these takes about 10 ms
-constexpr double minSaving = 1.0 / 8;              // fraction of a level's triangles; if less is culled, all are drawn
-constexpr std::uint32_t minGap = 128;              // triangles; drawing fewer costs less than another index range
+constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
+constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
+// max vertices per level, over all shutter times; posing them takes about 10 ms
+constexpr std::size_t maxPosedVertices = 100'000;
+constexpr double minSaving = 1.0 / 8;  // fraction of a level's triangles; if less is culled, all are drawn
+constexpr std::uint32_t minGap = 128;  // min triangles to skip; drawing fewer costs less than another index range
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its own position in the middle
+    double motion = 0;             // max distance of a lens point from its position in the middle
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
-    std::vector<glm::dmat4> viewFromObject;  // at the shutter's moments, and in the middle of the exposure
+    std::vector<glm::dmat4> viewFromObject;  // at the shutter times, and in the middle of the exposure
     std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
     double lensRadius = 0;                   // m, radius of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
@@ -205,10 +206,11 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
 
 // ---- cluster test by triangle corners -------------------------------------------------------------------------------
 
-// Triangle corners of a level at moments of the exposure, for culling if C is not linear or the vertices deform.
+// Triangle corners of a level at the shutter times, for culling if the circle of confusion C is not linear or the
+// vertices deform.
 struct LevelCorners {
-    std::vector<ClipVertices> moments;  // a single moment: nothing moves
-    bool apart = false;                 // true: one moment per sample; false: linear motion between moments
+    std::vector<ClipVertices> moments;  // one entry per shutter time; a single entry if nothing moves
+    bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
     double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
     double lensRadius = 1;              // max distance of the lens samples from the lens's centre
     double sign = 1;                    // −1 for mirrored objects
@@ -266,9 +268,9 @@ LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices
     return triangle;
 }
 
-// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounded corners
-// can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H px. Moving the
-// corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
+// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounding of the
+// vertex positions can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H
+// px. Moving the corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
 double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
     double min = infinity;
     double max = 0;
@@ -324,8 +326,8 @@ bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners
     return true;
 }
 
-// Returns true if each corner's C is linear in time between two moments. This holds for the thin lens, because w is
-// linear, and for a C that is one linear function.
+// Returns true if the circle of confusion C of each corner is linear in time between two shutter times. This holds for
+// the thin lens, because w is linear, and for a C that is one linear function.
 bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
     if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
     if (object.blurMoves) return false;
@@ -449,9 +451,9 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 }  // namespace
 
 // Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
-// means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The thin lens's |C(w)| is convex, so the
-// corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside the image, one more pixel
-// accounts for rounded triangle corners.
+// means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The circle of confusion of a thin lens,
+// |C(w)|, is convex, so the corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside
+// the image, one more pixel accounts for the rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

@@ -1,14 +1,14 @@
 #pragma once
-// Culls geometry that no lens sample of a frame can show: boxes outside the frustum that the lens widens, and clusters
-// of triangles. A cluster is culled if it lies outside or faces away for every lens point (u, v) and every time t of
-// the exposure.
+// Culls geometry that no lens sample of a frame sees: boxes outside the frustum, which the lens widens, and clusters of
+// triangles. A cluster is culled if it lies outside or faces away for every lens point (u, v) and every time t of the
+// exposure.
 //
-// One triangle. The determinant det of its three clip positions (x, y, w) is positive if its front shows
-// (counter-clockwise). After the shear p + C·(u, k·v, 0), the determinant is
+// One triangle. The determinant det of its three clip positions (x, y, w) is positive if its front face is visible
+// (counter-clockwise). After the shear p + C·(u, k·v, 0) with the circle of confusion C, the determinant is
 //   det + u·Nx + k·v·Ny,   where Nx, Ny are the first two components of Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
-// This is linear in (u, v), because a determinant with two parallel columns is zero. So the back shows over the whole
-// unit disk if det + √(Nx² + (k·Ny)²) ≤ 0. Source: Munkberg, Toth and Akenine-Möller 2012, Appendix A, Eq. 5, with the
-// opposite sign of det.
+// This is linear in (u, v), because a determinant with two parallel columns is zero. So the back face is visible from
+// the whole unit disk if det + √(Nx² + (k·Ny)²) ≤ 0. Source: Munkberg, Toth and Akenine-Möller 2012, Appendix A, Eq. 5,
+// with the opposite sign of det.
 //
 // Where C is one linear function α + g·(x, y, w), Σ Cᵢ·pⱼ × pₖ = α·n + det·g with n = Σ pⱼ × pₖ. The g of a thin lens
 // points along w, so the condition becomes det + |α|·√(nx² + (k·ny)²) ≤ 0 (Eq. 6). In words: every point of the lens, a
@@ -20,8 +20,8 @@
 // needs a C that is one linear function inside the cluster's box. It also needs rigid vertices without blur modifiers,
 // so no skins or morph targets. Otherwise each triangle of the cluster is posed on the CPU and tested by its corners.
 // Static triangles use Eq. 5, moving ones Eq. 7 and 8 (lens_facing.h). The corner test is valid only for triangles that
-// are drawn undivided. Objects whose triangles are divided along C keep these clusters. So do large meshes, whose test
-// would take too long.
+// are drawn undivided. Objects whose triangles are divided keep these clusters. Large meshes also keep them, because
+// the test would take too long.
 //
 // Rounding. A renderer rounds positions, to 1/256 px at best, and this may flip a narrow triangle. The lens must
 // therefore lie behind the planes by a margin larger than any rounding. Then no culled triangle would have drawn a
@@ -42,12 +42,12 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
 // Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of the surfaces in the box.
 // `largest` (px) is an upper bound of their CoC.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
-// Returns true if no lens sample shows any part of the box in `area` of the image.
+// Returns true if no lens sample sees any part of the box in `area` of the image.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 
-// Culls clusters that no lens sample can show. Fills object.visible and reduces the triangle counts of object.coarse
-// and object.fine.
+// Culls clusters that no lens sample sees. Fills object.visible and reduces the triangle counts of object.coarse and
+// object.fine.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus::engine

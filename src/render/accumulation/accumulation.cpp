@@ -23,7 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// The error of the image may be estimated at multiples of this number of samples, so no wave may cross them.
+// Max samples per wave. The image's error may be estimated at each multiple of this number, so waves must not cross a
+// multiple.
 constexpr std::uint32_t maxWave = 16;
 
 // Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
@@ -33,7 +34,7 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+                                         (plan.usesTransmission ? 2 : 1) +  // a backdrop is a copy of all layers
                                      shadowMapBytes(plan);
     const std::uint64_t fitting =
         requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
@@ -45,7 +46,8 @@ bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
            a.sumHeight == b.sumHeight;
 }
 
-// Whether the image of each sample is blurred by its lens cell; automatic: where it pays (automatic_cells.h).
+// Whether each sample's image is blurred by its lens cell. `automatic` decides by the blur in the image
+// (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {
@@ -87,7 +89,7 @@ public:
         drawWave(first, count);
         clock_.endWave();
         if (first + count == total) {
-            sum_->makeMean();  // before endFrame(), so that the frame's time includes it
+            sum_->makeMean();  // before endFrame(), so that the frame's time includes the mean
             clock_.endFrame();
         }
         return first + count < total;
@@ -156,7 +158,7 @@ private:
         const bool sameFormat = sum_ && sum_->info().format == format;
         const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
         if (!sameTarget) {
-            sum_.reset();  // free the old sums first: memory may not hold both
+            sum_.reset();  // free the old sums first, because memory may not suffice for both
             sum_.emplace(info);
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
@@ -171,8 +173,8 @@ private:
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. The environment must be drawn if a transmitting surface shows the
-    // environment, or if alpha marks blended surfaces for the blur of lens cells.
+    // when the layers are added to the sum. The environment must be drawn if the environment is visible through a
+    // transmitting surface, or if alpha marks blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&

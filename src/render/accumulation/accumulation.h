@@ -2,8 +2,8 @@
 // Method "accumulation": draws every object once per lens sample, in waves of K samples, into a target with K layers.
 // The plan selects each object's level of detail for each sample (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
 // Method "multirate" also blurs each sample's image by the sample's cell, its part of the lens area
-// (plan/lens_cells/lens_cells.h), so that fewer samples suffice. Method "auto" does so where it shows
-// (plan/lens_cells/automatic_cells.h).
+// (plan/lens_cells/lens_cells.h), so that fewer samples suffice. Method "auto" uses this blur for frames in which it is
+// visible (plan/lens_cells/automatic_cells.h).
 
 #include <memory>
 

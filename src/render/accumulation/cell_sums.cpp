@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSide = 8;  // px; equals cellTile in shaders/include/cells.glsl
+constexpr int tileSide = 8;  // tile side in px; equals cellTile in shaders/include/cells.glsl
 
 int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
@@ -17,8 +17,7 @@ int tiles(int pixels) {
 
 constexpr int maxDrawn = 7;  // max class sums per render target; equals the max of drawnClasses in cells.glsl
 
-// Side in px of the point sprites of the blur class with the largest squares, a multiple of the sides of all other
-// classes.
+// Side in px of the largest point sprites, a multiple of the side of the point sprites of any blur class.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
 // Returns the size of the grid of blur class 0, whose squares have the size of a pixel. Squares are centred on pixel
@@ -28,8 +27,8 @@ glm::ivec2 squaresOf(const TextureInfo& image) {
     return {whole(image.width), whole(image.height)};
 }
 
-// Allocates a texture for means over squares of pixels, for all blur classes; meansOrigin() gives each class's
-// position.
+// Allocates a texture for means over squares of pixels, for all blur classes; meansOrigin() returns the position of
+// each class.
 GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
     GlTexture texture({.format = format,
                        .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,

@@ -3,9 +3,9 @@
 // (plan/lens_cells.h), and returns the block's image with each class blurred.
 //
 // The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
-// sharp pixels, then in front of the focus plane from less to more blur. Each class is blurred only among the samples
-// that show no nearer class. Thus a sharp outline remains sharp in front of a blurred background, and hidden background
-// does not leak out. The weights of all classes in a pixel sum to 1.
+// sharp pixels, then in front of the focus plane from less to more blur. Each class is averaged only over the samples
+// in which no nearer class covers the pixel. Thus a sharp outline remains sharp in front of a blurred background, and
+// hidden background does not leak out. The weights of all classes in a pixel sum to 1.
 
 #include <cstddef>
 #include <filesystem>
@@ -51,9 +51,9 @@ private:
     int behind_;
     const CellPasses* passes_;
     GlTexture sums_;           // one layer per blur class, in the order given in shaders/include/cells.glsl
-    Target addingTargets_[2];  // each with one of the block's sums and the first classes of sums_
-    GlTexture held_;           // per tile: bit mask of the classes of its samples
-    GlTexture spread_;         // per tile: bit masks of the classes whose means are read and written in the tile
+    Target addingTargets_[2];  // each has one of the block's two sums, then the first layers of sums_
+    GlTexture held_;           // per tile: bit mask of the blur classes in the tile
+    GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
     Target spreadTarget_;
     // Per blur class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of
     // samples that no nearer class covers. Layer 0 holds the classes in front of the focus plane, layer 1 those behind,

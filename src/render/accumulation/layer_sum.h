@@ -36,8 +36,8 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `window` is the rectangle of the layers to draw and sum, of the size of the sums; nullopt: all
-    // pixels.
+    // Clears all sums. `window` is the rectangle of the layers to draw and sum. It must have the size of the sums;
+    // nullopt: all pixels.
     void reset(const std::optional<LayerWindow>& window = {});
     // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
     // blocks. reset() turns the blur off.
@@ -49,8 +49,8 @@ public:
     // Return the colour and depth textures of layers().
     [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
     [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
-    // Composites layers [0, count) over the environment and adds them to the sum. The layers show samples [first, first
-    // + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
+    // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
+    // first + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.
@@ -79,8 +79,8 @@ private:
         Target target[2];
         int current = 0;  // index of the copy with the latest values
     };
-    // Returns the index of the copy of block_ with the block's sum. If `asAdded`, this is the sum as added to the
-    // frame: with the blur of lens cells, which is first drawn into the other copy.
+    // Returns the index of the copy of block_ with the block's sum. If `asAdded`, the copy contains the sum that is
+    // added to the frame's sum. With lens cells, this sum is blurred, and is first drawn into the other copy.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
     // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.
@@ -99,9 +99,10 @@ private:
     GlTexture mean_;  // allocated on first use
     bool meanIsCurrent_ = false;
     Target meanTarget_;
-    // Programs that add layers to the sum, by their defines, which may change from frame to frame.
+    // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by number of blur classes in front and behind
+    // key: number of blur classes in front of and behind the focus plane
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;
     // Kept after the latest block with lens cells, because the next frame often has the same classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;

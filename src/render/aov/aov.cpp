@@ -75,7 +75,7 @@ void AovPass::drawWireframe() {
     constexpr float nothing[4] = {};
     glClearNamedFramebufferfv(wireTarget_.name(), GL_COLOR, 0, nothing);
     edges_.prepare(pinhole_, frame_);
-    constexpr GLuint coloursUnit = 26;  // as in shaders/aov/wireframe.frag
+    constexpr GLuint coloursUnit = 26;  // texture unit in shaders/aov/wireframe.frag
     levelColours_.attach(coloursUnit);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);

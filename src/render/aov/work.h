@@ -51,7 +51,7 @@ Image workColourMap(const Image& work, std::uint32_t samples);
 
 struct WorkSummary {
     double mean = 0;  // triangles per pixel and lens sample
-    double max = 0;   // triangles per lens sample in the pixel with the most
+    double max = 0;   // max over all pixels of the triangles per lens sample
 };
 
 WorkSummary workSummary(const Image& work, std::uint32_t samples);

@@ -16,8 +16,8 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // a, per squared radius
-    double frequency;  // b, radians per squared radius
+    double decay;      // a of F(x), per squared radius
+    double frequency;  // b of F(x), radians per squared radius
     double cosine;     // A, weight of the real part
     double sine;       // B, weight of the imaginary part
 };
@@ -28,9 +28,9 @@ inline constexpr double circularCornerGuard = 0.2;   // weight of the corner pen
 
 // Returns the kernel of `count` components, 1 to circularKernelLimit, that best fits the disk of radius 1 with ∫K = ∫D.
 // The fit minimizes ∫(K − D)² dA over the square, plus circularCornerGuard·π·∫K² du over 1 < u < 2. The second term
-// penalizes the corners (u → 2), whose small area hardly matters in the first: without it, K falls to −0.4 … −0.7 in
-// the corners, and each highlight has four dark dots around it. Throws Error for another `count`. The data have static
-// lifetime.
+// penalizes the corners (u → 2), whose small area hardly matters in the first term. Without the second term, K falls to
+// −0.4 … −0.7 in the corners, and each highlight has four dark dots around it. Throws Error for another `count`. The
+// data have static lifetime.
 std::span<const CircularComponent> circularKernel(int count);
 
 inline constexpr int publishedKernelLimit = 5;  // max components of the two functions below
@@ -50,7 +50,7 @@ std::span<const CircularComponent> rescaledCircularKernel(int count);
 // Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);
 
-// Returns K(r) for r² = squaredRadius.
+// Returns the value K(r) of the kernel at r² = squaredRadius.
 double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius);
 
 // Quadrature node for functions f of r² over the square: ∫f dA = Σ weight·f(squaredRadius).

@@ -207,7 +207,7 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
         return;
     }
     if (bracketed()) findBrightest(field);
-    std::optional<TexelRectangle> columns = part;  // the columns of `part`, in all rows
+    std::optional<TexelRectangle> columns = part;  // the columns of `part` over the full height
     if (columns) *columns = {part->x, 0, part->width, info_.height};
     for (const Group& group : groups_) {
         // Filter along rows.

@@ -2,7 +2,7 @@
 // Blurs an image by a disk of per-pixel radius, with separable complex kernels (circular_kernel.h).
 //
 // The image, a "field", has radiance times a weight in RGB and the weight in alpha. Rows and then columns are filtered
-// with the radius of the output pixel. Taps are normalised in each pass, so a constant image does not change for any
+// with the radius of the output pixel. Taps are normalised in each pass, so a constant image stays constant for any
 // radii.
 
 #include <cstdint>
@@ -21,7 +21,7 @@ enum class ComplexStorage {
     float32,
     // half float; kernels of more than five components (Niemitalo's: three) use float32 because of rounding errors
     half,
-    rgb10A2,  // in brackets (see Bracket), after division of radiance and weight by their max
+    rgb10A2,  // sums mapped to [0, 1] (see Bracket), after division of radiance and weight by their max
 };
 
 enum class ComplexTaps {

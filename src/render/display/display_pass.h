@@ -29,7 +29,7 @@ struct DisplaySettings {
     bool focusPlane = false;    // true: tints surfaces near the focus plane
     bool wireframe = false;
     double divider = 1;       // fraction of the width for the first image, 0 … 1; the second image fills the rest
-    bool difference = false;  // true: the second part shows differenceGain · |first − second|
+    bool difference = false;  // true: the second image is replaced by differenceGain · |first − second|
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
@@ -65,7 +65,7 @@ private:
     const Program& programFor(const DisplayInputs& inputs, const DisplaySettings& settings);
 
     std::filesystem::path shaderFolder_;
-    std::map<std::string, Program> programs_;  // by key of their defines
+    std::map<std::string, Program> programs_;  // key: keyOf() of the defines
     Program squaredError_;
     GlTexture texture_, levelColours_, workColours_, black_;
     Target target_;

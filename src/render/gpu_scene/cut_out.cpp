@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Sums of colour and number of shown texels (w), for squares of texels.
+// Sums of colour and number of visible texels (w), for squares of texels.
 struct SumLevel {
     int width = 0, height = 0;
     std::vector<glm::vec4> sums;
@@ -30,7 +30,7 @@ SumLevel shownTexels(const TextureImage& image, float cutoff) {
     return level;
 }
 
-// Returns the level with half the sides, rounded up. Texels beyond an odd border repeat the border's.
+// Returns the level with half the sides, rounded up. If a side is odd, the texels at its border count twice.
 SumLevel halved(SumLevel& fine) {
     SumLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
     for (int y = 0; y < coarse.height; ++y)
@@ -45,7 +45,7 @@ SumLevel halved(SumLevel& fine) {
 std::vector<std::uint8_t> cutOut(const TextureImage& image, float cutoff) {
     std::vector<SumLevel> levels = {shownTexels(image, cutoff)};
     while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
-    // From coarse to fine, squares without shown texels take the sum of the square around them.
+    // From coarse to fine, give each square without visible texels the sum of the larger square that contains it.
     for (std::size_t i = levels.size() - 1; i-- > 0;)
         for (int y = 0; y < levels[i].height; ++y)
             for (int x = 0; x < levels[i].width; ++x)

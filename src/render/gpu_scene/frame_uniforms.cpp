@@ -132,7 +132,7 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Bytes between the uniforms of two waves: the max of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT among drivers.
+// Byte offset between the uniforms of successive waves: the max GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT of all drivers.
 constexpr std::size_t waveStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {

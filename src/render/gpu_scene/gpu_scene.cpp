@@ -300,7 +300,7 @@ int GpuMaterialTextures::unit(std::size_t slot) const {
 }
 
 void GpuMaterialTextures::attach() const {
-    constexpr GLuint firstUnit = 8;  // as in shaders/include/material_textures.glsl
+    constexpr GLuint firstUnit = 8;  // first texture unit in shaders/include/material_textures.glsl
     for (std::size_t i = 0; i < materialTextureCount; ++i)
         if (slots[i] != nullptr) slots[i]->attach(firstUnit + static_cast<GLuint>(unit(i)));
 }

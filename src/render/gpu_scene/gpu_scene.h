@@ -35,17 +35,17 @@ enum AttributeLocation : unsigned {
     weights1Location,
     momentLocation,
     bandShiftLocation,
-    colorRangeLocation,  // location 15, the last that all drivers have
+    colorRangeLocation,  // location 15, the highest that all drivers support
 };
 
 // Position of a pyramid level's data in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
-    GLenum colorType = GL_UNSIGNED_SHORT;   // of the four colour components: normalised shorts or half floats
-    std::size_t vectorOffset = 0;           // bytes, in the buffers `positions` and `normals`
-    std::size_t colorOffset = 0;            // bytes, in the buffer `colors`
-    std::size_t uvOffset = 0;               // bytes, in the buffers `uv0` and `uv1`
-    std::vector<std::size_t> indexOffsets;  // bytes, in the index buffer, per primitive
+    GLenum colorType = GL_UNSIGNED_SHORT;   // type of the four colour components: normalised shorts or half floats
+    std::size_t vectorOffset = 0;           // byte offset in the buffers `positions` and `normals`
+    std::size_t colorOffset = 0;            // byte offset in the buffer `colors`
+    std::size_t uvOffset = 0;               // byte offset in the buffers `uv0` and `uv1`
+    std::vector<std::size_t> indexOffsets;  // byte offset in the index buffer, per primitive
     glm::vec4 minColor{0.0f};               // min of the level's vertex colours per channel; 1 is white
     glm::vec4 maxColor{0.0f};
 };
@@ -61,7 +61,7 @@ struct GpuDeformation {
 };
 
 struct GpuMesh {
-    glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to it
+    glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to this point
     VertexArray vertexArray;
     Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, blurs, indices;
     GpuDeformation deformation;
@@ -129,7 +129,7 @@ private:
 
     const World* world_;
     std::map<int, GpuMesh> meshes_;
-    std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // by the arguments of texture()
+    std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // key: the arguments of texture()
     std::map<int, GpuMaterialTextures> materialTextures_;
 };
 

@@ -26,7 +26,7 @@ struct LayerWindow {
 };
 
 // Returns the window of the plan's tile, or of the full image without tiles. With transmission, `cut` is false, because
-// a transmitting surface may show any pixel of the layer.
+// any pixel of the layer may be visible through a transmitting surface.
 LayerWindow layerWindow(const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -8,16 +8,17 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 23;  // as in shaders/include/shadows.glsl
+constexpr GLuint mapsUnit = 23;  // texture unit in shaders/include/shadows.glsl
 constexpr GLuint projectionsUnit = 24;
 constexpr GLint firstSampleLocation = 2;
-constexpr GLint slotLocation = 3;  // as in shaders/shadows/caster.vert
+constexpr GLint slotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 
 std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// Returns defines with the index of the first map and the number of maps for each light, and last for the environment.
+// Returns defines with the index of the first map and the number of maps for each light and, as the last entry, for the
+// environment.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);
@@ -93,7 +94,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
         target_ = Target();
-        maps_ = GlTexture();  // free the old maps first: memory may not hold both
+        maps_ = GlTexture();  // free the old maps first, because memory may not suffice for both
         maps_ = GlTexture({.format = TextureFormat::depth32f,
                            .width = plan.shadows.size,
                            .height = plan.shadows.size,

@@ -31,7 +31,7 @@ struct IndexRun {
     std::uint32_t count = 0;
 };
 
-// Returns the index ranges of a primitive at a level of detail: all indices, or those of the visible clusters.
+// Returns the index ranges of a primitive at a level of detail: all indices, or the indices of the visible clusters.
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
                                 std::uint32_t primitive);
 
@@ -39,7 +39,7 @@ enum class SurfaceLook {
     flat,         // no lighting, and no textures except for the alpha test
     caster,       // like `flat`, and transmitting surfaces output the fraction of light that passes
     lit,          // full shading; transmitting surfaces are opaque
-    seenThrough,  // like `lit`, but transmitting surfaces show the background
+    seenThrough,  // like `lit`, but the background is visible through transmitting surfaces
 };
 
 // Returns the defines of shaders/include/surface_shading.glsl and material_textures.glsl for a material on a mesh.

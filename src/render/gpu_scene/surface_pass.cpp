@@ -9,9 +9,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 22;      // as in shaders/include/transmission.glsl
-constexpr GLint shadowSlotLocation = 3;  // as in shaders/shadows/caster.vert
+constexpr std::size_t maxBackdrops = 8;  // copies of all layers per frame
+constexpr GLuint backdropUnit = 22;      // texture unit in shaders/include/transmission.glsl
+constexpr GLint shadowSlotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -96,8 +96,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// Adds the draws of a level of detail: one for the samples that show only this level, one for the boundary sample,
-// which shows two levels in different pixels.
+// Adds the draws of a level of detail: one for the samples that draw only this level, one for the boundary sample,
+// which draws two levels in different pixels.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
     const std::vector<IndexRun> runs =
@@ -184,7 +184,8 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind theirs to the same array.
+// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind their own buffers to the same
+// array.
 void SurfacePass::bindSamples(VertexArray& array) const {
     array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
     array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
@@ -343,7 +344,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
     bindFrame();
     glDepthFunc(GL_GREATER);
     std::size_t left = transmittingObjects_;
-    std::optional<std::uint32_t> shown;  // transmitting object for which the backdrop was copied
+    std::optional<std::uint32_t> shown;  // transmitting object for which the latest backdrop was copied
     for (const Draw& item : translucent_) {
         if (!contains(objects, item.object)) continue;
         if (!scene_->material(item.material).transmits()) {

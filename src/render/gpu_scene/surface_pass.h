@@ -1,7 +1,7 @@
 #pragma once
 // Draws the surfaces of a FramePlan with one shader program per set of material features. A primitive needs at most two
 // instanced draws per wave, because its level of detail changes at most once within a wave. Two more draws are needed
-// if the sample at the change shows both levels in different pixels. A level with culled clusters needs one draw per
+// if the sample at the change draws both levels in different pixels. A level with culled clusters needs one draw per
 // index range.
 
 #include <map>
@@ -46,9 +46,9 @@ public:
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer);
     // Draws alpha-blended and transmitting surfaces, object by object from back to front. `colors` is the render target
-    // and already contains the environment. A transmitting surface shows a copy of `colors` made before its object is
-    // drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible through each
-    // other. `objects` must contain all transmitting objects or none.
+    // and already contains the environment. The background seen through a transmitting surface is a copy of `colors`,
+    // made before its object is drawn. The number of copies is limited: with more transmitting objects, only the
+    // nearest are visible through each other. `objects` must contain all transmitting objects or none.
     void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
                          const ObjectSet& objects = {});
     // Sets whether alpha-blended surfaces add their alpha to the target's alpha. If so, alpha exceeds 1 where they
@@ -71,7 +71,7 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels show the same level
+        open,         // all pixels draw the same level
         coarseShare,  // pixels with the coarser level in a boundary sample, which mixes two levels
         fineShare,    // pixels with the finer level in a boundary sample
     };

@@ -25,8 +25,8 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// Returns the samples per wave K: `asked`, or if 0 as many as fit into RendererOptions::waveBytes, at most `run`, the
-// number of consecutive samples with the same pinhole. K is a power of two, so that it divides `run`.
+// Returns the samples per wave K: `asked`, or, if `asked` is 0, as many as fit into RendererOptions::waveBytes, at most
+// `run`, the number of consecutive samples with the same pinhole. K is a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    // Returns the index of a sample's pinhole. A pinhole's samples are consecutive runs of run_ samples, which are well
+    // Returns the index of a sample's pinhole. A pinhole has runs of run_ consecutive samples, which are well
     // distributed over the lens.
     [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
         return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());
@@ -131,7 +131,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // free the old layers first: memory may not hold both
+            layers_.reset();  // free the old layers first, because memory may not suffice for both
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,

@@ -9,7 +9,7 @@
 // lens samples.
 //
 // Errors compared with a real lens: rays miss surfaces that are in no layer or face away from the lens centre, and
-// reflections are those seen from the lens centre.
+// reflections are computed as seen from the lens centre.
 
 #include "render/methods.h"
 

@@ -17,7 +17,7 @@ namespace defocus::engine {
 struct LensRaysInfo {
     int width = 1;  // size of the image in px
     int height = 1;
-    int border = 0;                             // px that the layers extend beyond each image edge
+    int border = 0;                             // width in px by which the layers extend beyond each image edge
     std::uint32_t layers = 1;                   // max number of layers
     LayerFormat format = LayerFormat::rgba16f;  // format of the lens samples' images
     bool blended = false;                       // true: surfaces are blended, so rays continue behind them
@@ -34,11 +34,11 @@ public:
     // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples per wave), and
     // must exist until the last trace().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Computes the bounds of each pixel's rays in `layers`. Call it after each DepthLayers::peel.
+    // Computes bounds of the blurs that each pixel's rays may hit in `layers`. Call it after each DepthLayers::peel.
     void bound(const DepthLayers& layers);
     // Draws samples [first, first + count) into the bound target, each into its own layer. Colours are premultiplied;
     // pixels whose ray hits no surface are transparent. `pinhole` is the subpixel offset of the layers
-    // (LensSample::pixel), relative to which the plan's samples give theirs.
+    // (LensSample::pixel). The subpixel offsets of the plan's samples are relative to this offset.
     void trace(const DepthLayers& layers, const glm::vec2& pinhole, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] const LensRaysInfo& info() const { return info_; }
     [[nodiscard]] std::size_t bytes() const { return extents_.bytes() + reach_.bytes(); }
@@ -46,7 +46,7 @@ public:
 private:
     LensRaysInfo info_;
     GlTexture extents_;  // per square of pixels: min and max blur of the surfaces in the layers
-    GlTexture reach_;    // per pixel: range of the blurs that its rays may hit
+    GlTexture reach_;    // per pixel: range of the blurs of the surfaces that its rays may hit
     Program base_, extend_, bound_;
     Program trace_;
     ShaderDefines traceDefines_;  // defines of trace_

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;             // tiles of a triangle that a thread visits
-constexpr std::uint32_t maxSortedAtOnce = 65'536;            // triangles of a tile; takes 136 · 256 iterations
-constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // as in shaders/lens_space/shade_vertices.comp
-constexpr std::size_t attributeBytes = 20 * sizeof(float);   // as in shaders/lens_space/attributes.vert
+constexpr std::uint32_t maxTilesAtOnce = 50'000;   // tiles per dispatch that a thread tests a triangle against
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // list length that one dispatch sorts in 136 · 256 iterations
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // size in shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // size in shaders/lens_space/attributes.vert
 
-// Returns the end of the range of rays that hit a level of an object. If two levels share a boundary sample, the level
-// with the larger share gets the sample's ray.
+// Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
+// the level with the larger share gets the sample's ray.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -62,7 +62,7 @@ void checkDrawable(const FramePlan& plan, const World& world, const std::string&
 }  // namespace
 
 void dispatchOver(std::uint64_t count) {
-    constexpr std::uint64_t max = 65535;  // min of GL_MAX_COMPUTE_WORK_GROUP_COUNT
+    constexpr std::uint64_t max = 65535;  // min GL_MAX_COMPUTE_WORK_GROUP_COUNT that OpenGL guarantees
     const std::uint64_t needed = (count + 255) / 256;
     if (needed == 0) return;
     glDispatchCompute(static_cast<GLuint>(std::min(needed, max)), static_cast<GLuint>((needed + max - 1) / max), 1);
@@ -94,7 +94,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     if (moving) defines_.emplace_back("moving", "true");
     objects_ = objectBlocks(plan, *scene_, poses_);
 
-    // Collect vertices and triangles of all levels that are drawn for some ray.
+    // Collect vertices and triangles of all levels that are drawn for at least one ray.
     vertices_.clear();
     runs_.clear();
     groups_.clear();
@@ -187,7 +187,7 @@ void LensFront::pose(std::uint32_t part) {
     const bool moving = static_cast<bool>(clipsAtEnd_);
     makeVertices(clips_, clipBytes, false, part, 0);
     if (moving) makeVertices(clipsAtEnd_, clipBytes, false, part + 1, 0);
-    // Light moving surfaces at the middle of this part of the exposure.
+    // Compute the lighting of moving surfaces at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     makeDepths();
@@ -297,7 +297,7 @@ void LensFront::countTiles() {
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
     const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
     if (entries_.bytes() < bytes) {
-        entries_ = Buffer();  // free the old buffer first: memory may not hold both
+        entries_ = Buffer();  // free the old buffer first, because memory may not suffice for both
         entries_ = storage(bytes, "the triangles of a tile");
     }
     statistics_.bytes = entries_.bytes();
@@ -331,7 +331,7 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
-    GLint rays = 0;  // the buffer with the rays, restored below: the depths use its binding point
+    GLint rays = 0;  // the rays' buffer, restored below because the depths use its binding point
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);

@@ -33,7 +33,7 @@ struct BinStatistics {
     std::uint32_t tiles = 0;
     std::uint64_t entries = 0;      // list entries of all tiles
     std::uint32_t largestTile = 0;  // max list entries of a tile
-    std::uint64_t bytes = 0;        // of the lists of one band
+    std::uint64_t bytes = 0;        // size of the lists of one band
 };
 
 class LensFront {
@@ -47,8 +47,8 @@ public:
     // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
     // name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter moment `part` to the next
-    // moment. If nothing moves, there is only part 0.
+    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time `part` to the next
+    // shutter time. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
     // Fills the lists of a band and sorts them front to back, unless this band is already filled.
     void fill(const TileBand& band);
@@ -62,11 +62,11 @@ public:
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
     // Returns the groups. Shaders number them from 1: number i is groups()[i − 1], and 0 is the sky.
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
-    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // for kernels that read triangles
+    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // for programs that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
-    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // of the exposure; 1 if nothing moves
+    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // parts of the exposure; 1 if nothing moves
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -100,7 +100,7 @@ private:
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void makeDepths();
     void countTiles();
-    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // needs bound program and buffers
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // the program and the buffers must be bound
     void sort(const TileBand& band);
 
     GpuScene* scene_;

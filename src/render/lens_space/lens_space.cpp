@@ -102,7 +102,7 @@ private:
     void prepareSum() {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
         if (!sum_ || sumSize_ != size) {
-            sum_.reset();  // frees the old sum first: memory may not hold both
+            sum_.reset();  // free the old sum first, because memory may not suffice for both
             sum_.emplace(size.x, size.y, kernel_->addShader(), options_.shaderFolder);
             sumSize_ = size;
         }

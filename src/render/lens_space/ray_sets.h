@@ -28,7 +28,7 @@ struct RaySets {
     std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
 };
 
-// Returns the number of variants for sets of `rays` rays: as many as have at most 262,144 rays in total, but at least 4
+// Returns the number of variants for sets of `rays` rays: as many as give at most 262,144 rays in total, but at least 4
 // and at most 64.
 std::uint32_t variantCount(std::uint32_t rays);
 
@@ -41,7 +41,7 @@ std::uint32_t firstRayOfPart(std::uint32_t part, std::uint32_t parts, std::uint3
 // time is relative to the part.
 RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts);
 
-// Returns a permutation of 0 … count − 1 of which every prefix is evenly spread (van der Corput 1935).
+// Returns a permutation of 0 … count − 1 such that every prefix is evenly spread (van der Corput 1935).
 std::vector<std::uint32_t> spreadOrder(std::uint32_t count);
 
 }  // namespace defocus::engine

@@ -73,7 +73,7 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // free the old buffer first: memory may not hold both
+        list_ = Buffer();  // free the old buffer first, because memory may not suffice for both
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
@@ -89,7 +89,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    GLint rays = 0;  // the buffer with the rays, restored below: the dispatches use its binding point
+    GLint rays = 0;  // the rays' buffer, restored below because the dispatches use its binding point
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);
     placesProgram_.use();

@@ -1,6 +1,6 @@
 #pragma once
 // Shades the records (ray hits) of a wave. Records are listed by ShadedGroup, and each group is shaded with its
-// material, as fragments are in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded first,
+// material, like fragments in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded first,
 // and their radiance is interpolated.
 
 #include <map>
@@ -14,8 +14,8 @@ class RecordShading {
 public:
     RecordShading(GpuScene& scene, std::filesystem::path shaderFolder);
 
-    // Prepares the programs and materials of the groups of `front`. `defines` are those of the front end, the rays and
-    // the kernel.
+    // Prepares the programs and materials of the groups of `front`. `defines` are the defines of the front end, the
+    // rays and the kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
     // With per-vertex lighting, shades the vertices of `front`; otherwise does nothing. The frame's uniforms must be
     // bound.

@@ -22,11 +22,11 @@ constexpr std::size_t jobRanges = 2;  // size of a deferred job, in elements of 
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
 constexpr std::size_t stateBytes = 32u << 20;   // approximate memory for states of jobs that take several dispatches
-constexpr std::uint64_t expectedRecords = 6;    // per line; the buffer grows if a wave needs more
-constexpr std::uint32_t maxShadingPoints = 16;  // per visible interval of a line
-constexpr std::uint32_t firstCapacity = 48;     // initial max of intervals per line, for exact resolve
+constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer grows if a wave needs more
+constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
+constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // shared memory per segment of a line
+constexpr std::uint32_t sharedBytes = 24;  // bytes of shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
 // Element of the uniform block BoundBlock in shaders/line/kernel.glsl (std140).
@@ -193,7 +193,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // free the old buffer first: memory may not hold both
+            output_ = Buffer();  // free the old buffer first, because memory may not suffice for both
             output_ = storage(bytes, "the lines of a wave");
         }
 
@@ -208,7 +208,7 @@ private:
         return readCounters();
     }
 
-    // Runs the jobs that the first dispatch deferred until all are complete, as many at once as there are states.
+    // Runs the deferred jobs until all are complete. Each dispatch runs as many jobs as there are states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {

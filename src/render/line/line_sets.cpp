@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int angleSteps = 4096;  // size of the table of light by angle
+constexpr int angleSteps = 4096;  // size of the table of lightUpToAngles()
 
 // Returns the area of a narrow sector of this radius, up to a constant factor.
 double areaAt(double radius) {

@@ -19,8 +19,8 @@ struct LineSets {
     // GpuRay::values are LineLight::backward, LineLight::forwardShare and the position of the shading point in a
     // segment, [0, 1).
     RaySets sets;
-    // Per line: xy is the unit vector in (u, v) across the mean of the line's variants (ray_sets.h); z is the max
-    // distance of a variant from that mean line.
+    // Per line: xy is the unit vector in (u, v) perpendicular to the mean of the line's variants (ray_sets.h); z is the
+    // max distance of a variant from that mean line.
     std::vector<glm::vec4> strips;
 };
 

@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr int smallestTile = 4;  // side in px of the finest level's tiles
-constexpr int maxTiles = 3;      // a query reads at most 3 x 3 tiles, of a level with large enough tiles
+constexpr int maxTiles = 3;      // a query reads at most 3 x 3 tiles, from a level whose tiles are large enough
 
 int shared(int size, int parts) {
     return (size + parts - 1) / parts;

@@ -21,7 +21,7 @@ private:
         int columns = 0, rows = 0;
         std::vector<float> min;
     };
-    std::vector<Level> levels_;  // with tiles of 4, 8, 16, … px; the last level is one tile
+    std::vector<Level> levels_;  // levels with tiles of 4, 8, 16, … px; the last level is one tile
 };
 
 }  // namespace defocus::engine

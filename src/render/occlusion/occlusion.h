@@ -64,15 +64,16 @@ public:
     // Returns the draws to submit first for all samples: the pieces classified as visible, and objects that cannot be
     // tested.
     [[nodiscard]] const RemainingDraws& shown() const { return shown_; }
-    // Returns the other pieces that may be visible in samples [first, first + count), after shown() has been drawn. The
-    // depths of sample `first` are in layer `layer` of `depths`, those of later samples in the layers after it.
+    // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after shown() has been
+    // drawn. The depths of sample `first` are in layer `layer` of `depths`, those of later samples in the layers after
+    // it.
     [[nodiscard]] RemainingDraws uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                            std::uint32_t layer) const;
 
 private:
     struct Piece {
         const IndexPiece* piece = nullptr;
-        bool shown = true;  // whether it is classified as visible
+        bool shown = true;  // whether the piece is classified as visible
     };
     struct Sorted {
         OccludableDraw draw;
@@ -88,7 +89,7 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // Pieces by mesh, level of detail and primitive.
+    // Pieces, keyed by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
     std::vector<Sorted> sorted_;  // empty if culling is off
     std::int64_t sortedBlock_ = -1;

@@ -18,7 +18,7 @@ public:
     // `opaque` is the image of the opaque surfaces. The image must have the format `format` and outlive this object.
     BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder);
 
-    // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the opaque image must show
+    // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the opaque image must contain
     // the same sample.
     void draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectSet& bucket);
     // Returns the image of the latest draw().
@@ -30,8 +30,8 @@ public:
 private:
     const PinholeImage* opaque_;
     PinholeImage image_;
-    GlTexture surfaceDepth_, surfaceOwnBlur_;  // of the nearest surfaces of the bucket
-    GlTexture known_;                          // depth and own blur of these surfaces with mipmaps, for extrapolation
+    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and own blur of the bucket's nearest surfaces
+    GlTexture known_;                          // both textures with mipmaps, for extrapolation
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

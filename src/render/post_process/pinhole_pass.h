@@ -15,10 +15,10 @@
 
 namespace defocus::engine {
 
-// Returns a plan for `count` samples at the lens centre, with each object at the integer level nearest to its λ. The
-// samples' positions in the pixel are Hammersley points; a single sample is at the pixel's centre. The plan's lens and
-// circle of confusion do not change. Moving objects are drawn at the middle of the exposure. Soft shadows use 16 points
-// per light in each sample.
+// Returns a plan for `count` samples at the lens centre, with each object at the integer level nearest to its
+// fractional level λ. The samples' positions in the pixel are Hammersley points; a single sample is at the pixel's
+// centre. The plan's lens and circle of confusion do not change. Moving objects are drawn at the middle of the
+// exposure. Soft shadows use 16 points per light in each sample.
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
 
 class PinholePass {

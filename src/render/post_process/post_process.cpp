@@ -123,7 +123,7 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            sum_.reset();  // free the old sum first: memory may not hold both
+            sum_.reset();  // free the old sum first, because memory may not suffice for both
             sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
             pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
@@ -142,7 +142,7 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred; only with a transparent background or buckets
+    GlTexture coverage_;  // blurred coverage; only with a transparent background or buckets
     GlTexture radiance_;  // blurred radiance of a bucket; only with buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;

@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Interface of a method's blur of a pinhole image by depth.
+// Interface for methods that blur a pinhole image by depth.
 class PostProcess {
 public:
     virtual ~PostProcess() = default;
@@ -30,8 +30,8 @@ MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* standard);
 
 // Returns a renderer that blurs with `process`. `options.settings` must be complete. With a transparent background,
-// each pinhole image is blurred twice: its premultiplied radiance and its coverage. So is each bucket of alpha-blended
-// surfaces (transparency_buckets.h).
+// each pinhole image is blurred twice: its premultiplied radiance and its coverage. Each bucket of alpha-blended
+// surfaces (transparency_buckets.h) is also blurred twice.
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 

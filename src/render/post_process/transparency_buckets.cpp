@@ -16,7 +16,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double minStep = 1;  // min difference between the blur diameters of two buckets, px
-constexpr double margin = 24;  // px; reduced images in the blur have pixels of several image pixels
+constexpr double margin = 24;  // px; the blur uses reduced images, whose pixels cover several image pixels
 
 // Returns the middle of a range of signed blur diameters in px, clamped to the image's width.
 double middleOf(const CocRange& coc, double width) {
@@ -55,7 +55,7 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 
     struct Step {
         double height = 0;       // px
-        std::size_t behind = 0;  // index into `blended` of the first object behind the step
+        std::size_t behind = 0;  // index into `blended` of the first object behind this step in blur
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };

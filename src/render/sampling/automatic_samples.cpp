@@ -13,9 +13,9 @@ namespace {
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
 
 struct QualityLimits {
-    double flip;        // error to aim at
-    double firstGap;    // px between the images of a blurred point in neighbouring samples
-    double gap;         // px, if no error estimate can correct the number of samples
+    double flip;        // target error
+    double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
+    double gap;         // same distance in px if no error estimate can correct the number of samples
     std::uint32_t min;  // samples
 };
 

@@ -11,17 +11,18 @@ namespace defocus::engine {
 
 inline constexpr std::uint32_t maxAutomaticSamples = 1024;
 
-// Returns the FLIP against the converged image that the quality aims at.
+// Returns the target error of the quality setting: the FLIP between the image and the converged image.
 double flipOf(Quality quality);
 
-// Returns the number of samples to begin with: 16 (draft), 32 or 64 (fine), or complete blocks of 64 up to 1,024. N
-// points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart; N is chosen for at most 8
-// (draft), 4.5 or 3 px (fine). With shadow maps or motion, N is at least 64. Objects that extend to the near plane have
-// unbounded blur and are ignored.
+// Returns the number of samples to begin with: 16 (draft), 32 (good) or 64 (fine), or complete blocks of 64 up to
+// 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart; N is chosen for at most
+// 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects that extend to the near
+// plane have unbounded blur and are ignored.
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
-// tiles: that of firstSamples for points at most 2 px apart, scaled with the error of the quality.
+// tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 (good) or 1.4 px (fine)
+// apart.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects.

@@ -4,9 +4,9 @@
 // images and the window both use it.
 //
 // The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
-// it is measured before the first block (LevelError). Thresholds are chosen so that it is less than half the intended
-// error: the target, or the error at the expected number of samples. Without this measurement, thresholds are those for
-// four times the expected samples.
+// it is measured before the first block (LevelError). Thresholds are chosen so that this error is less than half the
+// intended error: the target, or the error at the expected number of samples. Without this measurement, thresholds are
+// the defaults for four times the expected samples.
 
 #include <functional>
 #include <optional>
@@ -38,19 +38,19 @@ struct LevelError {
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are those of the frame; their number of samples is ignored. `levels` is nullopt if the level error was
-    // not measured or level of detail is off.
+    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the level
+    // error was not measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below
-    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are those
-    // for the samples expected.
+    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the
+    // defaults for the expected number of samples.
     static BlockSchedule automatic(const RenderSettings& settings, Quality quality, double expected);
 
     // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by
     // StopSettings::sampleLimit.
     [[nodiscard]] RenderSettings nextBlock() const;
-    // Returns whether addImage() wants the frame's image with this number of samples: half of those of the first error
-    // estimate, which compares the two images.
+    // Returns whether addImage() needs the frame's image after `samples` samples. This number is half the samples of
+    // the first error estimate, which compares the image after each of the two numbers.
     [[nodiscard]] bool wantsImage(std::uint32_t samples) const;
     void addImage(const Image& mean, std::uint32_t samples) { estimate_.add(mean, samples); }
     // Records that a block has been drawn with `plan`, made from the settings of nextBlock(). Returns whether another
@@ -58,12 +58,12 @@ public:
     // is called only if an error estimate is due.
     bool endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean);
 
-    // Returns whether the time limit, including a tolerance of 0.7 s for the end of a block, is over.
+    // Returns whether the time limit, plus a tolerance of 0.7 s for the end of a block, has passed.
     [[nodiscard]] bool outOfTime(double seconds) const;
-    // Ends the frame within a block of which `drawn` samples are drawn.
+    // Ends the frame within a block, of which `drawn` samples are complete.
     void endWithinBlock(std::uint32_t drawn);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // of all complete blocks
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // samples in complete blocks
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
@@ -83,7 +83,7 @@ private:
     RenderSettings settings_;
     StopSettings stop_;
     std::optional<LevelError> levels_;
-    std::optional<double> targetFlip_;  // of an automatic number of samples
+    std::optional<double> targetFlip_;  // target FLIP for an automatic number of samples
     double levelErrorSum_ = 0;          // level errors of blocks, weighted by their samples
     ErrorEstimate estimate_;            // error due to sampling only
     std::uint32_t samples_ = 0;

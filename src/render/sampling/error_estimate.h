@@ -50,7 +50,8 @@ public:
     // Returns the RMS error of the latest image over pixels and channels, in display-encoded values in [0, 1] at EV 0;
     // nullopt for fewer than two images.
     [[nodiscard]] std::optional<double> error() const { return error_; }
-    // Returns the FLIP of the latest image, from the mean absolute error over the same values; nullopt as above.
+    // Returns the FLIP of the latest image, estimated from the mean absolute error of these values; nullopt for fewer
+    // than two images.
     [[nodiscard]] std::optional<double> flip() const { return flip_; }
     [[nodiscard]] std::uint32_t samples() const { return kept_.empty() ? 0 : kept_.back().samples; }
 
@@ -62,7 +63,7 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // ascending; from about a quarter of the latest sample count
+    std::vector<Kept> kept_;  // in ascending order, from about a quarter of the latest sample count
     std::optional<double> error_;
     std::optional<double> flip_;
 };

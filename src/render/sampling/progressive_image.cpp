@@ -77,7 +77,8 @@ void ProgressiveImage::planBlock() {
 bool ProgressiveImage::endBlock() {
     ++block_;
     if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
-    // A block with fewer than 64 samples is the last: nothing is blurred, or the method uses no lens samples.
+    // A block has fewer than 64 samples if nothing is blurred or the method uses no lens samples. Such a block is the
+    // last.
     return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
 }
 

@@ -14,7 +14,7 @@ namespace defocus::engine {
 class ProgressiveImage {
 public:
     // `world` must outlive this object; its pose may change between frames. grow() draws waves of options.wave samples
-    // (0: 4); small waves keep its time limit. Needs a current OpenGL context.
+    // (0: 4); small waves help grow() to keep its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
     // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
@@ -22,10 +22,10 @@ public:
     void drawFrame(FramePlan plan);
 
     // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks. The thresholds of a block
-    // are those for the samples in the sum after this block.
+    // are the defaults for the number of samples in the sum after this block.
     //
     // With `targetError`, for methods that sum blocks, the image is complete once its estimated error is below this
-    // value. Thresholds are then those of BlockSchedule.
+    // value. BlockSchedule then chooses the thresholds.
     void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
     // Draws waves until about `milliseconds` have passed, at least one wave. Returns false once the image is complete.
@@ -33,13 +33,13 @@ public:
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
     [[nodiscard]] bool finished() const { return finished_; }
-    // For images with a target error, return whether it is reached, and the latest estimate.
+    // For images with a target error, return whether the target is reached, and the latest error estimate.
     [[nodiscard]] bool converged() const;
     [[nodiscard]] std::optional<double> estimatedError() const;
-    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the latest frame or block
+    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of latest grow()
+    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // from the latest grow()
 
 private:
     void planBlock();

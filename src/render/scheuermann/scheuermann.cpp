@@ -23,7 +23,7 @@ namespace {
 constexpr double publishedLargest = 10;  // max blur diameter in px
 // Factors on the tap radius in the small image, whose pixels are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
-constexpr float trueSmallRadius = 0.25f;  // same tap positions in both images
+constexpr float trueSmallRadius = 0.25f;  // gives the same tap positions in both images
 constexpr int smallReduction = 4;         // factor per side between the image and the small image
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
@@ -173,7 +173,7 @@ private:
     bool unlimited_;
     bool bytes_;  // true: 8-bit encoded colour, as published; false: half floats
     MethodSettings settings_;
-    std::vector<glm::vec2> points_;  // in the unit disk
+    std::vector<glm::vec2> points_;  // taps in the unit disk
     bool shaped_ = false;            // true if the aperture is not a disk
     float largestRadius_ = 0;        // px
     GlTexture sharp_, reduced_, small_;
@@ -187,7 +187,7 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    const double radius = largest / width;  // in the unit of |C/w|, for circle of confusion C, depth w
+    const double radius = largest / width;  // max radius in units of |C/w|, for circle of confusion C at depth w
     BlurrinessPlanes planes;
     // At depth w, C/w = a/w + b with a < 0. C/w is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);

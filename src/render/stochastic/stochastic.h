@@ -2,7 +2,8 @@
 // Method "stochastic": each pixel has its own sample points on the lens, in the pixel and in time, and finds the
 // nearest triangle for each (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
 // Rasterization; for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using Time-Continuous
-// Triangles). With few samples, the error is noise, whereas method "accumulation" shows superimposed images.
+// Triangles). With few samples, the error is noise, whereas with method "accumulation" it consists of superimposed
+// images.
 
 #include "render/methods.h"
 

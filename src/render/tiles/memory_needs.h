@@ -21,12 +21,12 @@ struct DrawLimits {
 // Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
-// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of what `limit` leaves to the
-// process if that is less.
+// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of the memory still available
+// within `limit` if this is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
 // Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
-// a quarter of the memory. `needs` are those of needsBeforeUpload().
+// a quarter of the memory. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and
@@ -41,8 +41,8 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
 // says whether the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
-// Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if it must
-// but `method` cannot. Needs a current OpenGL context if the method needs one.
+// Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if tiles are
+// needed but `method` cannot draw tiles. Needs a current OpenGL context if the method needs one.
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
                      std::uint64_t limit);
 

@@ -19,7 +19,7 @@ struct RowFileHeader {
     RowRange rows;
     std::string settings;  // settings of the frame, equal for all parts
     std::string share;     // "1/4": requested part of the rows; empty: chosen by memory
-    Metadata metadata;     // of the full frame
+    Metadata metadata;     // metadata of the full frame
 };
 
 struct RowFile {

@@ -17,12 +17,12 @@ namespace defocus::engine {
 
 struct FramePart {
     SampleRange range;               // clamped to the frame's samples
-    std::uint32_t frameSamples = 0;  // of the full frame
+    std::uint32_t frameSamples = 0;  // samples of the full frame
     std::string settings;            // settings of the frame, equal for all parts
     int width = 0;
     int height = 0;
     std::vector<BlockSum> blocks;
-    Metadata metadata;  // of the full frame
+    Metadata metadata;  // metadata of the full frame
 };
 
 // `path` must end in .exr. Both functions throw Error, with the path in its message, if the file cannot be read or

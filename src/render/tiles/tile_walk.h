@@ -1,5 +1,5 @@
 #pragma once
-// Draws a frame that exceeds the memory, band by band and tile by tile.
+// Draws a frame that does not fit into memory, band by band and tile by tile.
 
 #include <functional>
 #include <vector>

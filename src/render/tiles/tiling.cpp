@@ -23,7 +23,7 @@ std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
     return cellsOf(needs.width, needs.height);
 }
 
-// Returns how many copies of the layers exist at once: software drivers keep those of the previous tile while new
+// Returns how many copies of the layers exist at once: software drivers keep the layers of the previous tile while new
 // layers are allocated.
 std::uint64_t layerCopies(const TilingNeeds& needs) {
     return needs.shared ? 2 : 1;

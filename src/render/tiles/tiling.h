@@ -17,8 +17,8 @@ struct TilingNeeds {
     std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
     std::uint64_t waveBytes = 0;     // max bytes of all layers
     std::uint32_t askedWave = 0;     // requested layers K; 0: as many as fit into waveBytes
-    std::uint64_t deviceMemory = 0;  // free, for layers and sums
-    std::uint64_t hostMemory = 0;    // free, for rows that are read back and written
+    std::uint64_t deviceMemory = 0;  // free bytes for layers and sums
+    std::uint64_t hostMemory = 0;    // free bytes for rows that are read back and written
     bool shared = true;              // true: device and host memory are the same
     std::uint64_t elsewhere = 0;     // shared memory used by scene and program; 0: unknown
     std::uint64_t keptBytes = 0;     // images kept in main memory while drawing
