@@ -24,7 +24,7 @@ struct TruthScene {
     TruthScene(const TruthScene&) = delete;
     TruthScene& operator=(const TruthScene&) = delete;
 
-    Scene& scene;  // the world's scene
+    Scene& scene;  // scene of `world`
     World world;
     View view;
 };
@@ -138,7 +138,7 @@ inline Misplacement misplacement(const Image& a, const Image& b) {
     return {solved.x, solved.y, solved.z};
 }
 
-// Returns the least-squares factor k in b − a ≈ k·(to − from).
+// Returns the least-squares factor k in b − a ≈ k·(to − from) for four images of equal size.
 inline double shareOfChange(const Image& a, const Image& b, const Image& from, const Image& to) {
     double along = 0;
     double square = 0;

@@ -1,4 +1,4 @@
-// Tests of the bokeh of each aperture against the aperture's definition, drawn without the renderer.
+// Tests of each aperture's bokeh against an image that is computed from the aperture's definition without the renderer.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Tests of the controls of C(w) in images: each control has its documented effect, and large triangles look like small
-// ones.
+// Tests of the controls of the circle of confusion in images: each control has its documented effect, and large
+// triangles look like small ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
+    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
@@ -94,15 +94,16 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
-// Returns the same floor in white before black, with triangles of many shapes: jittered corners and diagonals in both
-// directions.
+// Returns the same floor in white, in front of a black background. Its triangles have many shapes: corners are
+// jittered, and diagonals run in both directions.
 std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
     auto small = checkeredFloor(cells, begin, end);
     small->scene.materials[0].baseColor.texture = -1;
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     Mesh& mesh = small->scene.meshes[0];
     std::minstd_rand random(7);
-    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };  // in [−1, 1]
+    // uniform random number in [−1, 1]
+    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };
     const auto across = static_cast<std::size_t>(cells) + 1;
     const glm::vec2 cell(5.0 / cells, (end - begin) / cells);
     for (std::size_t i = 0; i < mesh.vertices.positions.size(); ++i) {
@@ -135,9 +136,9 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// C is interpolated linearly inside a triangle, so a large triangle in which the slope of C jumps would move the focus
-// (Munkberg et al. 2012, Figures 2 and 10). Two large triangles are therefore divided, and their floor looks like one
-// of many small triangles.
+// The circle of confusion C is interpolated linearly inside a triangle. A large triangle in which the slope of C jumps
+// would therefore move the focus (Munkberg et al. 2012, Figures 2 and 10). The renderer therefore divides large
+// triangles: a floor of two triangles looks like a floor of many small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
@@ -155,13 +156,14 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
-// Neighbouring triangles divide their common edge alike, so no black shows through a white floor of uneven triangles.
+// Neighbouring triangles divide their common edge at the same points, so a white floor of uneven triangles has no gaps
+// that show the black background.
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one sample
-    // would cost 1/16; smaller differences are rounding.
+    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one of the
+    // 16 samples would darken a pixel by 1/16; smaller differences are rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -355,7 +357,8 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     EXPECT_LT(rootMeanSquare(rendered(*small, 64), expected), 1e-6);
 }
 
-// All points of the tilted focus plane w + m·X = s are sharp.
+// All points of the tilted focus plane w + m·X = s are sharp. w is the depth, X the horizontal camera-space position, m
+// the slope and s the focus distance.
 TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     const auto small = threePatches();
     Lens& lens = small->view.lens;
@@ -377,7 +380,7 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     EXPECT_GT(rootMeanSquare(tilted, rendered(*small, 64)), 0.006) << "without the swing the sides are blurred";
 }
 
-// The CoC AOV equals the plan's function for any combination of controls.
+// The CoC AOV equals the frame plan's CoC function for any combination of controls.
 TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
     const auto small = checkeredFloor(4, 0.7, 12);
     Lens& lens = small->view.lens;
@@ -405,7 +408,7 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods use the same CoC: if all blur is limited to zero, they give the pinhole image.
+// Post-process methods use the same CoC: if the controls limit all blur to zero, these methods give the pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

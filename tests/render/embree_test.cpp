@@ -80,12 +80,14 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     view.lens.focusDistance = 1;
     const double still = lensCamera(view).tanHalfHorizontal;
     view.lens.focusBreathing = true;
-    // With focus breathing, the sensor lies at 1/(1/f − 1/s) instead of f: 1/(1/0.05 − 1) = 0.0526 m.
+    // With focus breathing, the distance from lens to sensor is 1/(1/f − 1/s) instead of the focal length f. With f =
+    // 0.05 m and the focus distance s = 1 m, it is 1/(1/0.05 − 1) = 0.0526 m.
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
 // With a foreground limit (Munkberg, Toth and Akenine-Möller 2012), a ray passes through the points that the limited C
-// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d and the lens point (u, v).
+// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) with the pixel's axis d, the horizontal field of view θx and the lens
+// point (u, v).
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -149,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeBokeh,
 TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     View view = bokehView(64, 64);
     view.lens.bladeCount = 3;
-    view.lens.bladeRotation = std::numbers::pi / 2;  // the first corner points up
+    view.lens.bladeRotation = std::numbers::pi / 2;  // rotates the polygon so that its first corner points up
     // Behind the focus, the image of a point moves with the lens point (C > 0), so the bokeh has a corner at the top.
     // In front of the focus, the corner is at the bottom.
     for (const double depth : {1.2, 6.0}) {

@@ -1,4 +1,4 @@
-// Tests of meshes whose vertices lie far from the origin of their object.
+// Tests of meshes whose vertices lie far from the origin of their object space.
 
 #include <gtest/gtest.h>
 

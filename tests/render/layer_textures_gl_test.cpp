@@ -11,7 +11,7 @@ namespace {
 
 using LayerTextures = LitWall;
 
-// Returns a material that is black and reflects nothing.
+// Returns a black material without reflection.
 Material blackMaterial() {
     Material result;
     result.baseColorFactor = {0, 0, 0, 1};
@@ -26,13 +26,13 @@ std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Ma
     return small;
 }
 
-// Returns the relative error that a driver's decoding of the texel may cause.
+// Returns the relative error that is due to the driver's sRGB decoding of the texel.
 glm::dvec3 relativeErrors(const Texel& texel) {
     return decodingErrors(texel) / decoded(texel);
 }
 
-// Expects a wall of `material` under two suns to show, at each texel, the surface that `surfaceOf` computes from the
-// texel.
+// Expects a wall of `material` under two suns to have, at each texel, the radiance of the surface that `surfaceOf`
+// computes from the texel.
 void expectSurface(const Material& material, TextureUse Material::*slot,
                    const std::function<GltfSurface(const Texel&)>& surfaceOf, bool isColor = false) {
     const auto small = texturedWall(material, slot);
@@ -105,7 +105,8 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    glossy.baseColorFactor = {0, 0, 0, 1};  // black base colour: only the reflectance has a strongest channel
+    // black base colour, so the strongest channel of the reflectance, which reduces the base, does not matter
+    glossy.baseColorFactor = {0, 0, 0, 1};
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(
         glossy, &Material::specularColor,

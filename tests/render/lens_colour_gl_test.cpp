@@ -98,7 +98,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
         central += middle * middle / 8 / steps;
     }
     EXPECT_NEAR(plain.moment.r - central, plain.moment.b - central, 1e-6);
-    const double box = plain.moment.g - central;  // contribution of the point and the pixel filter
+    const double box = plain.moment.g - central;  // contribution of the point's size and the pixel filter
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(blob.moment[c], expected[c] + box, 0.02 * expected[c]) << "channel " << c;
         EXPECT_NEAR(blob.energy[c] / plain.energy[c], 1, 0.01) << "channel " << c;
@@ -106,8 +106,8 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     EXPECT_GT(blob.moment.b, 1.1 * blob.moment.r) << "behind the focus blue is blurred more";
 }
 
-// A grey scene stays grey under each aberration alone. With both, a pixel's own selection of samples would be tinted by
-// sampling noise.
+// A grey scene stays grey under each aberration alone. With both aberrations, pixels use different subsets of the
+// samples, and sampling noise would tint them.
 TEST_F(LensColour, greyStaysGrey) {
     const Scene empty;
     Environment grey = blackBackground();
@@ -131,8 +131,8 @@ TEST_F(LensColour, greyStaysGrey) {
 }
 
 // With the cat's eye effect, the aperture seen from the image's corner is the intersection of two circles that are
-// `catEye` radii apart. Its short axis points towards the image's centre. Its total brightness is unchanged, as its
-// rays weigh more.
+// `catEye` radii apart. Its short axis points towards the image's centre. The brightness is unchanged, because the
+// remaining rays have larger weights.
 TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     View view = viewOf(0.35);
     view.lens.catEye = 0.8;
@@ -154,7 +154,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected moments, from points that lie inside both circles as seen from each pixel of the bokeh.
+    // Expected second moments, from lens points that lie inside both circles as seen from each pixel of the bokeh.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

@@ -35,7 +35,7 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
         glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -1, 2)), 0.7, glm::dvec3(0, 1, 0)), 0.4,
                     glm::dvec3(1, 0, 0));
     place(*small, 0,
-          // The wall spans [−1, 1]² m; the frame shows [−0.72, 0.72] m of its width.
+          // The wall spans [−1, 1]² m; the frame shows x from −0.72 to 0.72 m.
           glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     small->view.width = 32;
@@ -69,7 +69,7 @@ inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     const View& view = small.view;
     const FramePlan plan = wallPlan(small);
     const glm::dvec2 offset(plan.samples[0].pixel);
-    const double tanX = 36.0 / (2 * 50);  // of the default lens
+    const double tanX = 36.0 / (2 * 50);  // tan(θx/2) of the default lens
     std::vector<WallPoint> points;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -174,7 +174,7 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
 
 // Expects a pixel to have the radiance `expected` to within rounding. Single precision over some dozens of operations
 // errs by 2e-5. The GGX distribution compares the half vector's cosine with α², which magnifies rounding. `slope` is
-// the change of the light over the position's uncertainty.
+// the change of the radiance over the uncertainty of the position.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

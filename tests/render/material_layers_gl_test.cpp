@@ -19,7 +19,7 @@ Material material(const glm::vec3& base, float roughness) {
     return result;
 }
 
-// Returns a material that is black and reflects nothing.
+// Returns a black material without reflection.
 Material nothing() {
     Material result = material(glm::vec3(0), 1);
     result.specularFactor = 0;
@@ -30,8 +30,8 @@ double reflectanceOf(double ior) {
     return std::pow((ior - 1) / (ior + 1), 2);
 }
 
-// Returns the image of a wall in a furnace of light 1. The wall's normal has approximately this cosine to the view
-// axis.
+// Returns the image of a wall in a furnace of radiance 1. The angle between the wall's normal and the view axis has
+// approximately the given cosine.
 Image furnace(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -89,8 +89,8 @@ TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
     expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
 }
 
-// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light, which is all the
-// light that a black wall shows. With a glowing base, coat and base add up to 1.
+// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light. A black wall below
+// the coat adds nothing. Below the coat, a base that emits a radiance of 1 raises the sum to 1.
 TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     Material coated = nothing();
     coated.clearcoatFactor = 1;
@@ -147,7 +147,7 @@ TEST_F(MaterialLayers, sheenThrowsBackItsIntegralOfAFurnacesLight) {
             velvet.sheenColorFactor = glm::vec3(1);
             velvet.sheenRoughnessFactor = static_cast<float>(roughness);
             const Image image = furnace(velvet, cosine);
-            // The view axis passes between the four pixels in the middle.
+            // Mean of the four pixels around the view axis.
             const double seen =
                 0.25 * (image.at(15, 11)[0] + image.at(16, 11)[0] + image.at(15, 12)[0] + image.at(16, 12)[0]);
             EXPECT_NEAR(seen, sheenAlbedo(cosine, roughness), 0.012) << roughness << ' ' << cosine;

@@ -61,7 +61,7 @@ double meanLight(const SmallWorld& small, LodMode lod) {
 }
 
 // A flat level is as bright as the relief that it replaces. In an oblique view, the hillsides that face the eye cover
-// more of the picture. With only a mean normal, the flat level would be too dark, by 0.06 at 55°.
+// more of the picture. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     Material matt;

@@ -85,7 +85,7 @@ protected:
         return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
     }
 
-    // Returns the light of each column in the image's middle row, relative to the light without shadows.
+    // Returns the radiance of each column in the image's middle row, relative to the radiance without shadows.
     static std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
                                          const std::string& method = "accumulation") {
         RenderSettings without = settings;

@@ -51,7 +51,7 @@ TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
             }
 }
 
-// A pixel on a volume shows the background at the point where the refracted ray leaves the volume.
+// A surface with volume shows the background at the point where the refracted ray leaves the volume.
 TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     Material material = clear();
     material.ior = 1.5f;

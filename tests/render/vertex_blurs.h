@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for surfaces with blur from vertex attributes, with the closed form of a small square's image.
+// Fixture for surfaces with blur from vertex attributes, with a closed form for the image of a small square.
 
 #include <gtest/gtest.h>
 

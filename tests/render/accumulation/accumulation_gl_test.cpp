@@ -35,7 +35,8 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              1e-3);  // another vertex shader may round differently but must cover the same pixels
+              // this mode uses another vertex shader, which may round differently but must cover the same pixels
+              1e-3);
 }
 
 TEST_F(Accumulation, keepingEverythingGivesTheSameImage) {
@@ -71,9 +72,9 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 }
 
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
-    const auto small = wall(2, 0.4);  // in focus, so the lens must not move its edges
+    const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay in place
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // otherwise the plan drops the lens, as nothing is blurred
+    settings.keepAll = true;  // otherwise the plan omits the lens, as nothing is blurred
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -181,7 +182,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// A gradient sky has the radiance L(d) of its formula in each pixel's direction d through a pinhole. A lens shows an
+// Through a pinhole, each pixel shows the gradient sky's radiance L(d) for the pixel's direction d. A lens shows an
 // environment at infinity unblurred only if it is focused at infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
@@ -275,8 +276,8 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
 
-// Interpolated normals that face away from the eye do not glare: shading clamps the cosine of the half vector to [0,
-// 1].
+// Interpolated normals that face away from the eye cause no overly bright highlights: shading clamps the cosine of the
+// half vector to [0, 1].
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};

@@ -105,14 +105,14 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     }
     const Image work = renderWork(small->world, plan);
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows in one of the
-    // 48 samples.
+    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows of pixels in
+    // one of the 48 samples.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// The work that a window gathers over several frames, a few samples in each, adds up to the sum of one complete pass.
-// This holds for one view after another.
+// In the viewer, the work AOV grows over several frames, by a few samples in each, up to the sum of one complete pass.
+// The test does this for two views, one after the other.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));
@@ -130,7 +130,7 @@ TEST_F(Work, growsToTheSameSumForViewAfterView) {
     }
 }
 
-// The window shows the work in the colours of the heat map's file.
+// The viewer shows the work AOV in the colours of the heat map that is written to files.
 TEST_F(Work, isShownInTheColoursOfItsFile) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

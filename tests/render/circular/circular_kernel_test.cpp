@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the factor F(1) is e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the complex factor at radius 1 is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
@@ -175,7 +175,7 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
             }
             EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
         }
-        // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
+        // A mistyped constant would fit no disk, or would fit worse than the kernel with one component fewer.
         EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(publishedCircularKernel(n - 1), circularKernelExtent, 1));
     }
 }
@@ -260,7 +260,8 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
         int x, y;
         double light;
     };
-    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};  // their squares overlap; the border cuts the second
+    // the kernels' squares around both points overlap; the image border cuts the second square
+    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};
     Field in(side * side);
     for (const Point& point : points) in[at(point.x, point.y)] = point.light;
     for (const int n : {1, 2, 5, 9}) {

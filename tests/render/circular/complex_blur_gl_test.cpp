@@ -34,7 +34,7 @@ TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     Image varying(width, height, 1);
-    for (int y = 0; y < height; ++y)  // radii: a slope with a step at its end
+    for (int y = 0; y < height; ++y)  // blur radii: a slope with a step at its end
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
@@ -81,7 +81,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // scaled to the max before storage, so nothing clips
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // storage divides by the max, so nothing clips
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));

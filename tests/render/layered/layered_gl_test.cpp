@@ -112,8 +112,8 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
 }
 
-// More layers come closer to the accumulation. Boards at many depths hide each other, except where the lens sees around
-// them.
+// With more layers, the image approaches the accumulation's. Boards at many depths hide each other, except where the
+// lens sees around them.
 TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     std::vector<Pane> list;
     for (int i = 0; i < 14; ++i) {

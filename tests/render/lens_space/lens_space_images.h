@@ -42,7 +42,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
     return compareImages(reference, image, CompareOptions{}).psnr;
 }
 
-// Returns two lit, rippled spheres, one in front of the focus and one behind, before a gradient sky.
+// Returns two lit, rippled spheres in front of a gradient sky: one in front of the focus and one behind it.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;

@@ -20,7 +20,7 @@ struct DepthRows {
     }
 };
 
-// Returns reversed depths of near surfaces with 1 % of far pixels.
+// Returns rows of reversed depth values of near surfaces, in which 1 % of the pixels are far away.
 DepthRows depthsWithHoles(int width, int height, std::mt19937& random) {
     DepthRows depths{width, height, {}};
     std::uniform_real_distribution<float> near(0.5f, 1.0f);

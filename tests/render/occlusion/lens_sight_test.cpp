@@ -28,7 +28,8 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-// Expects each sample to see random points of boxes within the boxes' bounds. The boxes lie all over the objects.
+// Expects random points of random boxes in object space to project into the bounds computed for their box, for each
+// sample.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
@@ -90,7 +91,8 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies inside the box
 }
 
-// Boxes are not tested under lens controls, with motion or with an object's own blur, since C is then not a + b·w.
+// Boxes are not tested under lens controls, with motion or with an object's own blur, since the circle of confusion is
+// then not a linear function of the depth.
 TEST(LensSight, knowsWhereItDoesNotHold) {
     RenderSettings settings;
     settings.sampleCount = 8;

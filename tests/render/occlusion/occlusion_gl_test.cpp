@@ -96,7 +96,8 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
     }
 }
 
-// Culling is also exact if everything is in focus. The plan then omits the lens, and samples only smooth edges.
+// Culling is also exact if everything is in focus. The plan then omits the lens, and samples differ only in their
+// position inside the pixel.
 TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     const auto small = behindAWall();
     small->view.lens.dofEnabled = false;

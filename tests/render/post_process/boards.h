@@ -41,7 +41,7 @@ inline double largestDifferenceInColumns(const Image& a, const Image& b, int lef
     return largest;
 }
 
-// An unlit, upright board at a depth, seen before a uniform sky.
+// An unlit, upright board at a depth, seen in front of a uniform sky.
 struct Board {
     double depth = 2;
     glm::dvec2 centre{0};    // m

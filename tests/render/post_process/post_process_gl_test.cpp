@@ -88,9 +88,9 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Images of reduced size widen the disk by their pixels of 4 px (variance 16/12) and their linear interpolation
-    // (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R has a variance of
-    // R²/4 along an axis.
+    // Images of a quarter of the size widen the disk by their pixels, which are 4 px wide (variance 16/12), and by
+    // linear interpolation (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R
+    // has a variance of R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
     // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
@@ -123,7 +123,8 @@ TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    small->view.lens.blurScale = 4;  // blurs by 10 px, which a blur field of a quarter of the size can hold
+    // blurs the background by 10 px, within the range of a blur field at a quarter of the resolution
+    small->view.lens.blurScale = 4;
     std::string method = GetParam();
     if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
     method += (method.find(':') == std::string::npos ? ":" : ",") + std::string("transparency-buckets=0");

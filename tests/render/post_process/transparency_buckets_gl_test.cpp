@@ -138,8 +138,8 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
-// Blur passes that cover only the area that a bucket can reach give the same image as passes over the entire image. An
-// invisible board extends the area to the entire image.
+// Blur passes that cover only the pixels that a bucket can reach give the same image as passes over the entire image.
+// In the second scene, an invisible board extends the bucket to the entire image.
 TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
     const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
     for (const double depth : {1.2, 2.0, 6.0}) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// The edge that a pixel sees: a straight line across the lens, with white on one side.
+// The edge that a pixel sees: a straight line across the lens, with white on one of its sides.
 struct LensEdge {
     double angle;
     double offset;  // signed distance from the lens centre in lens radii, −1 … 1
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
         }
 }
 
-// The estimate reads only a part of a large image and is the same for the same noise.
+// The estimate reads only a subset of a large image's pixels and is the same for the same noise.
 TEST(ErrorEstimate, aMillionPixelsStandForAll) {
     const auto noise = [](int width, int height, double share) {
         Image image(width, height, 3);

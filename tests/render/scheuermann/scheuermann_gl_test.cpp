@@ -57,9 +57,9 @@ Image bokehOf(const View& view, double depth) {
     return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
 }
 
-// Light has the shape of the aperture, upright behind the focus and turned by 180° in front of the focus. The 64 taps
-// are dots of a few pixels, so much light lies outside a smooth shape. Far less lies outside the right shape than
-// outside the turned one.
+// A blurred light has the shape of the aperture, upright behind the focus and turned by 180° in front of it. The 64
+// taps are dots of a few pixels, so much light lies outside a smooth shape. The share outside the expected shape is far
+// below the share outside the opposite shape.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);

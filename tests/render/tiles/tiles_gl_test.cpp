@@ -59,8 +59,8 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// An image of several cells has no seams. It differs from an undivided image only because each cell rounds window
-// coordinates in its own way.
+// An image that is divided into several rasterization cells has no seams. It differs from an undivided image only
+// because each cell rounds window coordinates differently.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
     const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);

@@ -1,4 +1,4 @@
-// Tests of the division of a frame: bands cover the frame once and fit the available memory.
+// Tests of the division of a frame: bands cover the frame without overlap and fit into the available memory.
 
 #include "render/tiles/tiling.h"
 
