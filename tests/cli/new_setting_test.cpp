@@ -1,4 +1,4 @@
-// A row added to the table of settings appears in every interface without further edits.
+// Tests that a row added to the table of settings appears in every interface without further edits.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Setting newSetting() {
     return setting;
 }
 
-// Must run in a child process: other tests of this process compare the table of settings with its documentation.
+// Runs in a child process, because other tests of this process compare the table of settings with its documentation.
 void checkNewSetting() {
     addSetting(newSetting());
 
@@ -61,7 +61,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
 
-    // settingInfos() is the source of Python's keywords and of the window's rows.
+    // settingInfos() provides the keyword arguments of Python and the rows of the viewer.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());
