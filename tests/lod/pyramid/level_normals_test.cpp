@@ -11,8 +11,9 @@
 namespace defocus::engine {
 namespace {
 
-// Means over every fifth vertex of a ball. `cosine` is between the vertex normal and the level's normal, and `length`
-// is the length of the level's normal, both where the radial ray through the vertex meets the level.
+// Means over every fifth vertex of a ball. The radial ray through the vertex meets the level at a point. `cosine` is
+// between the vertex normal and the level's normal at this point, and `length` is the length of the level's normal
+// there.
 struct Agreement {
     double cosine = 0;
     double length = 0;

@@ -44,7 +44,8 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
         EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::halving, {0.7, 1.5}), expected, 1e-12);
     }
-    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // the mesh projects to a point
+    // with 0 px per unit, the mesh projects to a point
+    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);
     EXPECT_EQ(levelOfDetail(pyramid, {3, 1}, LodMetric::halving, {0, 0}), 0);
     EXPECT_EQ(levelOfDetail(pyramid, {-1, 1}, LodMetric::halving, {0.7, 1.5}), 0);
     EXPECT_EQ(levelOfDetail({}, {3, 1}, LodMetric::halving, {0.7, 1.5}), 0);
@@ -52,8 +53,8 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
-// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as those of level 0, for a blur
-// of c px and edges of level 0 that project to d px.
+// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as the edges of level 0. The
+// blur is c px wide, and edges of level 0 project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -69,7 +70,7 @@ TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
 TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {
-        // errors project to 0, 1, 2, 4 and 8 px
+        // the levels' errors project to 0, 1, 2, 4 and 8 px
         return levelOfDetail(pyramid, {100, 0}, LodMetric::error, {0, target});
     };
     EXPECT_DOUBLE_EQ(lambda(0.25), 0.25);
@@ -84,7 +85,7 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // Two intervals have the min allowed growth.
+    // The intervals before and after level 2 have the min allowed growth.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
@@ -92,8 +93,8 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
 
 // Between levels l and l + 1 with the edge lengths or errors e[l] and e[l+1], λ has the slope 1/ln(e[l+1]/e[l]) over
 // the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target for errors. Blur, threshold and distance
-// all change the same quotient, target over projected size, so a step in any of them changes λ by the integral of that
-// slope.
+// all change the same quotient: target over projected size. Therefore a step in any of them changes λ by the integral
+// of that slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -179,8 +180,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// The coarse samples and the boundary sample's share add up to f·N for every λ. N is the number of samples, and f the
-// fractional part of λ.
+// For every λ, the number of coarse samples plus the split sample's coarse share is f·N. N is the number of samples,
+// and f the fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -1,4 +1,4 @@
-// Tests that a level's texture stays where level 0 shows it, to within the blur at which the level is drawn.
+// Tests that a level shows each texel where level 0 shows it, to within the blur at which the level is drawn.
 
 #include <gtest/gtest.h>
 
@@ -51,12 +51,13 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 
 struct Shift {
     double mean = 0;       // object units
-    double elsewhere = 0;  // share of cells whose distance belongs to another chart or another part of the surface
+    // fraction of pixels whose distance is too large for a shift, as they show different charts or parts of the surface
+    double elsewhere = 0;
 };
 
-// Returns the distance between a level's texture and level 0's, where both are visible in the views of the blurred
-// errors. A triangle shifts the texture by at most its longest edge. Larger distances come from another part of the
-// surface, for example beside a strap that became thinner.
+// Returns the distance between the positions of a level's texture and of level 0's texture. It is measured where both
+// are visible in the views of the blurred errors. A triangle shifts the texture by at most its longest edge. Larger
+// distances come from another part of the surface, for example beside a strap that became thinner.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -84,9 +85,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the side, in object units, of the smallest patch for which a blur over the patch selects the level in at
-// least half of `samples` samples; nullopt if no patch does. The patch is one pixel wide: with more pixels per patch,
-// edges are longer on screen and the selected level is finer.
+// Returns the side, in object units, of the smallest patch for which the level is selected in at least half of
+// `samples` samples under a blur over the patch. Returns nullopt if there is no such patch. The patch is one pixel
+// wide: with more pixels per patch, edges are longer on screen and the selected level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
