@@ -96,7 +96,8 @@ TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
         EXPECT_GT(fromCentre, 0.3 * lens.obstruction);
 }
 
-// The concentric map from the square to the disk and its inverse cancel, also on the square's diagonals and centre.
+// The concentric map from the square to the disk and its inverse cancel, even on the square's diagonals and at its
+// centre.
 TEST(ConcentricDisk, isUndoneByItsInverse) {
     for (int y = 0; y <= 16; ++y)
         for (int x = 0; x <= 16; ++x) {
@@ -119,7 +120,8 @@ TEST_P(ApertureOf, isContinuous) {
             for (const glm::dvec2& move : {glm::dvec2(step, 0), glm::dvec2(0, step)})
                 farthest = std::max(farthest, glm::length(apertureSample(aperture, glm::dvec2(x, y) + move) - here));
         }
-    EXPECT_LT(farthest, 300 * step);  // allows for the steep √ at a soft disk's rim and a ring's centre
+    // tolerance for the steep square root at the rim of a soft disk and at the centre of a ring
+    EXPECT_LT(farthest, 300 * step);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ApertureOf, testing::ValuesIn(apertureShapes),
@@ -165,7 +167,7 @@ TEST(ApertureImage, colourPassesByItsLuminance) {
 
 TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
     Image image(3, 3, 1);
-    *image.at(2, 1) = 1;  // right of the centre
+    *image.at(2, 1) = 1;  // a pixel to the right of the centre
     Lens lens = lensWith(image);
     lens.bladeRotation = std::numbers::pi / 2;
     lens.anamorphicRatio = 0.5;

@@ -68,8 +68,8 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Returns the max, over all regions and all prefixes of n ≥ 16 points, of n/log²n times the error of the share of
-// points in the region.
+// Returns the largest value of n/log²n times the error of the share of points in a region. The max is over all regions
+// and all prefixes of n ≥ 16 points.
 double worstPrefix(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
     double worst = 0;
     for (const Region& region : regions) {
@@ -120,7 +120,7 @@ TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
-// The even-numbered points of a sequence and independent points exceed the bounds that complete sequences keep.
+// The even-numbered points of a sequence exceed the error bounds of complete sequences, and so do independent points.
 TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {

@@ -41,7 +41,8 @@ TEST(HiddenNodes, takeWithThemWhatIsBelow) {
     EXPECT_EQ(shownNodes(scene, {"table"}), (std::vector{2, 3}));
     EXPECT_EQ(shownNodes(scene, {"cup"}), (std::vector{0, 2, 3}));
     EXPECT_EQ(shownNodes(scene, {"3", "cup"}), (std::vector{0, 2}));
-    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));  // the first node with that name
+    // the name hides only the first of the nodes "lamp"
+    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));
 }
 
 TEST(HiddenNodes, boundsAreOfWhatIsLeft) {

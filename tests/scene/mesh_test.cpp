@@ -1,4 +1,4 @@
-// Vertex normals and tangents of meshes.
+// Tests of vertex normals and tangents of meshes.
 
 #include "scene/mesh.h"
 
@@ -25,8 +25,9 @@ TEST(Mesh, boundsAreOfWhatTrianglesUse) {
 }
 
 TEST(SmoothNormals, weighByAreaAcrossEqualPositions) {
-    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each has its own vertices on the edge, and
-    // one of these has −0. One triangle of area 1 faces y; the other, of area 2, faces x.
+    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each triangle has its own vertices on the
+    // edge, and one of these vertices has a coordinate of −0. One triangle of area 1 faces y; the other, of area 2,
+    // faces x.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {-0.0f, 0, 0}, {0, 4, 0}, {0, 0, 1}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
     const std::vector<glm::vec3> normals = smoothNormals(positions, indices);
@@ -113,7 +114,7 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     }
 }
 
-// Tangents agree with those in a model's file, which another implementation computed.
+// Tangents agree with those stored in a model's file, which another program computed.
 TEST(Tangents, agreeWithThoseOfARealModel) {
     DEFOCUS_MODEL_OR_SKIP(path, "WaterBottle.glb");
     const Mesh mesh = loadGltf(path).meshes.at(0);

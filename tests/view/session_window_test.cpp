@@ -45,7 +45,7 @@ TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
 
 TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
     openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
-    EXPECT_EQ(state().at("workSamples"), 0);  // measured only on request
+    EXPECT_EQ(state().at("workSamples"), 0);  // the number of triangles per pixel is counted only on request
     key("n");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("overlay") == 3 && s.at("workSamples") == 64; })) << state();
     const double changes = number("changes");
@@ -91,7 +91,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
 }
 #endif
 
-// Panel, fonts and window scale with the screen's resolution in dpi.
+// Panel, fonts and window scale with the screen's resolution in dots per inch.
 TEST_F(View, interfaceFollowsTheScreensResolution) {
     if (std::system("command -v xrdb >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "xrdb is needed (Debian: x11-xserver-utils)";

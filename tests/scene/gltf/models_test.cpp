@@ -1,4 +1,4 @@
-// Compares real models with the figures in their README and with known properties.
+// Compares real models with the figures in their README files and with known properties.
 
 #include "models.h"
 
@@ -108,7 +108,8 @@ TEST(OwnScenes, haveTheTrianglesTheirAccessorsState) {
         std::ifstream file(entry.path(), std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
         if (extension == ".glb")
-            text = text.substr(20, text.find(std::string("BIN\0", 4), 20) - 4 - 20);  // the JSON chunk
+            // keeps only the JSON chunk of the GLB file
+            text = text.substr(20, text.find(std::string("BIN\0", 4), 20) - 4 - 20);
         const nlohmann::json json = nlohmann::json::parse(text);
         const Scene scene = loadGltf(entry.path());
         ASSERT_EQ(scene.meshes.size(), json["meshes"].size());
@@ -135,7 +136,7 @@ TEST(Models, pointsAndLinesAreRead) {
     EXPECT_EQ(scene.meshes.at(3).strokes[0].indices.size(), 12u);
 }
 
-// A quantised cube equals the same cube with floats: the quantised cube's node undoes the quantisation.
+// A quantized cube equals the same cube with float positions, because its node's transform undoes the quantization.
 TEST(Models, quantisedCubeEqualsThePlainOne) {
     DEFOCUS_MODEL_OR_SKIP(plainPath, "AnimatedMorphCube.glb");
     DEFOCUS_MODEL_OR_SKIP(quantisedPath, "AnimatedMorphCube-Quantized.glb");

@@ -17,7 +17,7 @@ namespace defocus::engine {
 namespace {
 
 // Returns a mesh of two primitives with five vertices, of which the first is unused. The values have no short decimal
-// form.
+// representation.
 Mesh twoPrimitives() {
     Mesh mesh;
     mesh.name = "bent \"sheet\"";

@@ -1,4 +1,4 @@
-// Files that a window keeps between runs: recent scenes and saved views.
+// Tests of files that the viewer keeps between runs: recent scenes and saved views.
 
 #include "view/document/kept_files.h"
 

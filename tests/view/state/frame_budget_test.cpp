@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the milliseconds of a frame on a machine that takes `perSample` ms for a sample at full resolution.
+// Returns the duration in ms of a frame on a machine that takes `perSample` ms for a sample at full resolution.
 double cost(const FrameQuality& quality, double perSample) {
     return perSample * quality.samples * quality.resolution * quality.resolution;
 }
@@ -54,7 +54,7 @@ TEST(FrameBudget, staysWhereItSettled) {
 
 TEST(FrameBudget, comesDownAtOnce) {
     const std::size_t best = frameQualities().size() - 1;
-    const FrameBudget slow = adapted({16, best}, 16 * 16);  // 16 times too slow: four steps down
+    const FrameBudget slow = adapted({16, best}, 16 * 16);  // 16 times too slow, which lowers the quality by four steps
     EXPECT_EQ(slow.rung, best - 4);
     EXPECT_EQ(adapted({16, 0}, 1e6).rung, 0u);
     EXPECT_EQ(adapted({16, best}, 0).rung, best);
