@@ -1,4 +1,4 @@
-// Pixels that an ImageView refers to are written and compared like those of an Image.
+// Tests that pixels that an ImageView refers to are written and compared like the pixels of an Image.
 
 #include <gtest/gtest.h>
 

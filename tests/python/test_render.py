@@ -129,7 +129,7 @@ def test_closing_the_generator_frees_the_renderer(small, monkeypatch):
 
     monkeypatch.setattr(defocus._defocus, "Renderer", noted)
     images = defocus.progressive(**small, wave=1)
-    assert not made  # rendering starts with the first step
+    assert not made  # no frame is rendered before the first step of the iterator
     image, samples = next(images)
     assert samples == 1 and made[0]() is not None
     images.close()

@@ -72,9 +72,9 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// One sample's change of level is a small part of the pop when all N samples change. By the triangle inequality, the
-// mean step is at least 1/N of the pop. Steps add up at most like random ones, so the mean step is at most about 1/√N
-// of the pop.
+// A pop is the change of the image when all N samples change their level at once. The change by one sample is a small
+// part of the pop. By the triangle inequality, the mean change is at least 1/N of the pop. Changes add up at most like
+// random ones, so the mean change is at most about 1/√N of the pop.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

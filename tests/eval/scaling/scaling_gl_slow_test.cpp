@@ -7,7 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// Each point of an axis is measured in both modes. The smallest scenes show one fish in up to 10,000 instances.
+// Each point of an axis is measured with and without levels of detail. The smallest scenes are one fish in up to 10,000
+// instances.
 TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options;

@@ -47,7 +47,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
         EXPECT_GT(row.referenceRemaining.rmse, 0);
-        // Two runs use two seeds. Their errors differ, and the reported errors average both.
+        // Two runs use two seeds. The errors of the seeds differ, and the reported error averages both.
         ASSERT_EQ(row.ofSeeds.size(), 2u);
         const double first = row.ofSeeds[0].rmse, second = row.ofSeeds[1].rmse;
         EXPECT_NE(first, second);
@@ -55,12 +55,13 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_NEAR(row.fromReference->flip, (row.ofSeeds[0].flip + row.ofSeeds[1].flip) / 2, 1e-12);
     }
     EXPECT_LT(rows[1].triangles, rows[0].triangles);
-    // Culled clusters depend on the samples' lens positions, so triangles are not quite proportional to samples.
+    // The set of culled clusters depends on the lens samples, so the number of triangles is not quite proportional to
+    // the number of samples.
     const double ofOneSample = static_cast<double>(rows[0].triangles) / 4;
     EXPECT_NEAR(static_cast<double>(rows[3].triangles) / 9, ofOneSample, 0.01 * ofOneSample);
 
-    // Errors are smaller than half the difference between the two lenses' images, so each row is compared with its own
-    // lens.
+    // Errors are smaller than half the difference between the images of the two lenses. Therefore, each row must have
+    // been compared with a reference of its own lens.
     View wide = small->view;
     View narrow = small->view;
     narrow.lens.fStop *= 8;
@@ -98,8 +99,8 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     });
 }
 
-// With the threshold of size or of blur alone, a frame draws at least as many triangles as with both thresholds, and
-// exactly as many as a plan with that threshold alone.
+// With only the size threshold or only the blur threshold, a frame draws at least as many triangles as with both. It
+// draws exactly as many as a plan with only that threshold.
 TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -107,7 +108,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     options.sampleCounts = {8};
     options.runs = 1;
     options.referenceSamples = 0;
-    // Spheres in focus are simplified by size, the others by blur.
+    // Spheres in focus are simplified by size, and the other spheres by blur.
     RenderSettings plan;
     plan.thresholds = {2, 3};
     const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
@@ -171,7 +172,7 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
-    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field, so it has no comma
     EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole image has no blur that could hide levels
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);

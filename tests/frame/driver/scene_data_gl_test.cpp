@@ -1,4 +1,4 @@
-// Images of scenes that are created from memory.
+// Tests of images of scenes that are created from memory.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST_P(SceneOfFile, rendersWithTheSameBitsFromMemory) {
     EXPECT_GT(std::set<float>(image.pixels.begin(), image.pixels.end()).size(), 10u);  // the image is not empty
 }
 
-// The files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
+// Together, the files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
 INSTANTIATE_TEST_SUITE_P(, SceneOfFile,
                          testing::Values("Unicode❤♻Test.glb", "NegativeScaleTest.glb", "meshes/bokeh.gltf",
                                          "meshes/fish.glb", "khronos/NormalTangentTest.glb"),
