@@ -81,9 +81,9 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
     return settings;
 }
 
-// Signed difference b − a of two images, averaged over blocks of 32 × 32 px and three channels.
+// Signed difference b − a of two images a and b, averaged over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
-    double mean = 0;     // over the whole image
+    double mean = 0;     // mean difference over the whole image
     double rms = 0;      // RMS of the blocks' means
     double largest = 0;  // max absolute mean of a block
 };
@@ -150,7 +150,7 @@ inline double shareOfChange(const Image& a, const Image& b, const Image& from, c
     return along / square;
 }
 
-// Returns the signed difference b − a times `gain`, around middle grey, for visual inspection.
+// Returns an image for visual inspection: the signed difference b − a times `gain`, around middle grey.
 inline Image differenceImage(const Image& a, const Image& b, float gain) {
     Image result(a.width, a.height, 3);
     for (int y = 0; y < a.height; ++y) {

@@ -99,7 +99,7 @@ Schema publishedSchema() {
     return Schema(json::parse(file));
 }
 
-// Returns a shot with all keys that can be combined.
+// Returns a shot with every member that can be combined with the others.
 json fullShot() {
     return json::parse(R"({
         "$schema": "shot.schema.json", "fish": {"count": 3, "triangles": 900}, "environment": "sky.hdr",

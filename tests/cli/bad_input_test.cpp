@@ -94,7 +94,8 @@ TEST_F(BadInput, valuesOutOfRange) {
 
 TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
-    expectFault(2, "no settings", {"--taps", "16"});  // --taps belongs to scheuermann, but the method is accumulation
+    // --taps is a setting of method scheuermann, but the method is accumulation
+    expectFault(2, "no settings", {"--taps", "16"});
     expectFault(2, "far-components must be an integer from 1 to 9", {"--method", "circular", "--far-components", "10"});
     expectFault(2, "storage must be one of", {"--method", "circular:storage=double"});
     expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});

@@ -13,11 +13,11 @@ namespace {
 using nlohmann::json;
 using Folder = std::filesystem::path;
 
-// The observable results of a command.
+// The observable results of one run of a command.
 struct Results {
     std::string pixels;   // values of the linear image; empty for commands that render no image
     std::string display;  // the PNG
-    std::string other;    // text, rows or statistics without times
+    std::string other;    // printed text, rows or statistics, without times
     bool operator==(const Results&) const = default;
 };
 
@@ -169,7 +169,8 @@ class EverySetting : public EveryOption, public testing::WithParamInterface<Aske
 TEST_P(EverySetting, hasItsEffect) {
     const auto& [command, group] = GetParam();
     for (const Setting* setting : settingsOffered(command->line.name, group)) {
-        // A time limit ends a capture between two frames (capture_gl_test.cpp), but this shot has one frame.
+        // A time limit ends a capture between two frames (capture_gl_test.cpp), so it has no effect on this shot of one
+        // frame.
         if (setting->name == "timeLimit" && command->line.name == "capture") continue;
         // These scenes have no damaged parts, so --strict rejects nothing (load_scene_test.cpp tests it).
         if (setting->name == "strict") continue;

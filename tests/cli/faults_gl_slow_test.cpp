@@ -167,7 +167,7 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         }
         ::setpgid(child, child);
         std::this_thread::sleep_for(lasts * std::uniform_real_distribution(0.1, 1.0)(random));
-        ::kill(-child, SIGKILL);  // the process group includes the plotting process
+        ::kill(-child, SIGKILL);  // kills the process group, which includes the plotting process
         int status = 0;
         ::waitpid(child, &status, 0);
         if (WIFSIGNALED(status))

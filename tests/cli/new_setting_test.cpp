@@ -43,7 +43,7 @@ Setting newSetting() {
 void checkNewSetting() {
     addSetting(newSetting());
 
-    // Command line and help.
+    // The setting on the command line and in its help.
     Request request;
     CLI::App command;
     addSettings(command, request, settingsOf({SettingGroup::samples}));
@@ -52,7 +52,7 @@ void checkNewSetting() {
     EXPECT_EQ(settingNamed("newSetting")->text(request), "4");
     EXPECT_THROW(command.parse("--new-setting 4 --seed 1", false), CLI::ExcludesError);
 
-    // Shots and their schema.
+    // The setting in shots and in their schema.
     const Shot shot = parseShot(R"({"newSetting": 5})", "shot.json");
     EXPECT_TRUE(shot.given.contains("newSetting"));
     EXPECT_EQ(settingNamed("newSetting")->text(shot.request), "5");

@@ -31,7 +31,7 @@ inline Words joined(Words words, const Words& more) {
 struct OptionCase {
     Words words;
     Words with;
-    bool still = false;  // uses a fish of the school instead of the moving ball
+    bool still = false;  // whether the scene is a fish of the school instead of the moving ball
     Words against = {};
 };
 
@@ -275,7 +275,7 @@ inline std::string nameOf(const CLI::Option& option) {
     return option.get_single_name();
 }
 
-// Returns all options of a command except its help options.
+// Returns all options of a command except the options that print help.
 inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
     std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });

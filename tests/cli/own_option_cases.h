@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
-    Words more = {};                 // further options of both lines
+    Words more = {};                 // further options that both command lines have
     Words without = {};              // options of the command's usual line that both lines omit
     std::vector<Words> before = {};  // command lines that run before
 };
@@ -71,7 +71,7 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// Cases by command and option, such as "render -o". Keys of the program's own options begin with a space.
+// Cases, keyed by command and option, such as "render -o". Keys of the program's own options begin with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),

@@ -68,7 +68,7 @@ protected:
         EXPECT_LT(fractional, maxPop);
     }
 
-    // Expects no popping in the eight frames with the most level changes of a movement of 480 frames (20 s).
+    // Expects no popping in a movement of 480 frames (20 s), in the eight frames with the most level changes.
     void expectNoneAlong(Movement movement) const {
         PoppingOptions popping;
         popping.movements = {movement};

@@ -24,8 +24,8 @@ struct Outcome {
     std::string err;  // stderr without progress lines
 };
 
-// Removes progress lines such as "pyramids: 65 %, 3 s left". Their number is random, since progress is printed only
-// after a second of work.
+// Removes progress lines such as "pyramids: 65 %, 3 s left". Their number varies from run to run, since progress is
+// printed only after a second of work.
 inline std::string withoutProgress(const std::string& text) {
     static const std::regex line("(frame [0-9]+(, [^\n]*)?|[a-z ]+): [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
     return std::regex_replace(text, line, "");

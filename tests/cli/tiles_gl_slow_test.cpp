@@ -41,8 +41,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// Meshes and the driver's copies of their triangles count towards the memory limit before they are allocated. The scene
-// has 400,000 triangles per layer and is drawn without tiles.
+// Meshes and the driver's copies of their triangles count towards the memory limit before the program allocates them.
+// The scene has 400,000 triangles per layer and is drawn without tiles.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",

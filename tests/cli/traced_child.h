@@ -45,7 +45,7 @@ public:
     }
 
     [[nodiscard]] bool traced() const { return traced_; }  // false if the system does not allow tracing
-    [[nodiscard]] int calls() const { return calls_; }     // counted calls so far
+    [[nodiscard]] int calls() const { return calls_; }     // number of counted calls so far
 
     // Continues the child to its end. Sends `signal` to the child before counted call number `call` (1 is the first) is
     // executed. Calls `look` with the child's process id before each counted call, while the calling thread is stopped.

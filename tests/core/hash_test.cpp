@@ -28,7 +28,7 @@ TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(lowbias32(0xffffffffu), 0x6768824au);
 }
 
-// All combinations of flipped signs have different hashes: among 10^5 random 64-bit values, a collision has a
+// All combinations of flipped signs have different hashes. Among 10^5 random 64-bit values, a collision would have a
 // probability below 3e-10.
 TEST(Hash, flippedSignsOfFloatsNeverCancel) {
     constexpr std::size_t floats = 16;

@@ -24,7 +24,7 @@ struct Line {
 };
 
 // Returns the layer of a file: "lod/simplify" for "lod/simplify/weld.h", "render" for "render/circular/circular.h".
-// Only layers of lod and view are two folders deep.
+// Only the names of layers in lod and view consist of two folders.
 std::string moduleOf(const std::string& path) {
     const std::string first = path.substr(0, path.find('/'));
     return first == "lod" || first == "view" ? path.substr(0, path.rfind('/')) : first;

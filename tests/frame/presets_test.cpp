@@ -163,10 +163,12 @@ TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
             SCOPED_TRACE(object.name);
             const double centre = -object.viewBox.centre().z;
             const double nearest = -object.viewBox.maximum.z;
-            const double pixels = plan.view.width / (2 * tanHalfWidth);  // size of 1 m at a distance of 1 m, px
+            // size in px of an object of 1 m at a distance of 1 m
+            const double pixels = plan.view.width / (2 * tanHalfWidth);
             const double blur = aperture * std::abs(1 / lens.focusDistance - 1 / centre) * pixels;
             const Pyramid& pyramid = frame_->world.pyramids[static_cast<std::size_t>(object.mesh)];
-            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the scale is uniform
+            // length of one axis, since the scale is uniform
+            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));
             const double edge = pyramid.levels[0].meanEdge * scale * pixels / nearest;
             const double target = std::max(0.25 * blur, 3.3);
             const auto coarsest = static_cast<double>(pyramid.levels.size() - 1);

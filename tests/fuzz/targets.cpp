@@ -322,7 +322,7 @@ void runParsers(std::string_view text) {
     parse(parseSampleRange);
     parse(parseFrameRange);
     parse(parseShotOverride);
-    // Printing and parsing an amount of memory preserves it within three digits.
+    // Printing an amount of memory and parsing the text again preserves the amount within three digits.
     parse([](std::string_view amount) {
         const auto bytes = static_cast<double>(parseBytes(amount));
         if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();

@@ -89,7 +89,7 @@ TEST_F(GlTextureTest, rowsFollowEachOtherFromTheBottom) {
         for (int x = 0; x < 3; ++x) EXPECT_EQ(*image.at(x, 2 - y), values[static_cast<std::size_t>(3 * y + x)]);
 }
 
-// Each mip level is the mean of four texels of the previous one, down to the mean of all.
+// Each texel of a mip level is the mean of four texels of the previous level. The last level is the mean of all texels.
 TEST_F(GlTextureTest, mipmapsAreMeans) {
     constexpr int size = 8;
     GlTexture texture(

@@ -42,7 +42,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 
-// A timer excludes the time between its spans. A timer around all of the spans includes that time.
+// A timer excludes the time between its spans. Another timer that runs during all of the spans includes that time.
 TEST_F(Timer, leavesOutWhatLiesBetween) {
     GpuTimer all, two, between;
     all.begin();

@@ -155,7 +155,7 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     expectRefused("'owner'");
     withNumber("dataWindow", "box2i", 12);
     expectRefused("'dataWindow'");
-    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // the window's last column
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // index of the last column of the data window
     expectRefused("its rows have 10000000 pixels");
     withNumber("channels", "chlist", 54);
     expectRefused("'channels'");

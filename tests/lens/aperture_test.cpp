@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int gridSize = 700;  // cells per side of the unit square: 490,000 points in total
+constexpr int gridSize = 700;  // cells per side of the unit square, which gives 490,000 points in total
 
 // Returns the centres of the unit square's cells, mapped to the lens.
 std::vector<glm::dvec2> mapped(const Lens& lens) {
@@ -57,7 +57,8 @@ std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
     return shares;
 }
 
-// Returns the share of light that lies in the wrong cell: half the sum of the absolute differences of all cells.
+// Returns the share of light that lies in the wrong cell: half the sum over all cells of the absolute difference
+// between a and b.
 double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / 2;
@@ -179,7 +180,7 @@ TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
 }
 
 TEST(ApertureImage, goodPointsStayWellSpread) {
-    // A white aperture image keeps an even 16 × 16 grid evenly spread: half of the points lie on either side of the
+    // A white aperture image preserves the spread of an even 16 × 16 grid: half of the points lie on either side of the
     // centre.
     Image white(64, 64, 1);
     std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);

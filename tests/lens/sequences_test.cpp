@@ -59,7 +59,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes at a corner of the square: the parts of the pixel that an edge in focus hides.
+// Returns boxes at a corner of the square: the parts of a pixel that the edge of an object in focus hides.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 8; ++x)
@@ -131,7 +131,8 @@ TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     std::vector<glm::dvec2> independent;
     std::uint64_t state = 1;
     const auto next = [&state] {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;  // constants of Knuth's MMIX
+        // multiplier and increment of Knuth's MMIX generator
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
         return static_cast<double>(state >> 11) * 0x1p-53;
     };
     for (int i = 0; i < 1024; ++i) independent.emplace_back(next(), next());

@@ -72,7 +72,7 @@ TEST(FramePlan, otherModesHaveNoBoundarySample) {
 TEST(FramePlan, depthsAndBlurFollowTheFormula) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-    const ObjectPlan& nearest = plan.objects.front();  // sorted front to back
+    const ObjectPlan& nearest = plan.objects.front();  // the first object, since objects are sorted front to back
     EXPECT_EQ(nearest.object, 0);
     EXPECT_NEAR(nearest.nearestDepth, 1.05, 0.01);
     const double A = 0.05 / 1;
@@ -197,7 +197,7 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const Lens& lens = small->view.lens;
     const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
                         lens.horizontalAperture;  // K in c = K·|1/s − 1/n|, px·m
-    const double reach = 1.03 * dollyRadius;      // radius including the sphere's ripples, m
+    const double reach = 1.03 * dollyRadius;      // radius of the sphere including its ripples, m
     const std::vector<DollyStep> steps = dolly(settings, 1.001);
     for (std::size_t i = 1; i < steps.size(); ++i) {
         const double before = steps[i - 1].distance - reach;

@@ -35,7 +35,8 @@ std::unique_ptr<SmallWorld> cutWall(double pixels) {
     small->scene.textures[0].mipmaps = true;
     small->world.environment.type = EnvironmentType::none;
     small->view.width = small->view.height = 64;
-    const double distance = 2 * 64 / (2 * 0.36 * pixels);  // the default lens shows 0.72 m of width at 1 m
+    // the default lens shows 0.72 m in width at a distance of 1 m
+    const double distance = 2 * 64 / (2 * 0.36 * pixels);
     small->world.pose.objects[0].worldFromObject =
         glm::translate(small->view.worldFromCamera, glm::dvec3(0.013, 0.007, -distance));
     return small;

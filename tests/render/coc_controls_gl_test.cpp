@@ -45,8 +45,8 @@ double rootMeanSquare(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m ahead, of `cells` × `cells` squares of two
-// triangles.
+// Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m in front of it. It has `cells` × `cells`
+// squares of two triangles each.
 std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) {
     auto small = std::make_unique<SmallWorld>();
     TextureImage image;
@@ -127,7 +127,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 struct Control {
     const char* name;
     std::function<void(Lens&)> set;
-    double begin;  // near end of the floor, m ahead of the camera
+    double begin;  // near end of the floor, in m in front of the camera
 };
 
 void PrintTo(const Control& control, std::ostream* out) {
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),
     [](const testing::TestParamInfo<Control>& control) { return std::string(control.param.name); });
 
-// Returns three patches side by side at 1, 2.5 and 8 m, in front of black.
+// Returns three patches side by side at 1, 2.5 and 8 m, in front of a black background.
 std::unique_ptr<SmallWorld> threePatches() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.6f, 1}));
@@ -246,9 +246,9 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
     EXPECT_GT(rootMeanSquare(part(before, 2), part(after, 2)), 0.01);
 }
 
-// In front of the range, the blur equals that of a lens focused at the near end. Behind it, the preserved far blur
-// equals that of a lens focused at the far end, with the aperture scaled by the far end's distance over the focus
-// distance.
+// Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
+// preserved far blur equals that of a lens focused at the far end. Its aperture is scaled by the far end's distance
+// over the focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -262,7 +262,8 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
-// At both ends of a range that refocuses, the blur equals that of a lens focused at that end, with the same aperture.
+// At both ends of a focus range that refocuses, the blur equals that of a lens focused at that end, with the same
+// aperture.
 TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -279,8 +280,8 @@ TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
 TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     const auto small = threePatches();
     const Image blurred = rendered(*small, 64);
-    small->view.lens.focusRangeFront = 1.6;  // near end at 0.9 m
-    small->view.lens.focusRangeBehind = 2;   // far end at 4.5 m
+    small->view.lens.focusRangeFront = 1.6;  // near end of the focus range at 0.9 m
+    small->view.lens.focusRangeBehind = 2;   // far end of the focus range at 4.5 m
     const Image range = rendered(*small, 64);
     small->view.lens.dofEnabled = false;
     const Image pinhole = rendered(*small, 64);
@@ -313,8 +314,8 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
 }
 
-// An object whose blur is scaled to zero has the pinhole's edges under any aperture, and the other objects keep their
-// bokeh (Munkberg et al. 2012, Figure 8).
+// An object whose blur is scaled to zero has the same edges as in a pinhole image under any aperture. The other objects
+// keep their bokeh (Munkberg et al. 2012, Figure 8).
 TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     const auto small = threePatches();
     const Image circular = rendered(*small, 256);
@@ -347,7 +348,7 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 0.25;
     const Image expected = rendered(*small, 64);
     small->world.pose.objects[2].cocScale = 1;
-    // The third patch gets its own mesh with a blur attribute of 0.25.
+    // The third patch uses a mesh with a blur attribute of 0.25.
     Mesh scaled = quad(0);
     scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
     scaled.blurBounds = boundsOf(scaled.vertices.blurs);
@@ -363,7 +364,7 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     const auto small = threePatches();
     Lens& lens = small->view.lens;
     lens.fStop = 0.5;
-    // The patches at (X, depth) lie on the plane depth = s − tan(swing)·X.
+    // The patches at (X, depth) lie on the plane depth = s − tan(swing)·X, with the focus distance s.
     const double m = std::tan(0.9);
     lens.focusSwing = 0.9;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// Tests of textures of the KHR_materials extensions, slot by slot: the channel that is read, its decoding, and the
-// product with its factor. Each pixel is compared with the value computed from its texel.
+// Tests of textures of the KHR_materials extensions. For each slot, they test the channel that is read, its decoding,
+// and the product with its factor. Each pixel is compared with the value computed from its texel.
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,8 @@ TEST_F(LayerTextures, redOfTransmissionLetsThrough) {
     });
 }
 
-// The green channel scales the thickness d in Beer-Lambert absorption, c^(d/D).
+// The green channel scales the thickness d in Beer-Lambert absorption, c^(d/D), with the attenuation colour c and the
+// attenuation distance D.
 TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
     Material glass = blackMaterial();
     glass.baseColorFactor = glm::vec4(1);
@@ -92,7 +93,7 @@ Material glossyMaterial() {
     result.metallicFactor = 0;
     result.roughnessFactor = 0.4f;
     result.specularFactor = 0.7f;
-    result.ior = 2;  // reflects 1/9 at normal incidence
+    result.ior = 2;  // a reflectance of 1/9 at normal incidence
     return result;
 }
 
@@ -167,7 +168,8 @@ TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
 
 // ---- sheen
 
-// Expects cloth to show, at each texel, the sheen that `sheenOfTexel` computes from the texel as colour and roughness.
+// Expects a wall of cloth to have, at each texel, the radiance of the sheen whose colour and roughness `sheenOfTexel`
+// computes from the texel.
 void expectSheen(const Material& cloth, TextureUse Material::*slot,
                  const std::function<std::pair<glm::dvec3, double>(const Texel&)>& sheenOfTexel, bool isColor = false) {
     const auto small = texturedWall(cloth, slot);

@@ -22,7 +22,7 @@ std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance
-    glm::dvec3 moment{0};  // Σ radiance · squared distance from the centroid / energy, px²
+    glm::dvec3 moment{0};  // sum of radiance · squared distance from the centroid, divided by the energy, px²
     glm::dvec2 centre{0};
 };
 
@@ -90,7 +90,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     const int steps = 2000;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps;
-        const double inverseFocus = 1 / 2.0 + 3 * 0.08 * (t - 0.5);  // red (t = 0) focuses farther away
+        const double inverseFocus = 1 / 2.0 + 3 * 0.08 * (t - 0.5);  // red light (t = 0) focuses farther away
         const double diameter = aperture * (inverseFocus - 1 / depth) * 128 / 0.72;
         const double middle = aperture * (1 / 2.0 - 1 / depth) * 128 / 0.72;
         const glm::dvec3 weight(2 * (1 - t), 1.5 * (1 - (2 * t - 1) * (2 * t - 1)), 2 * t);
@@ -142,7 +142,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     const Blob round = blobOf(renderedPoint(view, 108, 16, depth));
     const Blob cut = blobOf(inCorner);
 
-    // Second moments of the cut bokeh along the direction to the centre and across that direction.
+    // Second moments of the clipped bokeh along and across the direction to the image's centre.
     const glm::dvec2 outward = glm::normalize(glm::dvec2(108 - 64, 16 - 48));
     double along = 0;
     double across = 0;
@@ -164,7 +164,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     std::vector<glm::dvec2> points;
     for (int i = -200; i <= 200; ++i)
         for (int j = -200; j <= 200; ++j) {
-            const glm::dvec2 lens(i / 200.0, j / 200.0);  // +x right, +y up
+            const glm::dvec2 lens(i / 200.0, j / 200.0);  // lens point: x grows to the right, y upwards
             if (glm::dot(lens, lens) > 1) continue;
             const glm::dvec2 pixel(108 + 0.5 * diameter * lens.x, 16 - 0.5 * diameter * lens.y);
             const glm::dvec2 place((pixel.x - 64) / 64 / corner, -(pixel.y - 48) / 64 / corner);

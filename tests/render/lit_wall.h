@@ -1,7 +1,7 @@
 #pragma once
-// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance that glTF 2.0's
-// equations give for each pixel. The equations are evaluated in double precision, with half vectors and angles as
-// written in glTF.
+// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance of each pixel by glTF
+// 2.0's equations. The equations are evaluated in double precision, with half vectors and angles as written in the glTF
+// specification.
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,15 @@
 
 namespace defocus::engine {
 
-inline constexpr double wallDepth = 2;  // m in front of the camera
+inline constexpr double wallDepth = 2;  // distance in m in front of the camera
 
-// Returns the wall and its camera. The camera looks along no axis and does not stand at the origin, so that world axes
-// and camera axes cannot be confused.
+// Returns the wall and its camera. The camera looks along none of the world axes and is not at the origin, so that
+// world and camera coordinates cannot be confused.
 inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
     Mesh mesh = quad(0);
-    mesh.vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // v grows downwards
+    mesh.vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // texture coordinates; v grows downwards
     mesh.vertices.tangents.assign(4, {1, 0, 0, 1});
     small->scene.meshes.push_back(std::move(mesh));
     small->view.worldFromCamera =
@@ -160,7 +160,7 @@ inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
     return sun;
 }
 
-// Converts a direction from the wall's axes (right, up, towards the camera) to the world.
+// Converts a direction from the wall's coordinates (right, up, towards the camera) to world coordinates.
 inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
     return glm::dmat3(small.view.worldFromCamera) * direction;
 }

@@ -78,7 +78,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // metal ignores both factors
+    colored.metallicFactor = 1;  // a metal, since metals ignore both factors
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 
@@ -122,7 +122,8 @@ TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
 
 // ---- sheen --------------------------------------------------------------------------------------
 
-// Returns the albedo of sheen, ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
+// Returns the albedo of sheen for the view cosine `nv`: ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in
+// √(n·l) and the azimuth.
 double sheenAlbedo(double nv, double roughness) {
     constexpr int rings = 300, sectors = 300;
     const double sv = std::sqrt(1 - nv * nv);
@@ -164,7 +165,7 @@ TEST_F(MaterialLayers, sheenUnderALightIsTheStandardsAndTakesFromTheBase) {
         small->world.lights = {sunFrom(fromWall(*small, {1.5, -0.4, -1}), 4)};
         const Image image = wallImage(*small);
         const std::vector<WallPoint> points = wallPoints(*small);
-        for (std::size_t i = 0; i < points.size(); i += 101) {  // a subset, as the integrals are slow
+        for (std::size_t i = 0; i < points.size(); i += 101) {  // only every 101st point, as the integrals are slow
             const WallPoint& point = points[i];
             const glm::dvec3 l = -glm::normalize(small->world.lights[0].direction);
             const double nl = glm::dot(point.normal, l), nv = glm::dot(point.normal, point.toEye);

@@ -1,5 +1,5 @@
-// Tests of textured pixels against computed ones: the meaning of each channel, its decoding, and the texel's position
-// on the surface.
+// Tests of textured pixels against values computed from texels: the meaning of each channel, its decoding, and the
+// texel's position on the surface.
 
 #include <gtest/gtest.h>
 

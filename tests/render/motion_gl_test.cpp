@@ -85,7 +85,7 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
         const double place = x + 0.5 - 64;
         const double from = std::max((place - a) / way + 0.5, 0.0);
         const double to = std::min((place + a) / way + 0.5, 1.0);
-        // The tolerance covers half a pixel's width and the discrepancy of the sample times.
+        // The tolerance covers half a pixel's width and the uneven spacing of the sample times.
         ASSERT_NEAR(image.at(x, 48)[0], std::max(to - from, 0.0), 0.02) << "column " << x;
     }
 }
@@ -211,7 +211,7 @@ TEST_F(Motion, aBendingReedBeforeAMovingCameraIsTheMeanOfItsMoments) {
 
 TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
-    expectMeanOfMoments(path, 2, 0.02, 20'000);  // the fox is a hundred metres long
+    expectMeanOfMoments(path, 2, 0.02, 20'000);  // large values, since the fox is a hundred metres long
 }
 
 // Returns five spheres with a morph target, which openShutter() moves along straight lines in front of a moving camera.

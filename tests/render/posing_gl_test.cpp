@@ -144,7 +144,7 @@ TEST_F(Posing, depthsAreThoseOfTheWalkingFox) {
     expectDepthsOfThePosedSurface(path, 1);
 }
 
-// A wall with a normal map looks the same whether a joint, a morph target or its own matrix turns it.
+// A wall with a normal map looks the same whether a joint, a morph target or its own matrix rotates it.
 TEST_F(Posing, tangentsTurnToo) {
     const auto wall = [] {
         auto small = std::make_unique<SmallWorld>();

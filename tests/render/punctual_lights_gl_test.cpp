@@ -130,7 +130,7 @@ TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
     EXPECT_GT(dark, 50);
 }
 
-// Several lights add up, both a few lights that are constants of the shader and many lights that are read from a
+// Several lights add up: both a few lights, which are constants of the shader, and many lights, which are read from a
 // buffer.
 TEST_F(PunctualLights, severalAddUp) {
     const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};

@@ -1,4 +1,4 @@
-// Tests of shadows of edges under a disk of light, against closed forms.
+// Tests of shadows of straight edges under a disk-shaped light, against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // the shadow is 1 m long, and a texel is wider along the wall than across the light
+            continue;  // the shadow is only 1 m long, and a texel is wider along the wall than across the light
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
@@ -112,8 +112,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the
-// shadow map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+// The floor at the foot of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
+// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();

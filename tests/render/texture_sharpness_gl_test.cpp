@@ -18,7 +18,7 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-constexpr double wallAway = 40;  // m; so far that all of the wall has almost the same scale
+constexpr double wallAway = 40;  // distance in m, so large that all of the wall has almost the same scale
 
 // Returns a wall turned about a vertical axis, with a texture of 1024² texels that is black above and white below.
 // Turned by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.

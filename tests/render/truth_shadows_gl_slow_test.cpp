@@ -1,4 +1,4 @@
-// Tests of penumbrae of lamps on the GPU against the ray tracer.
+// Tests of penumbrae of lamps, rendered on the GPU, against the ray tracer.
 
 #include "render/ball_shadows.h"
 

@@ -1,4 +1,4 @@
-// Tests of blur from vertex attributes against closed forms: a small square spreads as the disk of its blur.
+// Tests of blur from vertex attributes against closed forms: the image of a small square is the disk of its blur.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Blur from vertices can cancel the blur of the lens.
+// Blur from vertex attributes can cancel the blur of the lens.
 TEST_F(VertexBlurs, canBringIntoFocus) {
     const auto small = blurredSquare(5, {1, 0, 0});
     const double ofLens = blurDiameter(small->view, 5) / perMillimetre(*small);

@@ -1,4 +1,4 @@
-// Tests that culling of clusters does not change a bit of the image.
+// Tests that culling of clusters leaves the image bit-identical.
 
 #include "models.h"
 #include "render/visibility.h"

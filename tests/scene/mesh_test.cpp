@@ -107,7 +107,7 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::vec4& tangent = made.vertices.tangents[indices[i]];
-        // Chords of the outermost circle deviate from the tangent by π/64. A vertex at a seam has a chord on one side
+        // Chords of the outermost circle deviate from the tangent by π/64. At a seam, a vertex has a chord on one side
         // only.
         ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
         ASSERT_EQ(tangent.w, 1) << i;

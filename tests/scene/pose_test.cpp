@@ -194,7 +194,7 @@ TEST(Animation, cubicRotationsAreNormalised) {
         channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
                   {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
-    // Half-way, both keys have the same weight, which gives a quarter turn about x.
+    // Half-way between the keys, both have the same weight, which gives a quarter turn about x.
     expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);
 }
 

@@ -45,7 +45,7 @@ TEST(PosedMesh, jointsMoveByTheirWeights) {
     mesh.vertices.weights = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0.25f, 0.75f, 0, 0}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
     expectNearInFloat(positions[0], {11, 0, 0});
-    expectNearInFloat(positions[1], {0, 2, 0});  // (2, 0, 0), rotated by a quarter turn
+    expectNearInFloat(positions[1], {0, 2, 0});  // the vertex (2, 0, 0), rotated by a quarter turn
     expectNearInFloat(positions[2], 0.25 * glm::dvec3(10, 1, 0) + 0.75 * glm::dvec3(-1, 0, 0));
 }
 

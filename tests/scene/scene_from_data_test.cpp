@@ -177,7 +177,7 @@ TEST(SceneFromData, texturesAreEncodedAsFilesStoreThem) {
     grey.pixels = {1};
     EXPECT_EQ(textureImage({.image = grey, .content = TextureContent::data}, "texture 0").rgba,
               (std::vector<std::uint8_t>{255, 255, 255, 255}));
-    // Rounding errors around [0, 1] are clamped.
+    // Values slightly outside [0, 1] are rounding errors and are clamped.
     grey.pixels = {1.001f};
     EXPECT_EQ(textureImage({.image = grey}, "texture 0").rgba[0], 255);
 

@@ -1,5 +1,5 @@
-// Every option of `defocus view` affects the window's initial state: its own options, the settings of the table, and
-// those of the methods.
+// Tests that every option of `defocus view` affects the window's initial state: its own options, the settings of the
+// table, and those of the methods.
 
 #include <map>
 #include <set>
@@ -19,7 +19,7 @@ protected:
     void SetUp() override {
         ViewProgram::SetUp();
         if (IsSkipped()) return;
-        // Write the images in a child process: image writers start threads, and start() cannot fork a process with
+        // Writes the images in a child process: image writers start threads, and start() cannot fork a process with
         // threads.
         const pid_t writer = ::fork();
         if (writer == 0) {
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(From, MethodSettingsOfView,
                              return name;
                          });
 
-// --frames, --screenshot and --stats have their effects. start() always passes --stats.
+// --frames, --screenshot and --stats have their documented effects. start() always passes --stats.
 TEST_F(OptionsOfView, framesScreenshotAndState) {
     const Words scene = {"ball.glb", "--size", "240x180"};
     const json three = stateAfter(joined(scene, {"--frames", "3"}));

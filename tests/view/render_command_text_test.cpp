@@ -174,7 +174,7 @@ void expectSameOptions(const Request& a, const Request& b) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
             setting.group == SettingGroup::display)
             continue;
-        if (setting.kind == SettingKind::path)  // the path -x is written as ./-x
+        if (setting.kind == SettingKind::path)  // the command writes the path -x as ./-x
             EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
                       setting.text(b).value_or(""));
         else
@@ -210,7 +210,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         Lens lens = frame.cameraLens;
         EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request)).empty());
         EXPECT_DOUBLE_EQ(unmeteredExposure(read.request, lens), write.exposure);
-        if (!(view.lens.exposureTime > 0)) {  // an exposure time replaces the exposure value
+        if (!(view.lens.exposureTime > 0)) {  // with an exposure time, the exposure value does not apply
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }

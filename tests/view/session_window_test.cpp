@@ -82,7 +82,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
     const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
     ASSERT_TRUE(hand.drop(uri + "\r\n", 120, 100));
     EXPECT_TRUE(showsScene("two words.gltf")) << state();
-    // Dropping a file that is not a scene shows an error, and the old scene stays.
+    // If a dropped file is not a scene, the viewer shows an error and keeps the old scene.
     std::ofstream(folder() / "notes.txt") << "no glTF";
     ASSERT_TRUE(hand.drop("file://" + (folder() / "notes.txt").string() + "\r\n", 120, 100));
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();

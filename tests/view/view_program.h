@@ -175,9 +175,9 @@ protected:
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // Runs an xdotool command line and returns once the program has drawn its effect. The first new state may belong to
-    // a frame that began before the events. The next frame handles the events, and the interface may respond two frames
-    // later.
+    // Runs an xdotool command line and returns once the program has drawn the effect of the events. The first new state
+    // may belong to a frame that began before the events. The next frame handles the events, and the interface may
+    // respond two frames later.
     void act(const std::string& commands) const {
         send(commands);
         for (const std::uint64_t more : {1u, 3u}) {

@@ -9,7 +9,7 @@ namespace {
 
 class Visuals : public ViewProgram {
 protected:
-    static void SetUpTestSuite() {}  // each test has its own screen
+    static void SetUpTestSuite() {}  // no common screen, since each test starts its own
     void SetUp() override {
         beginServer(screen());
         ViewProgram::SetUp();

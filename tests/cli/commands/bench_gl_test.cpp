@@ -14,7 +14,8 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
-    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // three configurations, two sample counts
+    // one row for each of three configurations and two sample counts
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
     EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each configuration and sample count
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));

@@ -1,4 +1,4 @@
-// Runs `defocus compare` in the test process.
+// Tests of `defocus compare`, which runs in the test process.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ protected:
     }
 
     std::filesystem::path folder;
-    mutable std::string output;  // output of the last run
+    mutable std::string output;  // output of the last run of the command
 };
 
 TEST_F(Compare, printsJsonWithTheStatedKeys) {

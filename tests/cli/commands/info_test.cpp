@@ -1,4 +1,4 @@
-// Runs `defocus info` in the test process.
+// Tests of `defocus info`, which runs in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Runs `defocus pyramid` in the test process.
+// Tests of `defocus pyramid`, which runs in the test process.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string pyramid(std::vector<std::string> arguments) {
     global.quiet = true;
     addPyramidCommand(program, global);
     arguments.insert(arguments.begin(), "pyramid");
-    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects reversed arguments
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects the arguments in reverse order
     testing::internal::CaptureStdout();
     try {
         program.parse(arguments);

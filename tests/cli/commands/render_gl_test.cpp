@@ -306,7 +306,7 @@ TEST_F(Render, statsHaveTheStatedKeys) {
     EXPECT_TRUE(std::regex_match(stats.at("date").get<std::string>(), std::regex("20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z")));
     EXPECT_EQ(stats.at("samples"), 4);
     EXPECT_EQ(stats.at("wave"), 2);
-    EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles, four samples
+    EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles each, drawn in four samples
     EXPECT_GT(stats.at("peakBytes").get<double>(), 1e6);
 }
 

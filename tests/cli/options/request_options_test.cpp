@@ -118,7 +118,8 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
                                    {"vertices", "surviving"},
                                    {"blurThreshold", 0.25},
                                    {"sizeThreshold", 3.3},
-                                   {"lightThreshold", 0.0}}));  // edge-based metrics have no light threshold
+                                   // metrics that compare edge lengths have no light threshold
+                                   {"lightThreshold", 0.0}}));
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
              {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {

@@ -121,8 +121,8 @@ TEST_F(Convergence, moreLensSamplesComeCloser) {
     EXPECT_EQ(runs[1].triangles, 4 * runs[0].triangles);
 }
 
-// RMSE obeys the triangle inequality: |d(levels, full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) +
-// d(full, reference).
+// The RMSE d obeys the triangle inequality for the images with levels, at full detail and of the reference: |d(levels,
+// full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) + d(full, reference).
 TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     options_.sampleCounts = {16};
     options_.thresholdFactors = {4, 0};

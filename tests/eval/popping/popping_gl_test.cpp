@@ -46,9 +46,10 @@ TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
     measure();
     ASSERT_EQ(frames_.size(), 3u * 2 * poppingModes.size());
     for (const PoppingFrame& frame : frames_) {
-        EXPECT_LT(frame.change.image.rmse, 1e-7);  // rounding of sums in float
+        EXPECT_LT(frame.change.image.rmse, 1e-7);  // tolerance for rounding of sums in single precision
         EXPECT_EQ(frame.step.image.rmse, 0);
-        EXPECT_LT(frame.change.image.flip, 1e-6);  // rounding of the conversion to display values and back
+        // tolerance for rounding in the conversion to display values and back
+        EXPECT_LT(frame.change.image.flip, 1e-6);
         EXPECT_EQ(frame.speed, 0);
     }
     EXPECT_TRUE(steps_.empty());

@@ -25,7 +25,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     std::vector<SpeedupRow> rows;
     measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
 
-    ASSERT_EQ(rows.size(), 9u);  // 3 settings × 3 modes
+    ASSERT_EQ(rows.size(), 9u);  // 3 combinations of lens and sample count × 3 level modes
     const std::uint32_t samples[3] = {4, 9, 5};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SpeedupRow& row = rows[i];
@@ -141,8 +141,8 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// Each form is compared with full detail at the same samples. The forms `published` and standard use different sample
-// sequences.
+// Each form of a method is compared with full detail at the same samples. The form `published` and the standard form
+// use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();

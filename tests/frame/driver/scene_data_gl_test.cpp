@@ -34,7 +34,7 @@ TEST_P(SceneOfFile, rendersWithTheSameBitsFromMemory) {
     const auto loaded = std::make_unique<engine::Scene>(loadGltf(path));
     auto memory = std::make_unique<DataOfScene>(*loaded);
     const defocus::Scene scene = defocus::Scene::create(memory->data());
-    memory.reset();  // the scene has copied the data
+    memory.reset();  // frees the caller's data, which the scene has copied
     const Image wanted = SceneRenderer(defocus::Scene::load(path), memoryRequest()).render();
     const Image image = SceneRenderer(scene, memoryRequest()).render();
     EXPECT_EQ(image.pixels, wanted.pixels);

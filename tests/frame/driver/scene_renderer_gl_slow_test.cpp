@@ -24,7 +24,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     // method auto draws tiles by accumulation, but might choose multirate without tiles
     request.method = "accumulation";
     (void)render(smallRequest());
-    const std::uint64_t held = residentMemory();  // measured before the driver keeps memory of large images
+    const std::uint64_t held = residentMemory();  // measured before the driver allocates memory for large images
     Image full;
     std::vector<std::string> warnings;
     {

@@ -148,11 +148,11 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     EXPECT_THROW(static_cast<void>(renderer.aovs()), Error);
     EXPECT_THROW(static_cast<void>(renderer.plan()), Error);
     renderer.start();
-    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample has been rendered
+    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // throws, since no sample has been rendered
     const Image full = renderer.render();
 
     std::vector<Request> bad(5, smallRequest());
-    bad[0].fishCount = 3;  // a different scene
+    bad[0].fishCount = 3;  // the renderer belongs to another scene
     bad[1].camera = NamedCamera{"none such"};
     bad[2].samples = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
@@ -186,7 +186,7 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // enough blur that the lens is not skipped
+    request.lens.fStop = 0.2;  // enough blur that the plan does not omit the lens
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();

@@ -18,7 +18,7 @@ constexpr int segments = 24;
 constexpr double yfov = 0.7;
 constexpr double distance = 4;
 
-// A white regular polygon with circumradius 1 around the view axis.
+// Returns a file with a white regular polygon of circumradius 1 around the view axis, drawn as lines.
 GltfBuilder polygon() {
     GltfBuilder builder;
     std::vector<float> places;

@@ -26,7 +26,7 @@ TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
     // and white.
     const Image image = stripes({0.09f, 0.36f, 1.44f});
     EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
-    // Scaling the light shifts the exposure by the same number of stops.
+    // Scaling the radiance by a power of two shifts the exposure by the same number of stops.
     EXPECT_NEAR(meteredExposure(stripes({0.09f * 1024, 0.36f * 1024, 1.44f * 1024})), -11, 1e-6);
 }
 

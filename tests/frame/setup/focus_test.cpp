@@ -41,9 +41,9 @@ TEST(FocusThrough, findsThePlaneOfThreePoints) {
 TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     const Lens before;
     const std::array<std::array<glm::dvec3, 3>, 3> impossible = {{
-        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // points on a line
-        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // a plane that contains the view axis
-        {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // behind the camera
+        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // three points on a line
+        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // three points in a plane that contains the view axis
+        {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // three points behind the camera
     }};
     for (const std::array<glm::dvec3, 3>& points : impossible) {
         Lens lens;

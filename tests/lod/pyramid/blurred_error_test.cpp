@@ -56,7 +56,7 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // The ball covers at most 38 % of a patch as wide as the diagonal of the ball's bounding box, 2√3.
+    // A patch as wide as the diagonal of the ball's bounding box, 2√3, is covered by the ball to at most 38 %.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 

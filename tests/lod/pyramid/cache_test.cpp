@@ -134,7 +134,7 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     return borders;
 }
 
-// Expects the pyramid to be safe to draw: all indices lie inside the pyramid's own arrays and the mesh's.
+// Expects the pyramid to be safe to draw: all indices are within the arrays of the pyramid and of the mesh.
 void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     ASSERT_FALSE(pyramid.levels.empty());
     ASSERT_EQ(pyramid.source.size(), pyramid.vertices.count());
@@ -444,7 +444,7 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
     expectBuilt(first, meshes);
     EXPECT_EQ(first.loaded, 0u);
     EXPECT_EQ(first.failure, "");
-    EXPECT_EQ(fileCount(folder), 3u);  // no file for the empty mesh and for the mesh of 8 triangles
+    EXPECT_EQ(fileCount(folder), 3u);  // no file exists for the empty mesh and for the mesh of 8 triangles
 
     std::uint64_t left = 1;
     const CachedPyramids second = cachedPyramids(
@@ -543,7 +543,7 @@ TEST(PyramidCache, aFolderThatCannotBeMadeIsOneFailureAndNoFault) {
     EXPECT_EQ(cached.failure.find('\n'), std::string::npos);
 }
 
-// A full disk leaves no incomplete file in the cache. It is simulated by a limit on the file size.
+// A full disk, simulated by a limit on the file size, leaves no incomplete file in the cache.
 TEST(PyramidCache, aFullDiskLeavesNoFile) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(48, 32)};

@@ -1,4 +1,5 @@
-// Tests that the length of a coarse level's normals equals their mean cosine to the fine normals that they replace.
+// Tests that the length of a coarse level's normals equals their mean cosine to the normals of the fine surface that
+// they replace.
 
 #include <gtest/gtest.h>
 
@@ -61,7 +62,8 @@ TEST(LevelNormals, ofASmoothBallStayWhole) {
     }
 }
 
-// Levels that lose the bumps of a ball have shorter normals, whose length equals the mean cosine to the ball's normals.
+// Levels that lose the bumps of a ball have normals shorter than 1. Their length equals the mean cosine to the ball's
+// normals.
 TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
     const Mesh ball = sphere(96, 48, 0.04);
     const Pyramid pyramid = buildPyramid(ball);

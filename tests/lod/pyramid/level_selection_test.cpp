@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a pyramid with edges 1, √2, 2, 2√2, 4 and errors 0, 0.01, 0.02, 0.04, 0.08.
+// Returns a pyramid of five levels with the mean edges 1, √2, 2, 2√2 and 4 and the errors 0, 0.01, 0.02, 0.04 and 0.08.
 Pyramid uniformPyramid() {
     Pyramid pyramid;
     for (int l = 0; l < 5; ++l) {

@@ -216,7 +216,7 @@ TEST(Pyramid, NormalsOfASphereStayRadial) {
 }
 
 TEST(Pyramid, CubeWithHardEdgesStaysACube) {
-    // Six grids of 12 × 12 cells share positions but not normals along the cube's edges.
+    // The mesh is a cube of six grids of 12 × 12 cells, which share positions but not normals along the cube's edges.
     Mesh mesh;
     mesh.primitives.resize(1);
     for (int face = 0; face < 6; ++face) {

@@ -118,8 +118,8 @@ TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
 }
 
 TEST(SurfaceDistance, ShiftedTriangle) {
-    // The first triangle is shifted by 2 along its normal, the second by (−1, 0) in its plane. After the second shift,
-    // points right of x = 0 stay inside.
+    // The first triangle is a copy shifted by 2 along the normal, the second a copy shifted by (−1, 0) in the plane.
+    // After the second shift, points right of x = 0 stay inside the triangle.
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);

@@ -109,7 +109,8 @@ TEST(TextureShift, isMeasured) {
     EXPECT_NEAR(unitsPerCoordinate(pyramid), 2, 1e-4);
     EXPECT_LT(shiftOf(pyramid, 1).mean, 1e-6);
     for (glm::vec2& uv : pyramid.levels[1].uv0) uv.x += 0.01f;
-    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);  // the ramp has 256 texels
+    // the colour ramp has 256 texels, hence the factor 256/255
+    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);
     EXPECT_EQ(shiftOf(pyramid, 1).elsewhere, 0);
 }
 

@@ -56,7 +56,8 @@ defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uin
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
-    source.areas.assign(t.anchors.size(), 1);  // there are no triangles of level 0, so all areas are equal
+    // all vertices get the same area, since there are no triangles of level 0
+    source.areas.assign(t.anchors.size(), 1);
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
     level.triangles = numberedTriangles<LevelVertexNumber>({indices});

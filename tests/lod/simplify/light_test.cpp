@@ -106,7 +106,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// Normals that already fit are not changed, bit for bit.
+// Normals that already reflect the right amount of light are not changed, bit for bit.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());

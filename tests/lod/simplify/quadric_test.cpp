@@ -7,7 +7,7 @@ namespace {
 
 const glm::dvec3 corner[3] = {{0.1, 0.2, 0.3}, {1.1, 0.2, 0.5}, {0.3, 1.4, 0.2}};
 constexpr double area = 0.7;
-constexpr std::size_t attributeCount = 8;  // 3 for normals, 3 for colours and 2 for uv
+constexpr std::size_t attributeCount = 8;  // 3 for the normal, 3 for the colour and 2 for the texture coordinates
 using Row = AttributeRow<attributeCount>;
 using Gradients = AttributeGradients<attributeCount>;
 using FullQuadric = AttributeQuadric<attributeCount>;

@@ -95,7 +95,7 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // 64 equal disks with the lens's total area are 1/4 wide
+    EXPECT_GT(apart, 1.0 / 8);  // each of 64 equal disks with the lens's total area is 1/4 wide, in lens radii
 }
 
 // Returns the RMS difference between two blurred straight edges, over positions of the edge: one blurred by a disk, the

@@ -98,7 +98,7 @@ TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     EXPECT_TRUE(leftOut(planFrame(small->world, small->view, settingsFor(8)), "object Object 0"));
 }
 
-// Without defocus, motion still needs all samples.
+// Even without defocus, motion needs all samples.
 TEST(Motion, samplesRemainForMotionWithoutALens) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

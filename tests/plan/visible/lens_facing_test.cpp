@@ -54,7 +54,8 @@ double sampledLargest(const LensTriangle& triangle, double radius) {
     return largest;
 }
 
-// Returns the determinant's max change from the lens centre to the rim, the unit of the bounds' errors.
+// Returns the max change of the determinant from the lens centre to the rim. Errors of the bounds are given in this
+// unit.
 double spreadOf(const LensTriangle& triangle) {
     return sampledLargest(triangle, 1) - sheared(triangle, 0, 0);
 }
@@ -102,7 +103,7 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     for (int trial = 0; trial < 400; ++trial) {
         const LensTriangle from = anyTriangle(random);
         LensTriangle to = anyTriangle(random);
-        // The motion ranges from nearly none to two unrelated triangles.
+        // The motion ranges from almost none to a change between two unrelated triangles.
         const double share = std::pow(10.0, random(-3, 0));
         to = between(from, to, share);
         const double sampled = sampledLargest(from, to);

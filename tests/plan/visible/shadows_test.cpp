@@ -16,7 +16,8 @@ namespace {
 
 constexpr double wallDepth = 4;  // m
 
-// Returns a wall of 8 m width at z = −4 m, in front of a pinhole camera at the origin that looks at its middle 2.9 m.
+// Returns a wall of 8 m width at z = −4 m, in front of a pinhole camera at the origin. The image shows the middle 2.9 m
+// of the wall.
 std::unique_ptr<SmallWorld> wallWithoutLights() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.emplace_back();
@@ -90,7 +91,7 @@ TEST(ShadowPlan, aWeakLampNearASurfaceCastsShadows) {
 TEST(ShadowPlan, aLampThatTheImageDoesNotShowCastsNoShadow) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, 2, {});
-    addLight(*small, LightType::point, 0.15, {3.8, 0.2, 0.3 - wallDepth});  // at the edge of the wall
+    addLight(*small, LightType::point, 0.15, {3.8, 0.2, 0.3 - wallDepth});  // a lamp near the edge of the wall
     const FramePlan plan = shadowedPlan(*small);
     ASSERT_EQ(plan.shadows.maps.size(), 1U);
     EXPECT_EQ(plan.shadows.maps.front().light, 0);

@@ -257,7 +257,7 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
     }
 }
 
-// No visible triangle is culled where each corner has its own blur, which may change during the exposure (Eq. 5).
+// No visible triangle is culled if each corner has its own blur, which may change during the exposure (Eq. 5).
 TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
     Random random(5);
     for (const bool changes : {false, true})
@@ -276,7 +276,7 @@ TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
             finish(*small);
             if (changes) small->world.shutter.poses.assign(2, small->world.pose);
             RenderSettings settings = settingsFor(64);
-            settings.cocTolerance = 1e6;  // large enough that no triangle is divided
+            settings.cocTolerance = 1e6;  // a tolerance so large that no triangle is divided
             const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
             EXPECT_GT(counts.couldBeAway, 100);
             EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
@@ -373,7 +373,8 @@ TEST(Visibility, doubleSidedSurfacesNeverFaceAway) {
 }
 
 TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
-    const auto small = oneSphere(at(1.5, -4));  // the image's edge lies at x = 1.44 m
+    // the sphere's centre is beyond the image's edge, which lies at x = 1.44 m
+    const auto small = oneSphere(at(1.5, -4));
     small->view.lens.fStop = 16;
     const FramePlan sharp = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(sharp.trianglesOutside, sharp), 0.3);

@@ -169,7 +169,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     const auto at = [](double z) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
     };
-    place(*small, 0, at(2));  // depths: red 2 m, green 3 m, blue 4 m
+    place(*small, 0, at(2));  // the red, green and blue quads are at depths of 2, 3 and 4 m
     place(*small, 2, at(4));
     place(*small, 1, at(3));
     small->world.environment.type = EnvironmentType::uniform;
@@ -232,8 +232,8 @@ void addLocalLights(SmallWorld& small) {
     small.world.lights.insert(small.world.lights.end(), {lamp, spot});
 }
 
-// Lights give the same image as constants and as uniforms of the shaders. Few lights are compiled into the shaders as
-// constants, and additional dark lights turn all of them into uniforms.
+// Lights give the same image whether they are constants or uniforms of the shaders. Few lights are compiled into the
+// shaders as constants, and additional dark lights turn all of them into uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -259,8 +259,8 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// The image stays the same when camera, objects and lights move together and turn about the vertical, although shading
-// uses the world's axes.
+// The image stays the same when camera, objects and lights move together and turn about the vertical axis, although
+// shading uses world coordinates.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();
     addLocalLights(*small);
@@ -271,7 +271,8 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has not moved yet
+    // the images differ, since the camera has not moved yet
+    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
@@ -286,7 +287,7 @@ TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     PlacedLight lamp;
     lamp.light.intensity = 1;
-    lamp.direction = {0, 0, 1};  // shines from behind the wall
+    lamp.direction = {0, 0, 1};  // light from behind the wall
     small->world.lights = {lamp};
     for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
         for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)

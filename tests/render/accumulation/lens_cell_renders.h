@@ -67,7 +67,7 @@ protected:
     }
 
     // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes (groups of pixels
-    // with similar blur) of σ = 1 and 2 px.
+    // with similar blur) with σ = 1 and 2 px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
         auto small = fiveSpheres();
         small->view.lens.fStop = 0.25;

@@ -164,7 +164,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Lens cells fill the gaps between the separate copies of a light that few samples leave.
+// With few samples, the image of a light consists of separate copies. Lens cells fill the gaps between these copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -229,7 +229,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// A scene of a single colour, in front of and behind the focus, keeps that colour.
+// A scene of a single colour, with surfaces in front of and behind the focus, keeps that colour.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -329,8 +329,8 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// The image does not pop where blur classes (groups of pixels with similar blur) begin: as the lens opens in small
-// steps, from a blur below every class to several classes, no step changes the image by more than twice its
+// The image does not pop where blur classes (groups of pixels with similar blur) begin. The lens opens in small steps,
+// from a blur below every class to several classes. No step changes the image by more than twice the change of its
 // neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     SKIP_ON_SECOND_DRIVER();
@@ -353,8 +353,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The image converges, as the blur of lens cells vanishes with the sample count. Its error is never above the
-// accumulation's, far below it with few samples, and shrinks with many samples.
+// The image converges to the reference, as the blur of lens cells vanishes with the sample count. Its error is never
+// above the accumulation's. With few samples it is far below, and it shrinks with many samples.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

@@ -76,7 +76,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // Coarse levels have the most different outlines.
+        // The outlines of the coarsest levels differ most.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
@@ -87,8 +87,8 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change of λ changes few pixels, each by one sample: the fraction of changed pixels equals the change in the
-// number of coarse samples.
+// A small change of λ changes few pixels, and each of these pixels by one sample. The fraction of changed pixels equals
+// the change in the number of coarse samples.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;

@@ -59,7 +59,7 @@ void expectEverywhere(const Image& work, float expected) {
     for (const float value : work.pixels) ASSERT_EQ(value, expected);
 }
 
-// Two triangles that fill the image out of focus touch each pixel exactly once in each lens sample.
+// Two triangles that are out of focus and fill the image touch each pixel exactly once in each lens sample.
 TEST_F(Work, fullScreenPairTouchesEachPixelOnceASample) {
     const auto small = facingQuads({quadAt(1, {0, 0}, {2, 2})}, unlitMaterial(glm::vec4(1)));
     expectEverywhere(workOf(*small), samples);
@@ -79,13 +79,14 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     const glm::dmat4 back = glm::rotate(quadAt(1, {0, 0}, {2, 2}), std::numbers::pi, glm::dvec3(0, 1, 0));
     Material material = unlitMaterial(glm::vec4(1));
     expectEverywhere(workOf(*facingQuads({back}, material)), 0);
-    // Mirroring turns the quad's back into its front.
+    // A reflection turns the quad's back into its front.
     expectEverywhere(workOf(*facingQuads({glm::scale(back, glm::dvec3(1, 1, -1))}, material)), samples);
     material.doubleSided = true;
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each sample, a rectangle touches the pixels whose centres it contains after the shift by lens point and jitter.
+// In each sample, a rectangle touches the pixels whose centres it contains after it is shifted for the lens point and
+// the jitter.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);

@@ -123,7 +123,7 @@ TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
-    for (int n = 1; n <= 3; ++n)  // published kernels of 4 and more components use 32-bit floats
+    for (int n = 1; n <= 3; ++n)  // only up to 3 components, since published kernels of 4 and more use 32-bit floats
         EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
@@ -136,8 +136,8 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// The fitted kernels are no farther from a disk than Niemitalo's, each of which is compared at its best extent and disk
-// radius.
+// The fitted kernels are no farther from a disk than Niemitalo's kernels. Each of his kernels is compared at its best
+// extent and disk radius.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
@@ -180,8 +180,8 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
     }
 }
 
-// The published kernels have shallower negative lobes, which darken the surroundings of a highlight, than the fitted
-// kernels.
+// The published kernels have shallower negative lobes than the fitted kernels. Negative lobes darken the surroundings
+// of a highlight.
 TEST(CircularKernel, publishedKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;

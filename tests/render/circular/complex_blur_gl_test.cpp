@@ -74,7 +74,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
                 moment += value * (std::pow(x - 48, 2) + std::pow(y - 40, 2));
             }
         EXPECT_NEAR(energy, 1000, 1000 * 0.01);
-        EXPECT_NEAR(std::sqrt(2 * moment / energy), radius, 1);  // a disk's second moment is R²/2
+        EXPECT_NEAR(std::sqrt(2 * moment / energy), radius, 1);  // the second moment of a disk of radius R is R²/2
     }
 }
 
@@ -98,8 +98,7 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// 10-bit storage divides weights by their max, as it does radiance, so that small weights keep their relative
-// precision.
+// 10-bit storage divides weights by their max, like radiance, so that small weights keep their relative precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;
@@ -108,8 +107,8 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// The published bracket of a kernel with a radius of eight taps scales values by the sum of the taps: a white field is
-// stored as 1, a black field as 0 and every other field in between.
+// The published bracket is the storage range of a kernel with a radius of eight taps. It scales values by the sum of
+// the taps: a white field is stored as 1, a black field as 0 and every other field in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {
@@ -126,8 +125,9 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
         }
 }
 
-// Brackets for eight taps equal those that Garcia's filter generator prints for two components and a radius of eight
-// taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754.
+// Brackets, the storage ranges, for eight taps equal those that Garcia's filter generator prints for two components and
+// a radius of eight taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is
+// 0.064754.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;

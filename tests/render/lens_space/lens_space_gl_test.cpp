@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Models with textures, normal maps and skins look as in the accumulation.
+// Models with textures, normal maps and skins look the same as with the accumulation.
 TEST_P(Models, lookAsInTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
@@ -242,8 +242,8 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // The noise is no larger than the spokes that it replaces. Averaged over 8 × 8 px, less than half of the spokes'
-    // error remains.
+    // The noise is no larger than the error of the spokes that it replaces. Averaged over 8 × 8 px, less than half of
+    // the spokes' error remains.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }

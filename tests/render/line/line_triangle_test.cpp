@@ -37,7 +37,7 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
 }
 
 LensVertex vertexAt(double x, double y, double w) {
-    constexpr double a = -0.4, focus = 3;  // coefficients of C = a·(1 − w/focus)
+    constexpr double a = -0.4, focus = 3;  // coefficients of the circle of confusion C = a·(1 − w/focus) at depth w
     return {x, y, w, a * (1 - w / focus)};
 }
 

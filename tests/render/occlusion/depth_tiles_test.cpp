@@ -45,7 +45,7 @@ TEST(DepthTiles, neverFartherThanAnyPixelAsked) {
     }
 }
 
-// A far pixel affects queries near it, but no queries more than a tile away.
+// A far pixel affects depth queries near it, but no queries more than a tile away.
 TEST(DepthTiles, aHoleReachesNoFartherThanATile) {
     DepthRows depths{200, 100, std::vector<float>(200 * 100, 0.5f)};
     depths.values[50 * 200 + 100] = 0;

@@ -11,8 +11,8 @@ namespace defocus::engine {
 namespace {
 
 struct PlaceInImage {
-    glm::dvec2 place;  // px from the lower left corner
-    double depth;      // along the view axis, m
+    glm::dvec2 place;  // position in px from the lower left corner
+    double depth;      // depth along the view axis, m
 };
 
 // Returns the image position of the view-space point `inView` for a lens sample, by geometric optics. The ray from the
@@ -74,7 +74,7 @@ TEST(LensSight, boxesHoldWhatAPinholeSees) {
     expectBoxesHoldWhatIsSeen(*small);
 }
 
-// The bounds of a small box are at most 3 px wide and have the box's own depth.
+// The bounds of a small box are at most 3 px wide, and their depth is the depth of the box.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
     RenderSettings settings;

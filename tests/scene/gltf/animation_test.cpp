@@ -73,7 +73,7 @@ TEST(GltfSkin, furtherInfluencesOutOfRangeAreRefused) {
     EXPECT_THROW((void)builder.load(), Error);
 }
 
-// Flat normals of a mesh without normals follow a morph target. Here the target lifts one corner of a triangle.
+// If a mesh has no normals, its flat normals follow a morph target. Here the target lifts one corner of a triangle.
 TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     GltfBuilder builder;
     // The target moves the corner (1, 0, 0) to (1, 0, 1).
@@ -156,7 +156,8 @@ TEST(GltfAnimation, pointersDriveCamerasLightsAndNodes) {
     EXPECT_FLOAT_EQ(pose.lights.at(0).light.intensity, 15);
     EXPECT_FLOAT_EQ(pose.lights[0].light.color.r, 0.5f);
     EXPECT_DOUBLE_EQ(pose.lights[0].position.y, 4);
-    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");  // materials are not animated
+    // the channel is ignored, since materials are not animated
+    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");
     EXPECT_EQ(scene.cameras[0].yfov, 0.5);                     // the camera keeps the value in the file
 }
 

@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int damagedCopies = 300;  // copies of each file
+constexpr int damagedCopies = 300;  // number of damaged copies of each file
 
 class Damage {
 public:

@@ -19,8 +19,8 @@ namespace {
 
 struct ModelFacts {
     const char* file;
-    std::size_t triangles;         // counts each mesh once
-    std::size_t trianglesInScene;  // counts a mesh for each node that draws it
+    std::size_t triangles;         // triangle count in which each mesh counts once
+    std::size_t trianglesInScene;  // triangle count in which a mesh counts for each node that draws it
 };
 
 class Model : public testing::TestWithParam<ModelFacts> {};
@@ -164,8 +164,8 @@ TEST(Models, instancesBecomeObjects) {
     EXPECT_NE(pose.objects[0].worldFromObject[3], pose.objects[124].worldFromObject[3]);
 }
 
-// Texture transforms move the texture to the model's markers, which show where the texture's diagonal arrow must
-// appear: at 45° in the texture, for every transform.
+// Each marker of the model shows where the texture's diagonal arrow must appear. Every texture transform must map the
+// marker to 45° in the texture.
 TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     DEFOCUS_MODEL_OR_SKIP(path, "TextureTransformTest/TextureTransformTest.gltf");
     const Scene scene = loadGltf(path);
@@ -184,7 +184,7 @@ TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     EXPECT_NEAR(scaled.x, 0.7778, 1e-3);
     EXPECT_NEAR(scaled.y, 0.7778, 1e-3);
     const glm::vec3 all = transformed("All", "All - Correct");
-    EXPECT_NEAR(all.x, 0.7778, 0.05);  // the model's author placed this marker by hand
+    EXPECT_NEAR(all.x, 0.7778, 0.05);  // large tolerance, since the model's author placed this marker by hand
     EXPECT_NEAR(all.y, 0.7778, 0.05);
 }
 

@@ -83,7 +83,8 @@ TEST(GltfTexture, imagesThatNothingUsesAreNotRead) {
 TEST(GltfTexture, pixelsAreCountedBeforeTheyAreDecoded) {
     GltfBuilder builder = texturedTriangle({{"source", 0}});
     Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    appendChunk(png, "IHDR", {0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 0, 0, 0, 0});  // 16384 × 16384, 8 bits, grey
+    // 16384 × 16384 px, 8 bits per channel, grey
+    appendChunk(png, "IHDR", {0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 0, 0, 0, 0});
     appendChunk(png, "IDAT", {0x78, 0x9c, 3, 0, 0, 0, 0, 1});
     appendChunk(png, "IEND", {});
     builder.json["images"] = {{{"bufferView", builder.view(png)}, {"mimeType", "image/png"}}};

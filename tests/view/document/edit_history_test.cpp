@@ -8,7 +8,8 @@ namespace {
 class ViewHistory : public testing::Test {
 protected:
     void SetUp() override { history.begin(now); }
-    // Records a frame with this f-number, `seconds` after the previous frame. `held`: a mouse button is down.
+    // Records a frame with this f-number, `seconds` after the previous frame. `held` is true while a mouse button is
+    // down.
     void frame(double fStop, bool held = false, double seconds = 0.02) {
         now.lens.fStop = fStop;
         clock += seconds;

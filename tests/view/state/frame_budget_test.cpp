@@ -23,7 +23,7 @@ TEST(FrameBudget, qualitiesRiseByAboutTwice) {
         EXPECT_NEAR(cost(qualities[i], 1) / cost(qualities[i - 1], 1), 2, 0.01) << i;
         EXPECT_LE(qualities[i].thresholdBias, qualities[i - 1].thresholdBias);
     }
-    // Below half the resolution, outlines break into steps.
+    // Below half the resolution, outlines would have visible steps.
     EXPECT_GE(qualities.front().resolution, 0.5);
     EXPECT_LE(qualities.front().thresholdBias, 4);
     EXPECT_EQ(qualities.back().resolution, 1);
