@@ -14,7 +14,7 @@ namespace defocus::engine {
 struct Held {
     // resident memory in MB, without file-backed pages, which the system can drop and reload at will
     double megabytes = 0;
-    int handles = 0;       // number of open file descriptors
+    int handles = 0;  // number of open file descriptors
 };
 
 inline Held heldBy(pid_t process) {

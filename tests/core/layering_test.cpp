@@ -104,7 +104,7 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
         const bool known = isPublic || module == line.folder || std::count(modules.begin(), modules.end(), module) > 0;
         EXPECT_TRUE(known) << where(line);
     }
-    EXPECT_GT(checked, 100u);  // the sources were found
+    EXPECT_GT(checked, 100u);  // fails if the sources are not found
 }
 
 // Public headers include only public headers and the standard library, since programs that embed the library have no

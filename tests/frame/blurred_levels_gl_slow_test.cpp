@@ -31,7 +31,7 @@ protected:
         }
         Request request;
         request.scene = modelPath(GetParam());
-        if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " is not there";
+        if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " does not exist";
         request.size.width = 384;
         request.size.height = 288;
         request.noCache = true;

@@ -78,7 +78,7 @@ TEST(FramePlan, depthsAndBlurFollowTheFormula) {
     const double A = 0.05 / 1;
     const double expected = A * (1 / 3.0 - 1 / nearest.nearestDepth) * 160 / (36.0 / 50);
     EXPECT_NEAR(nearest.coc.nearest, expected, 1e-9);
-    EXPECT_EQ(plan.objects[1].coc.smallest, 0) << "it straddles the focus plane";
+    EXPECT_EQ(plan.objects[1].coc.smallest, 0) << "the object straddles the focus plane";
     EXPECT_TRUE(std::is_sorted(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& a, const ObjectPlan& b) {
         return a.nearestDepth < b.nearestDepth;
     }));

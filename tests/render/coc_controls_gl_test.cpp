@@ -287,7 +287,7 @@ TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     const Image pinhole = rendered(*small, 64);
     EXPECT_LT(rootMeanSquare(part(range, 0), part(pinhole, 0)), 1e-5);
     EXPECT_LT(rootMeanSquare(part(range, 1), part(pinhole, 1)), 1e-5);
-    EXPECT_GT(rootMeanSquare(part(range, 2), part(pinhole, 2)), 1e-3) << "beyond the range it is blurred";
+    EXPECT_GT(rootMeanSquare(part(range, 2), part(pinhole, 2)), 1e-3) << "beyond the range, blur remains";
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
@@ -311,7 +311,7 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const Image pinhole = rendered(*small, 64);
     EXPECT_LT(rootMeanSquare(part(after, 0), part(pinhole, 0)), 1e-5);
     small->world.shutter.poses.clear();
-    EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
+    EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "the patch moves";
 }
 
 // An object whose blur is scaled to zero has the same edges as in a pinhole image under any aperture. The other objects

@@ -105,7 +105,7 @@ TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
             for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
                 // blur in px; positive in front of the focus
                 const double plain = radius / tangent * (1 / z - 1 / focus) * 200;
-                const double shift = tangent * std::min(plain, 7.0) / 200;          // lateral offset per m of depth
+                const double shift = tangent * std::min(plain, 7.0) / 200;  // lateral offset per m of depth
                 const LensRay& ray = z < camera.lensDepth ? eye : behind;
                 const double along = z + ray.origin.z;
                 const glm::dvec2 place(ray.origin.x + along * ray.direction.x, ray.origin.y + along * ray.direction.y);

@@ -102,7 +102,7 @@ void expectClosed(const Mesh& mesh) {
     }
     std::sort(edges.begin(), edges.end());
     std::sort(opposites.begin(), opposites.end());
-    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << mesh.name << ": an edge twice";
+    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << mesh.name << ": an edge occurs twice";
     EXPECT_TRUE(edges == opposites) << mesh.name << ": an open edge";
 }
 
@@ -219,7 +219,7 @@ TEST(FishSchool, coversAtLeastThreeTenthsOfTheImage) {
     const auto count = std::count(covered.begin(), covered.end(), true);
     RecordProperty("coveredPercent", static_cast<int>(100 * count / (imageWidth * imageHeight)));
     EXPECT_GT(static_cast<double>(count), 0.30 * imageWidth * imageHeight);
-    EXPECT_LT(static_cast<double>(count), 0.60 * imageWidth * imageHeight) << "the water should show";
+    EXPECT_LT(static_cast<double>(count), 0.60 * imageWidth * imageHeight) << "the water must remain visible";
 }
 
 TEST(FishSchool, someFishAreSharpAndNoneTooBlurred) {

@@ -16,7 +16,7 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
     // one row for each of three configurations and two sample counts
     EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each configuration and sample count
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);  // two runs of each configuration and sample count
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
     EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());

@@ -121,7 +121,7 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
         loosest = std::max(loosest, (bound - sampled) / size);
         loosestDivided = std::max(loosestDivided, (divided - sampled) / size);
     }
-    EXPECT_GT(loosest, 0.1) << "some triangles move much";
+    EXPECT_GT(loosest, 0.1) << "some triangles move far";
     EXPECT_LT(loosestDivided, 0.1 * loosest + 0.01);
 }
 

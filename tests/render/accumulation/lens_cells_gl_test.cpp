@@ -38,8 +38,8 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
-// Method "auto" gives the bit-identical image of the method that it chooses. It chooses multirate where spheres are
-// blurred by 8 px and more, and accumulation where they are sharp. One renderer draws both.
+// The image of method "auto" is bit-identical to that of the method that it chooses: multirate where spheres are
+// blurred by 8 px and more, and accumulation where they are sharp. One renderer draws both images.
 TEST_F(LensCellImages, automaticMethodHasTheBitsOfItsChoice) {
     const auto blurred = blurredSpheres();
     const auto renderer = rendererOf(automaticMethod, blurred->world);

@@ -158,7 +158,7 @@ TEST(GltfAnimation, pointersDriveCamerasLightsAndNodes) {
     EXPECT_DOUBLE_EQ(pose.lights[0].position.y, 4);
     // the channel is ignored, since materials are not animated
     EXPECT_EQ(scene.ignored.at(0).what, "animation channel");
-    EXPECT_EQ(scene.cameras[0].yfov, 0.5);                     // the camera keeps the value in the file
+    EXPECT_EQ(scene.cameras[0].yfov, 0.5);  // the camera keeps the value in the file
 }
 
 TEST(GltfAnimation, pointersToWhatIsMissingAreRefused) {
