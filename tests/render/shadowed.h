@@ -105,9 +105,9 @@ protected:
         return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
     }
 
-    // Returns the lit share of the sun at x on the wall, behind an edge at `left` and d in front of the wall. The sun
-    // stands 45° to the right, and t is the tangent of its angular radius. A point of the sun's disk at a·t from the
-    // disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
+    // Returns the share of the sun's disk that lights the position x on the wall. An edge is at x = `left`, at the
+    // distance d in front of the wall. The sun stands 45° to the right, and t is the tangent of its angular radius. A
+    // point of the sun's disk at a·t from the disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
     static double litShareBehindEdge(double x, double left, double d, double t) {
         const double q = (left - x) / d;
         return diskShare((q - 1) / ((q + 1) * t));

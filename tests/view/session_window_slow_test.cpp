@@ -61,8 +61,8 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     inTurn({"mousemove 201 200", "mousedown 1", "mousemove 250 200", "mousemove 300 200", "mouseup 1"});
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
-    key("x");  // first press: compares with the nearest level
-    key("x");  // second press: compares with the reference, whose samples differ
+    key("x");  // switches to a comparison with the nearest level
+    key("x");  // switches to a comparison with the reference, whose samples differ
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();

@@ -173,7 +173,8 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
     EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field, so it has no comma
-    EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole image has no blur that could hide levels
+    // off, since a pinhole image has no blur that could hide levels
+    EXPECT_EQ(rows[6].mode, LodMode::off);
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);
     EXPECT_NE(speedupLine(rows[0]).find("published"), std::string::npos);
