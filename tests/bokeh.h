@@ -131,8 +131,7 @@ Image expectedBokeh(const View& view, double depth, double square, double energy
     return image;
 }
 
-// Returns the earth mover's share of two images' first channels: the fraction of b's light that must move between
-// blocks of 2 × 2 px to give `a`.
+// Returns the fraction of b's light that must move between blocks of 2 × 2 px to give `a`, in the first channel.
 inline double misplacedLight(const Image& a, const Image& b) {
     double sum = 0;
     double all = 0;

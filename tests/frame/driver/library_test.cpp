@@ -38,7 +38,7 @@ TEST_F(Library, sceneInfoNamesWhatARequestMayName) {
     EXPECT_EQ(info.cameras, std::vector<std::string>{"Main"});
     EXPECT_EQ(info.nodes, (std::vector<std::string>{"Near", "Far", "Tripod"}));
     EXPECT_TRUE(info.clips.empty());
-    EXPECT_EQ(info.triangles, 2u);  // the mesh is drawn twice, so its triangle counts twice
+    EXPECT_EQ(info.triangles, 2u);  // the mesh of two triangles counts once, although it is drawn twice
     EXPECT_TRUE(info.ignored.empty());
     EXPECT_EQ(defocus::Scene::schoolOfFish(3, 400).info().cameras.size(), 1u);
 }
