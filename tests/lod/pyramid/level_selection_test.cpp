@@ -85,7 +85,7 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // The intervals before and after level 2 have the min allowed growth.
+    // The edges of levels 1 and 2, and the errors of levels 2 and 3, have the min allowed growth.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
