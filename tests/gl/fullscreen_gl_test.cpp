@@ -20,7 +20,7 @@ TEST_F(FullscreenPass, addsOnceToEachPixel) {
     fullscreen.drawAdding(one);
     const Image twice = readBack(texture, 4);
     for (int c = 0; c < 4; ++c) EXPECT_EQ(twice.at(32, 20)[c], 2 * (c == 3 ? 0.5f : static_cast<float>(c + 1)));
-    fullscreen.draw(one);  // Without blending, the pass replaces the colour.
+    fullscreen.draw(one);  // without blending, the pass replaces the colour
     for (const float value : readBack(texture, 1).pixels) ASSERT_EQ(value, 1);
 }
 
