@@ -24,11 +24,11 @@ inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
 }
 
-// Returns the density of the light at a point of the lens, up to a constant factor.
+// Returns the light density at a point of the lens, without normalization.
 inline double lightDensity(const Lens& lens, glm::dvec2 p) {
     p.x *= std::max(lens.anamorphicRatio, 1.0);
     p.y /= std::min(lens.anamorphicRatio, 1.0);
-    // Fraction of the aperture's area that the outline, scaled so that it passes through p, encloses.
+    // Fraction of the aperture's area that is enclosed by the outline, scaled to pass through p.
     const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);
     const double hidden = lens.obstruction * lens.obstruction;
     if (area > 1 || area < hidden) return 0;
@@ -74,7 +74,7 @@ inline const ApertureShape apertureShapes[] = {
     {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
 };
 
-// Returns the aperture image's pixel at a point of the lens; 0 outside the unit disk.
+// Returns the value of the aperture image at a point of the lens; 0 outside the unit disk.
 inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     const double half = 0.5 * std::max(image.width, image.height);
     const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));

@@ -47,7 +47,7 @@ inline Scene bakedUnlit(Scene scene) {
         baked.unlit = true;
         scene.materials[i] = std::move(baked);
     }
-    // Primitives without a material get an unlit one, since glTF's default material is lit.
+    // Primitives without a material get an unlit material, since glTF's default material is lit.
     Material plain;
     plain.name = "baked default";
     plain.unlit = true;

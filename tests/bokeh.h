@@ -15,7 +15,8 @@
 namespace defocus::engine {
 
 // Returns a camera at the origin: 50 mm on a 36 mm sensor, focused at 2 m. The aperture is 0.5 m wide, so that small
-// images show large blurs: the diameter at depth z is 0.694·W·|1/2 − 1/z| px, which is 0.231·W at 1.2 m and at 6 m.
+// images show large blurs. In an image W px wide, the blur diameter at depth z is 0.694·W·|1/2 − 1/z| px, which is
+// 0.231·W at 1.2 m and at 6 m.
 inline View bokehView(int width, int height) {
     View view;
     view.width = width;
@@ -32,8 +33,8 @@ inline double tanHalf(const View& view) {
     return view.lens.horizontalAperture / (2 * view.lens.focalLength);
 }
 
-// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with aperture diameter A, focus distance s and
-// depth z in m.
+// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px. A is the aperture diameter, s the focus distance
+// and z the depth, all in m; W is the image width in px and θx the horizontal field of view.
 inline double blurDiameter(const View& view, double depth) {
     const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
     return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width / (2 * tanHalf(view));
@@ -45,7 +46,7 @@ inline glm::dvec3 pointAt(const View& view, double column, double row, double de
     return {(column - view.width / 2.0) * pixel, (view.height / 2.0 - row) * pixel, -depth};
 }
 
-struct Rectangle {  // px from the image's top left corner
+struct Rectangle {  // coordinates in px from the image's top left corner
     double left = 0;
     double top = 0;
     double right = 0;
@@ -103,11 +104,11 @@ inline Environment blackBackground() {
 }
 
 // Returns the expected image of a centred square of `square` px at a depth behind the focus plane: the convolution of
-// the lens's light distribution `light`, a function of the lens position, with the square and the pixels. Pixels sum to
-// `energy`.
+// the lens's light distribution `light`, a function of the lens position, with the square and the pixels. The sum of
+// all pixel values is `energy`.
 template <typename Light>
 Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
-    constexpr int size = 400;  // grid points along each side of the lens
+    constexpr int size = 400;  // number of grid points along each side of the lens
     const double radius = blurDiameter(view, depth) / 2;
     Image image(view.width, view.height, 1);
     double all = 0;

@@ -33,9 +33,9 @@ namespace defocus::engine {
 namespace {
 
 std::mutex mutex;
-int expected = 0;                                       // live ExpectedGlMessages objects
-std::set<std::pair<std::string, std::string>> shaders;  // file extension of the stage, source
-std::map<GLuint, const char*> stages;                   // stage of each live shader object
+int expected = 0;                                       // number of live ExpectedGlMessages objects
+std::set<std::pair<std::string, std::string>> shaders;  // pairs of the stage's file extension and the shader's source
+std::map<GLuint, const char*> stages;                   // stage of each shader object that has not been deleted
 
 const char* extensionOf(GLenum stage) {
     switch (stage) {

@@ -1,7 +1,7 @@
 #pragma once
 // Finds models for tests. The project's own models (meshes/…) and small public ones (tests/data/models) are in the
-// repository. Larger public models lie in $DEFOCUS_MODELS_DIR; default: a folder beside the checkout. Tests skip if
-// their model is absent.
+// repository. Larger public models lie in $DEFOCUS_MODELS_DIR; default: a folder beside the checkout. A test is skipped
+// if its model is absent.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Loads a scene file at a time, and bakes the posed vertices of each object into a static mesh.
+// Loads a scene file posed at a given time, and bakes the posed vertices of each object into a static mesh.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 
 namespace defocus::engine {
 
-// A model with animated skins or morph targets, and the index of its clip.
+// A model with animated skins or morph targets, and the index of one of its animation clips.
 struct PosedModel {
     const char* file;
     int clip;
@@ -38,7 +38,7 @@ inline void poseWorld(SmallWorld& small, double time, int clip) {
     small.world.pose = poseAt(small.scene, time, clip);
 }
 
-// Returns a scene at a time of a clip, seen through the camera that frames the scene at that time.
+// Returns a scene in its pose at a time of an animation clip, with a camera that frames the posed scene.
 inline std::unique_ptr<SmallWorld> posedWorld(const std::filesystem::path& path, double time, int clip) {
     auto small = std::make_unique<SmallWorld>();
     small->scene = loadGltf(path);

@@ -1,5 +1,5 @@
 #pragma once
-// Reads memory and handles of a running process from /proc.
+// Reads the memory use and the number of open file descriptors of a running process from /proc.
 
 #include <sys/types.h>
 
@@ -12,8 +12,9 @@
 namespace defocus::engine {
 
 struct Held {
-    double megabytes = 0;  // resident memory without file pages, which the system drops and reloads at will
-    int handles = 0;       // open file descriptors
+    // resident memory in MB, without file-backed pages, which the system can drop and reload at will
+    double megabytes = 0;
+    int handles = 0;  // number of open file descriptors
 };
 
 inline Held heldBy(pid_t process) {
@@ -29,7 +30,8 @@ inline Held heldBy(pid_t process) {
     return held;
 }
 
-// Returns a number of rounds from an environment variable, else `standard`. scripts/soak sets higher numbers.
+// Returns the number of rounds that an environment variable sets, or `standard` without the variable. scripts/soak sets
+// higher numbers.
 inline int roundsOr(const char* variable, int standard) {
     const char* const text = std::getenv(variable);
     return text != nullptr ? std::atoi(text) : standard;

@@ -17,7 +17,7 @@ struct SmallWorld {
     SmallWorld(const SmallWorld&) = delete;
     SmallWorld& operator=(const SmallWorld&) = delete;
 
-    Scene& scene;  // the world's scene, to be filled by the test
+    Scene& scene;  // scene of the world, filled by the test
     World world;
     View view;
 

@@ -24,7 +24,7 @@ struct TruthScene {
     TruthScene(const TruthScene&) = delete;
     TruthScene& operator=(const TruthScene&) = delete;
 
-    Scene& scene;  // the world's scene
+    Scene& scene;  // scene of `world`
     World world;
     View view;
 };
@@ -81,9 +81,9 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
     return settings;
 }
 
-// Signed difference b − a of two images, averaged over blocks of 32 × 32 px and three channels.
+// Signed difference b − a of two images a and b, averaged over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
-    double mean = 0;     // over the whole image
+    double mean = 0;     // mean difference over the whole image
     double rms = 0;      // RMS of the blocks' means
     double largest = 0;  // max absolute mean of a block
 };
@@ -138,7 +138,7 @@ inline Misplacement misplacement(const Image& a, const Image& b) {
     return {solved.x, solved.y, solved.z};
 }
 
-// Returns the least-squares factor k in b − a ≈ k·(to − from).
+// Returns the least-squares factor k in b − a ≈ k·(to − from) for four images of equal size.
 inline double shareOfChange(const Image& a, const Image& b, const Image& from, const Image& to) {
     double along = 0;
     double square = 0;
@@ -150,7 +150,7 @@ inline double shareOfChange(const Image& a, const Image& b, const Image& from, c
     return along / square;
 }
 
-// Returns the signed difference b − a times `gain`, around middle grey, for visual inspection.
+// Returns an image for visual inspection: the signed difference b − a times `gain`, around middle grey.
 inline Image differenceImage(const Image& a, const Image& b, float gain) {
     Image result(a.width, a.height, 3);
     for (int y = 0; y < a.height; ++y) {

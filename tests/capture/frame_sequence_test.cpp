@@ -15,8 +15,8 @@
 namespace defocus::engine {
 namespace {
 
-// A scene of two nodes without meshes: "Still" at (0, 0, −4), and "Rising", which climbs at 1 m/s for 2 s. The camera
-// looks along −z from the origin.
+// Fixture with a scene of two nodes without meshes: "Still" at (0, 0, −4), and "Rising", which rises at 1 m/s for 2 s.
+// The camera looks along −z from the origin.
 class FrameSequence : public testing::Test {
 protected:
     FrameSequence() {
@@ -97,13 +97,14 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     const char* shot = R"({"range": [10, 50], "camera": {"turntable": {"centre": "Still"}}})";
     expectNear(placeOf(frame(shot, 10)), {0, 0, 0});
     expectNear(placeOf(frame(shot, 50)), {0, 0, 0});
-    expectNear(placeOf(frame(shot, 20)), {4, 0, -4});  // a quarter turn, counter-clockwise from above
+    // the camera has made a quarter turn, counter-clockwise seen from above
+    expectNear(placeOf(frame(shot, 20)), {4, 0, -4});
     expectNear(forwardOf(frame(shot, 20)), {-1, 0, 0});
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
 }
 
-// The exposure is centred on the frame's time, or begins at it with ShutterPosition::start. The dolly moves 0.3 m per
-// frame, and the node climbs 0.1 m per frame.
+// The exposure is centred on the frame's time. With ShutterPosition::start, it begins at that time. The dolly moves 0.3
+// m per frame, and the node rises 0.1 m per frame.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
@@ -117,7 +118,7 @@ TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     EXPECT_NEAR(moving.shutter.poses[0].worldFromNode[1][3].y, 1.475, 1e-6);
     EXPECT_NEAR(moving.pose.worldFromNode[1][3].y, 1.5, 1e-6);
     EXPECT_NEAR(moving.shutter.poses[1].worldFromNode[1][3].y, 1.525, 1e-6);
-    EXPECT_TRUE(frame(shot, 40).view.shutterCameras.empty());  // the dolly has arrived
+    EXPECT_TRUE(frame(shot, 40).view.shutterCameras.empty());  // the dolly has ended, so the camera stands still
 
     base_.shutter.position = ShutterPosition::start;
     EXPECT_NEAR(frame(shot, 15).pose.worldFromNode[1][3].y, 1.525, 1e-6);
@@ -144,7 +145,7 @@ TEST_F(FrameSequence, focusFollowsNodesAndPullsInDioptres) {
                  Error);
 }
 
-// The node of a focus key may lie behind the camera at frames that this key does not affect.
+// The node that a focus key names may lie behind the camera in frames that the key does not affect.
 TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     const char* shot =
         R"({"range": [0, 100], "camera": {"dolly": {"distance": 3, "frames": [50, 51]}}, "focus": {"keys": [
@@ -215,7 +216,7 @@ TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
     EXPECT_EQ(frame(shot, 99).view.lens.fStop, 4);
 }
 
-// Keys animate a method's settings as KHR_animation_pointer does; settings without keys stay constant.
+// Keys animate the settings of a method as KHR_animation_pointer does; settings without keys stay constant.
 TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
     const char* shot = R"({"method": "scheuermann", "methodKeys": {
         "near-blur-depth": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 2}], "interpolation": "linear"},
@@ -241,7 +242,8 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
 }
 
 TEST_F(FrameSequence, lensFollowsTheCamerasOwnValues) {
-    scene_.cameras[0].yfov = 2 * std::atan(0.375);  // tan(θx/2) = 0.5 at 4:3
+    // the yfov for which tan(θx/2) = 0.5 at an aspect ratio of 4:3; θx is the horizontal field of view
+    scene_.cameras[0].yfov = 2 * std::atan(0.375);
     scene_.cameras[0].lens = {{"fStop", 8}, {"focusDistance", 7}};
     EXPECT_EQ(frame("{}", 0).view.lens.fStop, 8);
     EXPECT_EQ(frame("{}", 0).view.lens.focusDistance, 7);
@@ -279,8 +281,8 @@ TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
     EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
 }
 
-// Exposure time and ISO are interpolated geometrically, and each frame is exposed by its own lens. An exposure in EV
-// applies to all frames.
+// Exposure time and ISO are interpolated geometrically, and the exposure of each frame follows from its lens. An
+// exposure in EV applies to all frames.
 TEST_F(FrameSequence, exposureFollowsTheLens) {
     const char* text = R"({"output": "x/####.png", "lens": {"fStop": 2, "iso": 400, "exposureTime":
         {"interpolation": "linear", "keys": [{"frame": 0, "value": 0.01}, {"frame": 2, "value": 0.04}]}}})";

@@ -23,7 +23,7 @@ TEST(Keyframes, linearIsStraight) {
     EXPECT_DOUBLE_EQ(valueAt(steps, Easing::linear, 22), 1);
 }
 
-// Smooth interpolation between two keys is 3t² − 2t³, t from 0 to 1.
+// Smooth interpolation between two keys is 3t² − 2t³, where t grows from 0 to 1 between the keys.
 TEST(Keyframes, smoothBetweenTwoKeysIsTheSmoothStep) {
     const std::vector<Key<double>> keys = {{10, 2}, {20, 6}};
     for (double t = 0; t <= 1; t += 0.125)
@@ -44,8 +44,8 @@ TEST(Keyframes, smoothNeverLeavesTheKeysAround) {
     EXPECT_EQ(valueAt(steps, Easing::smooth, 12.3), 4) << "equal keys hold";
 }
 
-// Smooth interpolation has the same slope on both sides of a key: the difference quotients agree within their error
-// O(h).
+// Smooth interpolation has the same slope on both sides of a key: the difference quotients for a step h agree within
+// their error O(h).
 TEST(Keyframes, smoothHasNoKinks) {
     const double h = 1e-5;
     for (std::size_t i = 1; i + 1 < steps.size(); ++i) {

@@ -56,7 +56,8 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     for (const char* name : {"shots/fish-pull.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
 }
 
-// Settings beside a preset override the preset's values in any order, because members of a JSON object are unordered.
+// Settings beside a preset override the preset's values regardless of their order, because members of a JSON object are
+// unordered.
 TEST(ShotJson, whatIsGivenBesideAPresetWins) {
     for (const char* text :
          {R"({"preset": "jeong2011", "sequence": "r2"})", R"({"sequence": "r2", "preset": "jeong2011"})"}) {
@@ -86,8 +87,8 @@ TEST(ShotJson, exposureIsANumberOrAuto) {
     EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
 }
 
-// A shot with positions or distances is in metres unless it names another unit. For a shot without lengths, the scene's
-// unit is guessed.
+// Positions and distances in a shot are in metres unless the shot names another unit. If a shot has no lengths, the
+// scene's unit is guessed.
 TEST(ShotJson, lengthsInAShotAreMetres) {
     const auto unitsOf = [](const char* text) {
         Shot shot = parseShot(text, "x.json");

@@ -1,5 +1,5 @@
-// The published schema and the parser accept and reject the same variations of a complete shot. The Schema class below
-// implements the keywords that the schema uses (JSON Schema 2020-12) and fails for all others.
+// Tests that the published schema and the parser accept and reject the same variations of a complete shot. The class
+// Schema implements the keywords that the schema uses (JSON Schema 2020-12) and fails for all other keywords.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ Schema publishedSchema() {
     return Schema(json::parse(file));
 }
 
-// Returns a shot with all keys that can be combined.
+// Returns a shot with every member that can be combined with the others.
 json fullShot() {
     return json::parse(R"({
         "$schema": "shot.schema.json", "fish": {"count": 3, "triangles": 900}, "environment": "sky.hdr",
@@ -128,7 +128,7 @@ std::string parserFault(const json& shot) {
     return "";
 }
 
-// Returns whether a fault is one that no schema can express: the order of numbers or an unknown method name.
+// Returns whether the fault is of a kind that no schema can express: the order of numbers, or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
     for (const char* part : {"a frame after the previous key", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
@@ -307,7 +307,7 @@ TEST(ShotSchema, eachPropertySaysWhatItIsAndWhatItMayBe) {
     const Schema schema = publishedSchema();
     std::size_t properties = 0;
     eachProperty(schema.root(), "", [&](const std::string& place, const json& property) {
-        // The property describes itself or refers to a definition that does.
+        // The property has a description, or refers to a definition that has one.
         json told = property;
         if (const auto reference = property.find("$ref"); reference != property.end()) {
             told = schema.root().at(json::json_pointer(reference->get<std::string>().substr(1)));

@@ -1,4 +1,4 @@
-// Every input error yields one line on stderr and a nonzero exit code, and leaves no file behind.
+// Tests that each input error prints one line on stderr, gives a nonzero exit code and leaves no file behind.
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -27,7 +27,8 @@ protected:
         writeTwoQuads(folder() / "quads.gltf");
     }
 
-    // Expects that `defocus render` with `arguments` fails before it writes a file, with one line that contains `part`.
+    // Expects that `defocus render` with `arguments` fails before it writes a file, and prints one line that contains
+    // `part`.
     void expectFault(int exitCode, const std::string& part, std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), {"render", "quads.gltf"});
         const Outcome outcome = run(arguments);
@@ -37,8 +38,8 @@ protected:
         EXPECT_EQ(fileCount(), 1u);
     }
 
-    // Expects that `plan` and `info` either refuse the file with one line that contains its name, or succeed with
-    // output. Returns whether `info` refuses.
+    // Expects that `plan` and `info` either reject the file with one line that contains its name, or succeed and print
+    // output. Returns whether `info` rejects the file.
     bool expectRefusedOrLoaded(const fs::path& model) const {
         SCOPED_TRACE(model);
         bool refused = false;
@@ -74,7 +75,7 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
     expectFault(2, "--blades", {"--blades", "1"});
     expectFault(2, "--blades", {"--blades", "2"});
-    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // the focus plane would contain the view axis
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // a focus plane at 90° contains the view axis
     expectFault(2, "--focus-swing", {"--focus-swing=-90"});
     expectFault(2, "--exposure-time", {"--exposure-time=-1"});
     expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
@@ -93,7 +94,8 @@ TEST_F(BadInput, valuesOutOfRange) {
 
 TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
-    expectFault(2, "no settings", {"--taps", "16"});  // --taps belongs to scheuermann, but the method is accumulation
+    // --taps is a setting of method scheuermann, but the method is accumulation
+    expectFault(2, "no settings", {"--taps", "16"});
     expectFault(2, "far-components must be an integer from 1 to 9", {"--method", "circular", "--far-components", "10"});
     expectFault(2, "storage must be one of", {"--method", "circular:storage=double"});
     expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});
@@ -180,8 +182,8 @@ TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
 TEST_F(BadInput, focusPlanesThatNoLensHas) {
     expectFault(1, "line", {"--focus-points", "512,160,512,170,512,180"});
     expectFault(1, "no surface", {"--focus-points", "0,767,512,170,512,180"});
-    // All three points lie 0.3 m above the view axis, one on the near quad and two on the far quad: their plane is
-    // parallel to the axis.
+    // All three pixels show points 0.3 m above the view axis: one on the near quad and two on the far quad. The plane
+    // through these points is parallel to the axis.
     expectFault(1, "view axis", {"--focus-points", "512,170,956,330,832,330"});
     expectFault(2, "--focus-points", {"--focus-points", "1,2,3,4"});
 }
@@ -252,7 +254,7 @@ TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
     Image image(4, 2, 3);
     *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
     writeImage(folder() / "nan.exr", image);
-    // NaN texels become black. The environment therefore loads, and the error is the unknown node.
+    // NaN texels become black. The environment map therefore loads, and the only error is the unknown node.
     const Outcome black = run({"render", "quads.gltf", "--environment", "nan.exr", "--focus-node", "None"});
     EXPECT_NE(black.err.find("None"), std::string::npos) << black.err;
     EXPECT_EQ(black.err.find("nan.exr"), std::string::npos) << black.err;
@@ -304,7 +306,7 @@ TEST_F(BadInput, devicesAndPipesAreNoFiles) {
     }
 }
 
-// An output never overwrites an input, and two outputs with the same name are refused.
+// An output never overwrites an input, and two outputs with the same name are rejected.
 TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
     const std::string scene = textOf(folder() / "quads.gltf");
     expectOneLine(run({"render", "quads.gltf", "-o", "a.png", "--stats", "quads.gltf"}), 1);
@@ -316,7 +318,8 @@ TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
     EXPECT_FALSE(fs::exists(folder() / "a.png") || fs::exists(folder() / "a.exr"));
 }
 
-// Options of other programs lead to the option that does the same here, and parts of names to the full name.
+// For an option of another program, the message suggests the option with the same purpose. For a part of a name, it
+// suggests the full name.
 TEST_F(BadInput, foreignOptionsAndPartsOfNamesAreUnderstood) {
     const std::map<std::string, std::string> known = {{"--aperture", "--fstop"}, {"--focus", "--focus-distance"},
                                                       {"--width", "--size"},     {"--height=3", "--size"},
@@ -334,8 +337,8 @@ TEST_F(BadInput, switchesTakeNoValue) {
         expectFault(2, std::string(word).substr(0, std::string(word).find('=')), {word});
 }
 
-// An aperture image that the scene names must be a regular file inside the scene's folder: pipes, devices and outside
-// paths are refused.
+// An aperture image that the scene names must be a regular file inside the scene's folder: pipes, devices and paths
+// outside the folder are rejected.
 TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
     fs::create_directory(folder() / "scenes");
     writeImage(folder() / "outside.png", Image(4, 4, 3));
@@ -360,7 +363,8 @@ TEST_F(BadInput, shaderFolderThatIsNone) {
     expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
 }
 
-// The exit code is correct even if stderr is closed or full. A closed or full standard output is an error.
+// The exit code is correct even if stderr is closed or its device is full. If standard output is closed or its device
+// is full, the program fails.
 TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     const auto exitCode = [&](const std::string& words) {
         const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
@@ -379,7 +383,7 @@ TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// A hostile file either loads or is refused with a line that names it; the program never crashes.
+// The program either loads a hostile file or rejects it with a line that names the file; it never crashes.
 TEST_F(BadInput, hostileModels) {
     DEFOCUS_MODEL_OR_SKIP(models, "invalid");
     for (const fs::directory_entry& entry : fs::directory_iterator(models)) {
@@ -389,8 +393,8 @@ TEST_F(BadInput, hostileModels) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// No damage to a model file crashes the program: copies of a fish are truncated at many lengths, and each word of their
-// headers is changed.
+// No damaged model file crashes the program. The test truncates copies of a fish at many lengths and changes each word
+// of their headers.
 TEST_F(BadInput, damagedCopiesOfAModel) {
     const std::string full = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
     ASSERT_GT(full.size(), 10'000u);

@@ -1,5 +1,5 @@
 #pragma once
-// Replaces a forked process by the program, for tests that kill, trace or run many programs at once.
+// Replaces a forked process with the program, for tests that kill, trace or run many programs at once.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Replaces a forked process by the program. The program runs in `folder`, keeps its caches in `caches`, and writes to
+// Replaces a forked process with the program. The program runs in `folder`, keeps its caches in `caches`, and writes to
 // the file descriptors `out` and `error`. Never returns.
 [[noreturn]] inline void becomeProgram(std::vector<std::string> words, const std::filesystem::path& folder,
                                        const std::filesystem::path& caches, int out, int error) {

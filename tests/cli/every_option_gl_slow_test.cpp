@@ -1,7 +1,7 @@
 // Every setting that a command offers has the effect that the table of settings names: on the linear image, only on PNG
 // and JPEG, or only on time and memory. Commands without an image must print or measure something else. A setting
-// without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single commands;
-// tests/view covers the window.
+// without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single commands,
+// and tests/view covers the viewer.
 
 #include <functional>
 
@@ -13,11 +13,11 @@ namespace {
 using nlohmann::json;
 using Folder = std::filesystem::path;
 
-// The observable results of a command.
+// The observable results of one run of a command.
 struct Results {
-    std::string pixels;   // the linear image; empty for commands that draw none
+    std::string pixels;   // values of the linear image; empty for commands that render no image
     std::string display;  // the PNG
-    std::string other;    // text, rows or statistics without times
+    std::string other;    // printed text, rows or statistics, without times
     bool operator==(const Results&) const = default;
 };
 
@@ -36,7 +36,8 @@ Results printedPyramids(const Folder&, const Outcome& outcome) {
     return {{}, {}, withoutTimes(json::parse(outcome.out)).dump()};
 }
 
-// Returns "limited " for the memory limit that option_cases.h sets, else "". The default limit depends on free memory.
+// Returns "limited " for the memory limit that option_cases.h sets, else "", since the default limit depends on free
+// memory.
 std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
@@ -99,7 +100,7 @@ const std::vector<Watched>& watched() {
 
 class EveryOption : public OptionTest {
 protected:
-    // Returns the results of a command line, which runs only once however many options are compared with it.
+    // Returns the results of a command line. Each line runs only once, even if several options are compared with it.
     const Results& resultsOf(const Watched& command, const Words& line) {
         const auto known = results_.find(line);
         return known != results_.end() ? known->second
@@ -137,8 +138,9 @@ private:
     std::map<Words, Results> results_;
 };
 
-// Returns the effect that the setting's case must have. The table gives `preset` and `timeLimit` the effect `run`, but
-// here both change pixels: a preset sets other settings, and a time limit draws fewer samples.
+// Returns the effect that the setting's case must have. The table of settings says that `preset` and `timeLimit` only
+// affect the run. Here both change pixels: a preset sets other settings, and a time limit reduces the number of
+// samples.
 SettingEffect effectOf(const Setting& setting) {
     const bool drawsOtherwise = setting.name == "preset" || setting.name == "timeLimit";
     return drawsOtherwise ? SettingEffect::pixels : setting.effect;
@@ -167,9 +169,10 @@ class EverySetting : public EveryOption, public testing::WithParamInterface<Aske
 TEST_P(EverySetting, hasItsEffect) {
     const auto& [command, group] = GetParam();
     for (const Setting* setting : settingsOffered(command->line.name, group)) {
-        // A time limit ends a capture between two frames (capture_gl_test.cpp), but this shot has one frame.
+        // A time limit ends a capture between two frames (capture_gl_test.cpp), so it has no effect on this shot of one
+        // frame.
         if (setting->name == "timeLimit" && command->line.name == "capture") continue;
-        // These scenes have no damaged parts, so that --strict refuses nothing (load_scene_test.cpp).
+        // These scenes have no damaged parts, so --strict rejects nothing (load_scene_test.cpp tests it).
         if (setting->name == "strict") continue;
         expectEffect(*command, setting->name, settingCases().at(setting->name), effectOf(*setting));
     }
@@ -200,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([
 
 class EveryCommand : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
-// Each command repeats its results. Otherwise a difference between two runs would prove nothing.
+// Each command gives the same results in a second run. Otherwise, a difference between two runs would prove nothing.
 TEST_P(EveryCommand, repeatsItsResults) {
     const Words line = lineOfCase(GetParam()->line, "", {}, false);
     EXPECT_TRUE(newResults(*GetParam(), line) == newResults(*GetParam(), line)) << GetParam()->line.name;

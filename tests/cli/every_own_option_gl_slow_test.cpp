@@ -1,5 +1,5 @@
-// Every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the settings. Each
-// option of each command has a case in one of the two files.
+// Tests that every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the
+// settings. Each option of each command has a case in one of the two files.
 
 #include <set>
 
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 // ---- every option has a case ----------------------------------------------------------------------------------------
 
-// Options that have a test of their own, below if no file is named.
+// Options that have their own test, in this file if no other file is named.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",
@@ -60,7 +60,7 @@ TEST(OptionsOfAllCommands, haveACase) {
                 EXPECT_TRUE(settingCases().contains(setting->name)) << name;
             else if (const MethodSetting* ofMethod = methodSettingOf(*option))
                 EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << name;
-            else if (command != "view")  // tests/view covers the window
+            else if (command != "view")  // tests/view covers the viewer
                 own.insert(name);
         }
     for (const std::string& option : own)
@@ -103,7 +103,7 @@ protected:
                 text += withoutTimes(result.at("rows")).dump() + std::to_string(result.value("runs", 0));
             }
         }
-        if (line.front() == "bench") return text;  // the bench's table contains times
+        if (line.front() == "bench") return text;  // the printed table contains times, so it is not compared
         static const std::regex times("[0-9.]+ m?s\\b|\"buildSeconds\": [0-9.e-]+");
         text += std::regex_replace(outcome.out, times, "");
         return text + (outcome.err.find("from earlier runs") != std::string::npos ? "kept" : "");
@@ -183,8 +183,8 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
     }
 }
 
-// A bench that was built from changed sources refuses to write results without --allow-changed. The test checks the
-// build at hand, whether its sources are changed or not.
+// A bench that was built from changed sources refuses to write results without --allow-changed. The test works for
+// builds from changed and from unchanged sources.
 TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
@@ -198,11 +198,11 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// `bench scaling` runs the axis that --axes names; this one takes seconds. --large needs the triangle axis, which takes
-// minutes, so only its error and its larger number of points are checked.
+// `bench scaling` runs the axis that --axes names; the axis "blur" takes seconds. --large needs the triangle axis,
+// which takes minutes. Therefore only the error without that axis and the larger number of points are checked.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
-    // The default of --runs is three.
+    // Without the option, --runs is three.
     ASSERT_EQ(run(joined(line, {"--runs", "1", "-o", "rows"})).exitCode, 0);
     ASSERT_EQ(run(joined(line, {"--runs", "1", "--report", "page"})).exitCode, 0);
     for (const char* made : {"rows", "page"}) {
@@ -217,7 +217,8 @@ TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     EXPECT_GT(scalingPoints(ScalingAxis::triangles, true).size(), scalingPoints(ScalingAxis::triangles, false).size());
 }
 
-// `bench stability` checks its output file before the first case, since all cases together take minutes.
+// `bench stability` checks whether it can write its output file before the first case, since all cases together take
+// minutes.
 TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
     for (const Words& output : std::vector<Words>{{"-o", "ball.glb/none.json"}, {"--report", "ball.glb/none"}}) {
         const Outcome outcome = run(joined({"bench", "stability", "--allow-changed"}, output));

@@ -1,4 +1,4 @@
-// Clip, time and shutter of an animation on the command line: defocus plan --json.
+// Tests of the clip, time and shutter of an animation on the command line, with `defocus plan --json`.
 
 #include <nlohmann/json.hpp>
 
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// Returns a glTF file with a square that recedes from 2 m to 6 m in 4 s. A second clip holds the square at 3 m.
+// Returns a glTF file with a square that recedes from 2 m to 6 m in 4 s. In a second clip, the square stays at 3 m.
 std::string movingSquare() {
     GltfBuilder builder;
     const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});

@@ -1,5 +1,5 @@
-// Faults of the system never destroy a complete file or leave a partial one under its final name. The program reports
-// each fault in one line.
+// Tests that system faults never destroy a complete file or leave a partial file under its final name, and that the
+// program reports each fault in one line.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 class Faults : public Capture {
 protected:
-    // Replaces a forked process by the program. `environment` selects the faults (tests/faults/faults.cpp).
+    // Replaces a forked process with the program. `environment` selects the faults (tests/faults/faults.cpp).
     void become(Words words, const std::vector<std::pair<std::string, std::string>>& environment = {},
                 int out = -1) const {
         const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);
@@ -57,7 +57,7 @@ protected:
         EXPECT_NE(text.find(about), std::string::npos) << text;
     }
 
-    // Runs the command `words` repeatedly and kills each run before a random call that writes into the folder
+    // Runs the command `words` repeatedly and kills each run before a random system call that writes into the folder
     // `writesInto`. Calls `look` after each run.
     template <typename Look>
     void killed(const Words& words, const std::string& writesInto, const Look& look) const {
@@ -70,7 +70,8 @@ protected:
         std::mt19937 random(11);
         for (int i = 0; i < kills; ++i) {
             TracedChild child = traced(words, writesInto);
-            // Fewer writes occur if the cache already has the pyramids; the child then ends by itself with exit code 0.
+            // If the cache already has the pyramids, the child makes fewer writes and may end by itself with exit code
+            // 0.
             const int code = child.end(std::uniform_int_distribution(1, calls)(random), SIGKILL);
             ASSERT_TRUE(code == 128 + SIGKILL || code == 0) << code << said();
             look();
@@ -103,7 +104,7 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
     }
 }
 
-// A program that is killed leaves each pyramid file in the cache complete or absent.
+// Killing the program leaves each pyramid file in the cache either complete or absent.
 TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
     std::set<std::string> complete;
     const auto clear = [&] { fs::remove_all(cacheFolder()); };
@@ -137,7 +138,8 @@ TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
            });
 }
 
-// A bench that is killed while its child process draws the plots leaves the previous report page or a complete new one.
+// If a bench is killed while its child process draws the plots, the folder has the previous report page or a complete
+// new one.
 TEST_F(Faults, aReportThatIsKilledIsWhole) {
     if (std::system("python3 -c 'import matplotlib, PIL' 2>/dev/null || "
                     "/usr/bin/python3 -c 'import matplotlib, PIL' 2>/dev/null") != 0)
@@ -165,13 +167,13 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         }
         ::setpgid(child, child);
         std::this_thread::sleep_for(lasts * std::uniform_real_distribution(0.1, 1.0)(random));
-        ::kill(-child, SIGKILL);  // the process group includes the plotting process
+        ::kill(-child, SIGKILL);  // kills the process group, which includes the plotting process
         int status = 0;
         ::waitpid(child, &status, 0);
         if (WIFSIGNALED(status))
             ++killed;
         else
-            // this run was faster than the first, which may have scanned for fonts or waited for a busy machine
+            // this run ended before the kill: the first run may have scanned for fonts or waited for a busy machine
             lasts /= 2;
         EXPECT_TRUE(complete() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {
@@ -186,8 +188,8 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
 }
 
-// A render that a signal stops prints one line and leaves no file. The complete render would take minutes; its first
-// progress line comes after a second.
+// A render that is stopped by a signal prints one line and leaves no file. The complete render would take minutes; its
+// first progress line comes after a second.
 TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
     for (const int signal : {SIGTERM, SIGINT}) {
         fs::remove(folder() / "said");
@@ -234,7 +236,8 @@ TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
     }
 }
 
-// Mesa maps the index of its shader cache. Without room for the index, writing to it would end the program by SIGBUS.
+// Mesa maps the index of its shader cache into memory. If the disk has no room for the index, a write to the mapping
+// would end the program by SIGBUS.
 TEST_F(Faults, aFullDiskUnderTheShaderCacheIsNoCrash) {
     fs::create_directory(folder() / "small");
     std::ofstream(folder() / "inside.sh")
@@ -311,8 +314,8 @@ TEST_F(Faults, aClockThatGoesBackChangesNothing) {
         << said();
 }
 
-// If the driver runs out of memory at any of its allocations, the program prints one line and keeps the finished
-// frames.
+// If one of the driver's memory allocations fails, whichever one it is, the program prints one line and keeps the
+// finished frames.
 TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     const Words film = {"capture", "shot.json", "--quiet", "--range", "0:7", "--resume"};
     ASSERT_EQ(run({"capture", "shot.json", "--quiet", "--range", "0:7", "-o", "whole/####.exr"}).exitCode, 0);
@@ -336,8 +339,7 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     EXPECT_GT(partly, 0) << "some runs must fail after the first frames";
 }
 
-// The program names each extension that the driver lacks, both where a fallback renders the picture and where no
-// fallback exists.
+// The program names each extension that the driver lacks, whether or not a fallback can render the image.
 TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "GPU drivers lack other extensions";
     const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
@@ -358,8 +360,8 @@ TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
 
 #endif
 
-// A read-only output folder yields one line and no crash. The folder is mounted read-only, since file permissions do
-// not stop root.
+// A read-only output folder yields one error line and no crash. The folder is mounted read-only, since file
+// permissions do not stop root.
 TEST_F(Faults, aReadOnlyFolderIsOneLineAndNeverACrash) {
     fs::create_directory(folder() / "locked");
     writeImage(folder() / "locked/0.exr", Image(3, 2, 4));

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program on machines with OpenGL; elsewhere the tests skip and print the reason.
+// Runs the program on machines with OpenGL. On other machines, the tests are skipped and print the reason.
 
 #include "cli/program.h"
 #include "core/error.h"
@@ -16,8 +16,8 @@ protected:
     }
 
 private:
-    // Returns why no OpenGL context can be created; empty on success. A child process makes the attempt, so that a
-    // crash of the driver does not end the tests.
+    // Returns the reason why no OpenGL context can be created; empty on success. A child process tries to create the
+    // context, so a crash of the driver does not end the tests.
     static std::string whyNoContext() {
         int ends[2];
         if (::pipe(ends) != 0) return "no pipe";

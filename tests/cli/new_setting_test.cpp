@@ -1,4 +1,4 @@
-// A row added to the table of settings appears in every interface without further edits.
+// Tests that a row added to the table of settings appears in every interface without further edits.
 
 #include <gtest/gtest.h>
 
@@ -39,11 +39,11 @@ Setting newSetting() {
     return setting;
 }
 
-// Must run in a child process: other tests of this process compare the table of settings with its documentation.
+// Runs in a child process, because other tests of this process compare the table of settings with its documentation.
 void checkNewSetting() {
     addSetting(newSetting());
 
-    // Command line and help.
+    // The setting on the command line and in its help.
     Request request;
     CLI::App command;
     addSettings(command, request, settingsOf({SettingGroup::samples}));
@@ -52,7 +52,7 @@ void checkNewSetting() {
     EXPECT_EQ(settingNamed("newSetting")->text(request), "4");
     EXPECT_THROW(command.parse("--new-setting 4 --seed 1", false), CLI::ExcludesError);
 
-    // Shots and their schema.
+    // The setting in shots and in their schema.
     const Shot shot = parseShot(R"({"newSetting": 5})", "shot.json");
     EXPECT_TRUE(shot.given.contains("newSetting"));
     EXPECT_EQ(settingNamed("newSetting")->text(shot.request), "5");
@@ -61,7 +61,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
 
-    // settingInfos() is the source of Python's keywords and of the window's rows.
+    // settingInfos() provides the keyword arguments of Python and the rows of the viewer.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());

@@ -1,6 +1,6 @@
 #pragma once
-// For every setting of the table and of the methods: a value that must change what a command prints, draws or measures.
-// Also builds the small scene of these cases.
+// For every setting of the program and of the methods: a value that must change a command's text, image or
+// measurements. Also builds the small scene of these cases.
 
 #include <algorithm>
 #include <filesystem>
@@ -25,20 +25,21 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// `words`: the option with its value. `with`: further options that it needs, as far as the command has them. `against`:
-// the same option with another value to compare with; empty: compares with a line without the option.
+// `words`: the option with its value. `with`: further options that the case needs; a command uses those that it has.
+// `against`: the same option with another value to compare with. If empty, the comparison is with a line without the
+// option.
 struct OptionCase {
     Words words;
     Words with;
-    bool still = false;  // uses a fish of the school instead of the moving ball
+    bool still = false;  // whether the scene is a fish of the school instead of the moving ball
     Words against = {};
 };
 
 namespace option_cases {
 
-// Returns a glTF file: a ball of 700 triangles recedes within 2 s and turns right half-way, in front of a board. A
-// second clip holds the ball still. A second camera is closer and has its own focus distance. With `lamp`, a lamp above
-// lights the scene; with `pane`, the board is a glass pane.
+// Returns a glTF file: in front of a board, a ball of 700 triangles recedes within 2 s and turns right half-way. In a
+// second clip, the ball stands still. A second camera is closer and has its own focus distance. With `lamp`, a lamp
+// above lights the scene; with `pane`, the board is a glass pane.
 inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
@@ -91,15 +92,15 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Returns options for cases of settings that only `method` has: they select the method and a wide aperture.
+// Returns options for cases of settings that only `method` has: the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }
 
 }  // namespace option_cases
 
-// Writes the files that the cases name: ball.glb, lamp.glb (the ball with a lamp), pane.glb (the ball before a pane),
-// sky.hdr and half.png.
+// Writes the files that the cases use: ball.glb, lamp.glb (the ball with a lamp), pane.glb (the ball in front of a
+// pane), sky.hdr and half.png.
 inline void writeOptionScene(const std::filesystem::path& folder) {
     GltfBuilder::save(folder / "ball.glb", option_cases::movingBall(false));
     GltfBuilder::save(folder / "lamp.glb", option_cases::movingBall(true));
@@ -107,14 +108,15 @@ inline void writeOptionScene(const std::filesystem::path& folder) {
     Image sky(8, 4, 3);
     for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
     writeImage(folder / "sky.exr", sky);
-    std::filesystem::rename(folder / "sky.exr", folder / "sky.hdr");  // readers detect the format by content
+    // Readers detect the format by the file's content, not its name.
+    std::filesystem::rename(folder / "sky.exr", folder / "sky.hdr");
     Image half(8, 8, 1);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 4; ++x) *half.at(x, y) = 1;
     writeImage(folder / "half.png", half);
 }
 
-// Cases by the setting's name in the table of settings.
+// Cases of settings, keyed by the setting's name in the table of settings.
 inline const std::map<std::string, OptionCase>& settingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -209,7 +211,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     return table;
 }
 
-// Cases of method settings, by the setting's name.
+// Cases of method settings, keyed by the setting's name.
 inline const std::map<std::string, OptionCase>& methodSettingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -273,7 +275,7 @@ inline std::string nameOf(const CLI::Option& option) {
     return option.get_single_name();
 }
 
-// Returns all options of a command except its help options.
+// Returns all options of a command except the options that print help.
 inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
     std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });
@@ -297,12 +299,12 @@ inline Words methodSettingsOffered(const std::string& command) {
     return names;
 }
 
-// A command, and the arguments that all of its tested lines share.
+// A command, and the arguments that all of its tested command lines share.
 struct CommandLine {
     std::string name;
     Words command;
-    Words ball = {"ball.glb"};  // selects the ball scene
-    // selects the school of fish, by options or by the name of a shot
+    Words ball = {"ball.glb"};  // arguments that select the scene with the ball
+    // arguments that select the school of fish: options, or the name of a shot
     Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";
     Words rest;
@@ -322,7 +324,7 @@ inline Words taken(const std::string& command, const Words& words) {
     return result;
 }
 
-// Returns the command line for a case's scene, with or without the case's option.
+// Returns the command line for the scene of a case, with or without the option under test.
 inline Words lineOfCase(const CommandLine& given, const std::string& name, const OptionCase& tried, bool with) {
     Words line = given.command;
     const auto add = [&](const Words& words) { line.insert(line.end(), words.begin(), words.end()); };
@@ -348,7 +350,7 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
     const std::string scene = name == "lightRadius" ? "lamp" : name == "transparency-buckets" ? "pane" : "ball";
     for (std::string& word : line)
         if (word.starts_with("ball.")) word.replace(0, 4, scene);
-    // The school of fish has no camera "Near".
+    // The school of fish has no camera named "Near".
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
     return line;

@@ -1,6 +1,6 @@
 #pragma once
-// For each option that belongs to a single command: two command lines that differ by this option. option_cases.h has
-// the settings of the table and of the methods.
+// For each option that belongs to a single command: two command lines that differ only by this option. option_cases.h
+// has the program's settings and the methods' settings.
 
 #include "cli/option_cases.h"
 
@@ -8,13 +8,13 @@ namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
-    Words more = {};                 // further options of both lines
-    Words without = {};              // options of the usual line that both lines omit
-    std::vector<Words> before = {};  // lines that run first
+    Words more = {};                 // further options that both command lines have
+    Words without = {};              // options of the command's usual line that both lines omit
+    std::vector<Words> before = {};  // command lines that run before
 };
 
-// A command line that runs quickly for each command, without the command's name. Options of a case replace the same
-// options here.
+// For each command, a command line that runs quickly, without the command's name. Options of a case replace the same
+// options of this line.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};
@@ -50,7 +50,7 @@ inline Words usualLine(const std::string& command) {
     return found == usualLines().end() ? line : joined(line, found->second);
 }
 
-// Removes an option and the words after it, up to the next option.
+// Removes an option and its values, which are all words up to the next option.
 inline Words withoutOption(Words line, const std::string& option) {
     const auto begin = std::ranges::find(line, option);
     if (begin == line.end()) return line;
@@ -58,8 +58,8 @@ inline Words withoutOption(Words line, const std::string& option) {
     return line;
 }
 
-// Returns the command line of a case. A case whose name has no dash, "A" or "SHOT", is a positional argument and gives
-// all words of the line.
+// Returns the command line of a case, with or without its option. A case whose name has no dash, such as "A" or "SHOT",
+// is a positional argument and gives all words of the line.
 inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& tried, bool with) {
     Words line = usualLine(command);
     for (const std::string& option : tried.without) line = withoutOption(line, option);
@@ -71,7 +71,7 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// Cases by command and option, such as "render -o". Keys of the program's own options begin with a space.
+// Cases, keyed by command and option, such as "render -o". Keys of the program's own options begin with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),

@@ -21,7 +21,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double levelShareMax = 0.25;
-constexpr double maxPop = 1.5 / 255;  // display values, root mean square over the objects' pixels
+constexpr double maxPop = 1.5 / 255;  // max RMS change of display values over the objects' pixels
 
 class NoPopping : public testing::Test {
 protected:
@@ -45,8 +45,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // Size-based levels with the thresholds for 32 samples: coarse enough for visible changes, and independent of
-        // the sample count.
+        // Selects levels by size, with the thresholds for 32 samples. The levels are coarse enough for visible changes
+        // and independent of the sample count.
         popping.plan.metric = LodMetric::size;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
@@ -68,7 +68,7 @@ protected:
         EXPECT_LT(fractional, maxPop);
     }
 
-    // Expects no popping in the eight frames with the most level changes of a movement of 480 frames (20 s).
+    // Expects no popping in a movement of 480 frames (20 s), in the eight frames with the most level changes.
     void expectNoneAlong(Movement movement) const {
         PoppingOptions popping;
         popping.movements = {movement};
@@ -80,7 +80,7 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens.blurScale = 4;  // small image with the blur of a larger one
+        options_.lens.blurScale = 4;  // the same blur in pixels as in a larger image
     }
 
     // Sets up a fox of 576 triangles, 100 m long. Few pixels and strong blur make coarse levels visible.
@@ -126,8 +126,8 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
     expectNoneAlong(Movement::dolly);
 }
 
-// A walk cycle at 24 frames per second does not pop. The focus lies in front of the fox, and each stride changes the
-// distance of its nearest part, and so its blur and its level.
+// A walk cycle at 24 frames per second does not pop. The focus plane is in front of the fox. Each stride changes the
+// distance of the fox's nearest part, and therefore its blur and its level.
 TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);
@@ -137,7 +137,7 @@ TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     options_.focus = FocusDistance{125};
     PoppingOptions popping;
     popping.movements = {Movement::clip};
-    popping.clip = 1;  // Walk, 0.708 s
+    popping.clip = 1;  // clip 1 is Walk, 0.708 s
     popping.frames = 17;
     popping.pathFrames = 17;
     expectNone(popping, 128);

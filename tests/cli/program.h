@@ -19,13 +19,13 @@
 namespace defocus::engine {
 
 struct Outcome {
-    int exitCode = -1;  // 128 + number of the signal that ended it
+    int exitCode = -1;  // 128 + the signal's number if a signal ended the program
     std::string out;
-    std::string err;  // without progress lines
+    std::string err;  // stderr without progress lines
 };
 
-// Removes progress lines such as "pyramids: 65 %, 3 s left". Their number is random, since progress is printed only
-// after a second of work.
+// Removes progress lines such as "pyramids: 65 %, 3 s left". Their number varies from run to run, since progress is
+// printed only after a second of work.
 inline std::string withoutProgress(const std::string& text) {
     static const std::regex line("(frame [0-9]+(, [^\n]*)?|[a-z ]+): [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
     return std::regex_replace(text, line, "");
@@ -47,7 +47,8 @@ protected:
     // Working folder of the program; file names in its arguments are relative to this folder.
     [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
 
-    // Folder of the program's pyramids; outside folder(), so that pyramids do not count as output.
+    // Folder in which the program caches pyramids. It is outside folder(), so that cached pyramids do not count as
+    // output.
     [[nodiscard]] std::filesystem::path cacheFolder() const { return root_ / "caches" / "defocus"; }
 
     [[nodiscard]] std::size_t fileCount() const {
@@ -55,7 +56,7 @@ protected:
         return static_cast<std::size_t>(std::distance(Files(folder()), Files()));
     }
 
-    // Runs the program. Writes beyond a file size of `maxFileBytes` fail, as on a full disk; 0: no limit.
+    // Runs the program. Writes beyond a file size of `maxFileBytes` fail as on a full disk; 0 sets no limit.
     Outcome run(const std::vector<std::string>& arguments, std::size_t maxFileBytes = 0) const {
         const std::filesystem::path out = root_ / "stdout";
         const std::filesystem::path err = root_ / "stderr";
@@ -78,7 +79,7 @@ private:
     std::filesystem::path root_;
 };
 
-// Expects this exit code, and as the only output one line on stderr that begins with the program's name.
+// Expects this exit code and exactly one line of output, on stderr, that begins with the program's name.
 inline void expectOneLine(const Outcome& outcome, int exitCode) {
     EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -1,7 +1,8 @@
 #pragma once
 // Runs the program in forks of the test process. A fork skips the loading of hundreds of shared libraries, which takes
 // longer than most tests. Forks do not copy threads, and GL drivers, image readers and pyramid builds start threads in
-// the test process. Therefore a separate process without threads, forked before the first test, makes the forks.
+// the test process. Therefore the forks are made by a separate process without threads, which is forked before the
+// first test.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -26,15 +27,15 @@ struct ProgramRun {
     std::filesystem::path out;        // file for standard output
     std::filesystem::path err;        // file for standard error
     std::filesystem::path cacheHome;  // $XDG_CACHE_HOME
-    std::size_t maxFileBytes = 0;     // writes beyond it fail, as on a full disk; 0: no limit
+    std::size_t maxFileBytes = 0;     // max file size; writes beyond it fail as on a full disk; 0: no limit
     std::vector<std::string> arguments;
 };
 
 class ProgramCopies : public testing::Environment {
 public:
-    // Returns the status of waitpid(2), or −1 without a forking process.
+    // Returns the status of waitpid(2), or −1 if the process that makes the forks does not exist.
     static int run(const ProgramRun& program) {
-        std::string words;  // separated by NUL bytes
+        std::string words;  // all strings of the request, each followed by a NUL byte
         const auto add = [&words](const std::string& word) { words += word + '\0'; };
         for (const auto& path : {program.folder, program.out, program.err}) add(path.string());
         add(std::to_string(program.maxFileBytes));
@@ -53,7 +54,7 @@ public:
     void SetUp() override {
         int ends[2];
         ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
-        std::fflush(nullptr);  // otherwise each fork writes the buffered output again
+        std::fflush(nullptr);  // otherwise each fork would write the buffered output again
         const pid_t process = ::fork();
         ASSERT_GE(process, 0);
         if (process == 0) {
@@ -65,7 +66,7 @@ public:
         process_ = process;
     }
     void TearDown() override {
-        ::close(socket_);  // ends the forking process
+        ::close(socket_);  // closing the socket ends the process that makes the forks
         ::waitpid(process_, nullptr, 0);
         socket_ = -1;
     }

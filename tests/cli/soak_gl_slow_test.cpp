@@ -1,5 +1,5 @@
-// Long runs do not accumulate memory or handles, and concurrent programs do not disturb each other. scripts/soak runs
-// these tests with more rounds.
+// Tests that long runs do not accumulate memory or file descriptors, and that concurrent programs do not disturb each
+// other. scripts/soak runs these tests with more rounds.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -32,9 +32,9 @@ protected:
     }
 };
 
-// A long film does not grow in memory or open handles from frames 90 … 109 to the last 20 frames. The test compares the
-// median memory and the min number of handles at each write. Other files may be open at a write, so four extra handles
-// are allowed; a leak in every twentieth frame would add ten.
+// A long video does not increase memory or open file descriptors from frames 90 … 109 to the last 20 frames. The test
+// compares the median memory and the min number of descriptors at each write. Other files may be open during a write,
+// so four more descriptors are allowed; a leak in every twentieth frame would add ten.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();
@@ -73,7 +73,7 @@ TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     EXPECT_LT(fewestAfter, fewestBefore + 5);
 }
 
-// Eight programs that share a cache folder build or read the same pyramids, draw the same picture, and leave no
+// Eight programs that share a cache folder build or read the same pyramids, render the same image, and leave no
 // temporary file.
 TEST_F(Soak, eightProgramsShareACacheFolder) {
     for (int round = 0; round < roundsOr("DEFOCUS_SOAK_ROUNDS", 2); ++round) {

@@ -1,4 +1,4 @@
-// A signal or the time limit ends a render soon, even within a costly block of samples.
+// Tests that a signal or the time limit ends a render soon, even within a block of samples that takes long.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ protected:
         std::string said;
     };
 
-    // Runs the program. Sends `signal` `after` seconds; 0: never. `End::seconds` counts from the
-    // signal, or from the start of the program without a signal.
+    // Runs the program. Sends `signal` after `after` seconds; 0 sends no signal. `End::seconds` is the time from the
+    // signal to the end, or the duration of the program without a signal.
     [[nodiscard]] End ended(Words words, int signal = 0, double after = 0) const {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -47,7 +47,7 @@ protected:
                 Seconds(std::chrono::steady_clock::now() - begin).count(), withoutProgress(textOf(folder() / "said"))};
     }
 
-    // Runs a complete frame with one sample, so that the caches hold pyramids and shaders.
+    // Renders a complete frame with one sample, so that the caches contain the pyramids and shaders.
     void warmUp(Words words) const {
         words.insert(words.end(), {"--samples", "1", "-o", "warm.png"});
         ASSERT_EQ(run(words).exitCode, 0);
@@ -56,7 +56,7 @@ protected:
     const Words costly = {"render", "--quiet", "--size", "512x384", "--field-curvature", "1000"};
 };
 
-// On two cores, the frame takes minutes, and its first block half of that.
+// On two cores, the frame takes minutes, and its first block half of that time.
 TEST_F(Stopping, aSignalEndsARenderWithinASecond) {
     warmUp(costly);
     for (const int signal : {SIGINT, SIGTERM}) {
@@ -85,7 +85,7 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// The frame of 64 samples, a block, takes more than ten seconds.
+// Without a limit, the frame of 64 samples, which are one block, takes more than ten seconds.
 TEST_F(Stopping, theTimeLimitEndsABlock) {
     warmUp(costly);
     Words words = costly;

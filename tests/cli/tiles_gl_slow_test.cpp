@@ -1,5 +1,5 @@
-// A frame whose pixels exceed the memory limit is drawn in tiles. It has the bits of a frame without tiles, and memory
-// stays within the limit.
+// Tests that a frame whose pixels exceed the memory limit is drawn in tiles. It is bit-identical to a frame without
+// tiles, and memory stays within the limit.
 
 #include <algorithm>
 
@@ -11,11 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Renders frames that need tiles to stay within the memory limit.
+// Fixture that renders frames that exceed the memory limit without tiles.
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
-    // Without tiles, the pixels take 880 MB, of which a single layer takes 50 MB.
+    // Without tiles, the frame's pixels take 880 MB; a single layer takes 50 MB of these.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");
@@ -41,8 +41,8 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
 }
 
-// Meshes and the driver's copies of their triangles count towards the memory limit before they are allocated. The scene
-// has 400,000 triangles per layer and is drawn without tiles.
+// Meshes and the driver's copies of their triangles count towards the memory limit before the program allocates them.
+// The scene has 400,000 triangles per layer and is drawn without tiles.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
@@ -53,7 +53,7 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
-// A run with enough memory resumes from the tiles of a run with little memory.
+// A run with enough memory resumes from the tiles that a run with little memory has finished.
 TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
     fs::create_directory(folder() / "a.tiles");
     ASSERT_EQ(run(line({"--resume", "-o", "a.exr"})).exitCode, 0);
@@ -74,7 +74,7 @@ TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
     EXPECT_EQ(outcome.exitCode, 0) << enough << ": " << outcome.err;
 }
 
-// Frames of a film are also drawn in tiles, and their files have the same bytes as without tiles.
+// Frames of a sequence are also drawn in tiles, and their files are byte-identical to files drawn without tiles.
 TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     const auto film = [&](const std::string& name, std::vector<std::string> more) {
         more.insert(more.begin(), {"--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o", name + "/#.exr",

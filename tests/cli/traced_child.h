@@ -1,6 +1,6 @@
 #pragma once
-// Stops a child process at a chosen call that changes a file, by ptrace(2). Tests can thus act at a defined point of
-// the child's work, independent of time.
+// Stops a child process at a chosen system call that changes a file, by ptrace(2). Tests can thus act at a defined
+// point of the child's work, independent of timing.
 
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
@@ -20,8 +20,8 @@ namespace defocus::engine {
 
 class TracedChild {
 public:
-    // Forks a child that executes `run`. Counted calls are writes to files in folders named `folder`, and all renames
-    // of files. Calls of the driver's shader cache do not count.
+    // Forks a child that executes `run`. Counted system calls are writes to files in folders named `folder`, and all
+    // renames of files. Calls for the driver's shader cache do not count.
     TracedChild(const std::function<void()>& run, std::string folder) : folder_("/" + std::move(folder) + "/") {
         child_ = ::fork();
         if (child_ == 0) {
@@ -45,7 +45,7 @@ public:
     }
 
     [[nodiscard]] bool traced() const { return traced_; }  // false if the system does not allow tracing
-    [[nodiscard]] int calls() const { return calls_; }     // counted calls so far
+    [[nodiscard]] int calls() const { return calls_; }     // number of counted calls so far
 
     // Continues the child to its end. Sends `signal` to the child before counted call number `call` (1 is the first) is
     // executed. Calls `look` with the child's process id before each counted call, while the calling thread is stopped.
@@ -65,7 +65,7 @@ public:
                 if (++calls_ == call) ::kill(child_, signal);
                 if (look) look(child_);
             }
-            // ptrace's own signals are dropped; all others go to the child
+            // SIGTRAP and SIGSTOP come from ptrace and are dropped; all other signals go to the child
             const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;
             ::ptrace(PTRACE_SYSCALL, thread, nullptr, own ? 0 : static_cast<long>(reason));
         }
@@ -91,7 +91,7 @@ private:
         return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
     }
 
-    // Returns whether the path at `address` in the thread's memory lies in Mesa's shader cache.
+    // Returns whether the path at `address` in the thread's memory is inside Mesa's shader cache.
     static bool ofTheDriver(pid_t thread, std::uint64_t address) {
         std::ifstream memory("/proc/" + std::to_string(thread) + "/mem", std::ios::binary);
         memory.seekg(static_cast<std::streamoff>(address));

@@ -29,7 +29,7 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-// Returns the vertex positions of a unit square in the plane z = 0, as bytes: two triangles without indices.
+// Returns the vertex positions of a unit square in the plane z = 0 as bytes: two triangles without an index buffer.
 inline std::string unitSquare() {
     const std::array<float, 18> positions = {-.5f, -.5f, 0, .5f, -.5f, 0, .5f,  .5f, 0,
                                              -.5f, -.5f, 0, .5f, .5f,  0, -.5f, .5f, 0};

@@ -65,7 +65,7 @@ TEST_F(Files, uncommittedFileLeavesTheTargetAndNothingElse) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-// Temporary files of running processes are kept; those of killed processes are removed.
+// Temporary files of running processes are kept, and those of killed processes are removed.
 TEST_F(Files, onlyAbandonedTemporaryFilesAreRemoved) {
     const fs::path path = folder_ / "frame.exr";
     fs::path left;
@@ -116,7 +116,8 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
-// Files that the program names itself never lead elsewhere: a link, a link to nothing and a pipe are replaced.
+// The program never follows a link or pipe at a path that it chooses itself: a link, a broken link and a pipe are
+// replaced by a file.
 TEST_F(Files, ownFilesReplaceLinksAndPipes) {
     fs::create_directory(folder_ / "far");
     const fs::path victim = folder_ / "far" / "victim.txt";
@@ -163,8 +164,8 @@ TEST_F(Files, aPipeGetsAllBytesAndStaysAPipe) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-// A file written to the path of a device goes into the device. A rename would replace the device, for the whole system
-// if root runs the program.
+// Writing to the path of a device writes to the device. A rename would replace the device, for the whole system if the
+// program runs as root.
 TEST_F(Files, aDeviceStaysADevice) {
     if (!fs::is_character_file("/dev/null")) GTEST_SKIP() << "no /dev/null";
     writeFile("/dev/null", std::string_view("gone"));
@@ -176,7 +177,7 @@ TEST_F(Files, aDeviceStaysADevice) {
     EXPECT_NE(messageOf([] { writeFile("/dev/full", std::string_view("lost")); }).find("No space"), std::string::npos);
 }
 
-// A file written to the path of an open descriptor goes through the descriptor; the file behind it is not replaced.
+// Writing to the path of an open file descriptor writes to the descriptor; the file behind it is not replaced.
 TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
     const int descriptor = ::open((folder_ / "kept.txt").c_str(), O_CREAT | O_RDWR, 0600);
     ASSERT_GE(descriptor, 0);
@@ -224,7 +225,8 @@ TEST_F(Files, errorsNameThePathAndTheReason) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-// Devices and pipes are not read, because reading may block or never end. Descriptors that the shell passes are read.
+// Devices and pipes are not read, because reading them may block or never end. File descriptors that the shell passes
+// are read.
 TEST_F(Files, devicesAndPipesAreNotRead) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     fs::create_symlink("/dev/zero", folder_ / "link");
@@ -238,7 +240,7 @@ TEST_F(Files, devicesAndPipesAreNotRead) {
     ::close(ends[0]);
 }
 
-// Regular files below /dev, in a memory file system, are replaced like any other file.
+// Regular files below /dev, in a memory file system, are replaced like other files.
 TEST_F(Files, aFileBelowDevIsReplacedAsAnyOther) {
     const fs::path folder = fmt::format("/dev/shm/defocus-test-{}", ::getpid());
     std::error_code status;

@@ -1,4 +1,4 @@
-// Hashes of keys and checksums: regular changes in several words do not cancel out.
+// Tests of hashes of keys and checksums: regular changes in several words do not cancel out.
 
 #include "core/hash.h"
 
@@ -14,12 +14,13 @@ std::uint64_t hashOf(const std::vector<std::uint64_t>& words) {
     return hashBytes(std::as_bytes(std::span(words)));
 }
 
-// The hash is XXH3, with the library's test vectors. Stored keys stay valid only while the values do not change.
+// The hash is XXH3 and gives the values of the library's test vectors. If the values changed, stored keys would become
+// invalid.
 TEST(Hash, isXxh3) {
     EXPECT_EQ(hashBytes({}, 0), 0x2d06800538d394c2ull);
 }
 
-// Images and the school of fish are reproducible only while these values do not change.
+// Images and the school of fish are reproducible only as long as these values do not change.
 TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(fmix32(1), 0x514e28b7u);
     EXPECT_EQ(fmix32(0xffffffffu), 0x81f16f39u);
@@ -27,7 +28,7 @@ TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(lowbias32(0xffffffffu), 0x6768824au);
 }
 
-// All combinations of flipped signs have different hashes: among 10^5 random 64-bit values, a collision has a
+// All combinations of flipped signs have different hashes. Among 10^5 random 64-bit values, a collision would have a
 // probability below 3e-10.
 TEST(Hash, flippedSignsOfFloatsNeverCancel) {
     constexpr std::size_t floats = 16;
@@ -45,7 +46,7 @@ TEST(Hash, twoFlippedBitsNeverCancel) {
     std::set<std::uint64_t> hashes = {hashOf(words)};
     const std::size_t bits = 64 * words.size();
     for (std::size_t a = 0; a < bits; ++a)
-        for (std::size_t b = a + 1; b <= bits; ++b) {  // b == bits: only one flip
+        for (std::size_t b = a + 1; b <= bits; ++b) {  // for b == bits, only one sign is flipped
             words[a / 64] ^= 1ull << a % 64;
             if (b < bits) words[b / 64] ^= 1ull << b % 64;
             hashes.insert(hashOf(words));
@@ -75,7 +76,7 @@ TEST(Hash, zerosAndLengthsCount) {
     for (std::size_t length = 0; length <= zeros.size(); ++length)
         hashes.insert(hashBytes(std::span(zeros).first(length)));
     EXPECT_EQ(hashes.size(), zeros.size() + 1);
-    // The boundaries between successively hashed blocks matter: "ab" + "" differs from "a" + "b".
+    // The boundaries between blocks that are hashed one after the other matter: "ab" + "" differs from "a" + "b".
     const auto pieces = [&](std::size_t first) {
         return hashBytes(std::span(zeros).first(16 - first), hashBytes(std::span(zeros).first(first)));
     };

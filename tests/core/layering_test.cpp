@@ -1,4 +1,5 @@
-// Source layout: a folder includes only lower layers, and each third-party library is confined to its folders.
+// Tests the layout of the source: a folder includes only lower layers, and each third-party library is confined to its
+// folders.
 
 #include <gtest/gtest.h>
 
@@ -16,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Line {
-    std::string file;    // relative to src
+    std::string file;    // path relative to src
     std::string folder;  // layer that contains the file, e.g. "lod/simplify"
     int number = 0;
     std::string text;
 };
 
 // Returns the layer of a file: "lod/simplify" for "lod/simplify/weld.h", "render" for "render/circular/circular.h".
-// Only layers of lod and view are two folders deep.
+// Only the names of layers in lod and view consist of two folders.
 std::string moduleOf(const std::string& path) {
     const std::string first = path.substr(0, path.find('/'));
     return first == "lod" || first == "view" ? path.substr(0, path.rfind('/')) : first;
@@ -48,7 +49,7 @@ std::string where(const Line& line) {
     return line.file + ":" + std::to_string(line.number) + ": " + line.text;
 }
 
-// Returns the layers from the bottom up, with the other layers that each layer may include.
+// Returns the layers from the bottom up. For each layer, the list contains the other layers that it may include.
 const std::map<std::string, std::vector<std::string>>& allowed() {
     static const std::map<std::string, std::vector<std::string>> table = [] {
         std::map<std::string, std::vector<std::string>> modules = {
@@ -71,7 +72,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
-        modules["stability"] = {};  // in bench/stability; only a command includes it
+        modules["stability"] = {};  // the folder is bench/stability; only a command includes it
         addOver("capture", "frame", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
@@ -82,7 +83,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
         addOver("cli", "view/window", {"eval", "stability"});
-        modules["frame"].emplace_back("school");  // only frame makes the built-in scene
+        modules["frame"].emplace_back("school");  // only frame includes the built-in scene
         return modules;
     }();
     return table;
@@ -103,11 +104,11 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
         const bool known = isPublic || module == line.folder || std::count(modules.begin(), modules.end(), module) > 0;
         EXPECT_TRUE(known) << where(line);
     }
-    EXPECT_GT(checked, 100u);  // the sources were found
+    EXPECT_GT(checked, 100u);  // fails if the sources are not found
 }
 
-// Public headers include only public headers and the standard library, since programs that embed the library see no
-// other header.
+// Public headers include only public headers and the standard library, since programs that embed the library have no
+// other headers.
 TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
     const std::regex include(R"re(^\s*#\s*include\s*(["<][^">]*[">]))re");
     const std::regex standard(R"(^<[a-z_]+>$)");
@@ -129,7 +130,7 @@ TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
 
 struct Place {
     const char* pattern;
-    const char* files;  // pattern of the files that may contain the text
+    const char* files;  // regular expression for the files that may contain the text
 };
 
 TEST(Layering, foreignLibrariesStayInTheirPlace) {

@@ -25,8 +25,8 @@ TEST(MemoryLimits, anAmountIsShownInTheUnitThatSuits) {
     EXPECT_EQ(bytesText(std::uint64_t{3} << 29), "1.5 GiB");
 }
 
-// Cached file pages of a control group count as free memory. The limit is 1,000 bytes with 900 in use; 300 of these are
-// inactive file pages.
+// Cached file pages of a control group count as free memory. The limit is 1,000 bytes, of which 900 are in use; 300 of
+// these are inactive file pages.
 TEST(MemoryLimits, filesThatWereReadDoNotUseUpAControlGroup) {
     const ScratchFolder folder;
     const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text << '\n'; };
@@ -40,13 +40,13 @@ TEST(MemoryLimits, filesThatWereReadDoNotUseUpAControlGroup) {
     write("memory.limit_in_bytes", "1000");
     write("memory.usage_in_bytes", "900");
     EXPECT_EQ(left(false), 200u);
-    write("memory.current", "1300");  // above the limit for a moment
+    write("memory.current", "1300");  // usage can exceed the limit for a moment
     EXPECT_EQ(left(true), 0u);
     write("memory.max", "max");
     EXPECT_FALSE(left(true));
 }
 
-// Memory that this process writes to counts as resident and no longer as free.
+// Memory that this process writes to counts as resident and not as free.
 TEST(MemoryLimits, residentMemoryGrowsByWhatIsTouched) {
     const std::uint64_t before = residentMemory();
     constexpr std::size_t bytes = std::size_t{64} << 20;

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// A vector keeps its values while it grows and shrinks, which moves them between small blocks and whole pages.
+// A vector keeps its values while it grows and shrinks, which moves them between small blocks and entire pages.
 TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
     struct alignas(64) Line {
         std::uint32_t number = 0;
@@ -55,7 +55,8 @@ double shareLeftOfAQuarter() {
 }
 
 TEST(Memory, roomIsGivenBackAndValuesStay) {
-    // Repeat: the system may merge pages into a huge page in the meantime, which makes freed pages resident again.
+    // Repeats, since the system may merge pages into a huge page in the meantime, which makes freed pages resident
+    // again.
     double min = 1;
     for (int attempt = 0; attempt < 20 && min > 0.26; ++attempt) min = std::min(min, shareLeftOfAQuarter());
     EXPECT_LE(min, 0.26);

@@ -1,4 +1,4 @@
-// Messages and standard output. Each test runs in a child process, since it closes standard output.
+// Tests of messages and standard output. Each test runs in a child process, since it closes standard output.
 
 #include "core/message.h"
 

@@ -56,7 +56,7 @@ const char* withoutExtensions(void* display, int name) {
     const char* const text = realQuery(display, name);
     realQuery = std::exchange(*queryEntry, &withoutExtensions);
     if (text == nullptr || name != eglExtensions) return text;
-    static std::set<std::string> kept;  // keeps the returned strings valid
+    static std::set<std::string> kept;  // keeps the returned C strings valid
     const std::string hidden = "," + std::string(std::getenv("FAULT_EGL")) + ",";
     std::istringstream words(text);
     std::string left;

@@ -1,4 +1,4 @@
-// Errors of levels in the mean light and colour of 32 × 32 px boxes, which remain visible under a wide blur.
+// Tests of the errors of levels in the mean radiance of boxes of 32 × 32 px, which remain visible under a wide blur.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ protected:
         }
         Request request;
         request.scene = modelPath(GetParam());
-        if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " is not there";
+        if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " does not exist";
         request.size.width = 384;
         request.size.height = 288;
         request.noCache = true;
@@ -54,11 +54,11 @@ protected:
 
     std::unique_ptr<GlContext> context_;
     PreparedFrame frame_;
-    std::uint64_t triangles_ = 0;  // triangles of the last image
+    std::uint64_t triangles_ = 0;  // triangles drawn for the last image
 };
 
 // Averaged over boxes, the error of fractional levels is at most three times the sampling error of 64 samples. The
-// focus is first automatic and then four times as far, which blurs the whole model.
+// focus distance is first automatic and then four times as large, which blurs the whole model.
 TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     const double focus = frame_.view.lens.focusDistance;
     bool drawsLevels = false;
@@ -77,7 +77,7 @@ TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
         EXPECT_LE(triangles_, all);
         drawsLevels |= triangles_ < all;
     }
-    // The garden's triangles are larger than its blur, so it is drawn at full detail.
+    // Only the garden may be drawn at full detail, since its triangles are larger than its blur.
     EXPECT_TRUE(drawsLevels || GetParam().starts_with("japanese")) << "levels must be drawn";
 }
 

@@ -56,7 +56,7 @@ protected:
         request.lens.fStop = 0.95;
         if (GetParam() != "school") request.scene = modelPath(GetParam());
         if (!request.scene.empty() && !std::filesystem::exists(request.scene))
-            GTEST_SKIP() << request.scene << " is not there";
+            GTEST_SKIP() << request.scene << " does not exist";
         frame_ = prepareFrame(request);
         renderer_ = methodNamed("accumulation").make(frame_.world, {});
     }

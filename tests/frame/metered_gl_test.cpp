@@ -1,4 +1,4 @@
-// Exposure metering of a file with the sun of a clear day, rendered without exposure settings.
+// Tests of exposure metering: a file with the sun of a clear day is rendered without exposure settings.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ protected:
         request_.toneMap = ToneMap::none;
     }
 
-    // The scene is a matt grey wall in front of the camera, with light of `lux` at normal incidence.
+    // Saves a scene with a matt grey wall in front of the camera, under light of `lux` at normal incidence.
     void saveWall(double grey, double lux) const {
         GltfBuilder builder;
         const int positions = builder.positions({-9, -9, -5, 9, -9, -5, 9, 9, -5, -9, 9, -5});
@@ -50,14 +50,14 @@ protected:
     Request request_;
 };
 
-// The meter shows a uniform surface at a linear value of 0.4, however bright the sun is.
+// The meter exposes a uniform surface to a linear value of 0.4, whatever the sun's illuminance is.
 TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
     request_.exposure = ExposureValue{0};
     EXPECT_EQ(written(), 1);
 }
 
-// A nearly black wall before a light sky is not raised to middle grey, because the sky would be white.
+// A nearly black wall in front of a light sky is not exposed to middle grey, because the sky would become white.
 TEST_F(MeteredRender, keepsALightSkyBelowWhite) {
     saveWall(0.002, 0.1);
     request_.cameraPosition = Vector3{0, 0, 40};
@@ -68,7 +68,7 @@ TEST_F(MeteredRender, keepsALightSkyBelowWhite) {
     EXPECT_NEAR(written(), before, 0.01f) << "the exposure doesn't depend on whether the sky is shown";
 }
 
-// The first written image sets the exposure of all images, so that the brightness of a film does not fluctuate.
+// The first written image sets the exposure of all images, so that the brightness of a video does not fluctuate.
 TEST_F(MeteredRender, metersOnce) {
     SceneRenderer renderer(request_);
     renderer.write(folder_ / "a.png", renderer.render());

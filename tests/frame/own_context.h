@@ -1,5 +1,6 @@
 #pragma once
-// Fixture for tests of renderers that create their own OpenGL context. The tests skip where no context can be created.
+// Fixture for tests of renderers that create their own OpenGL context. The tests are skipped where no context can be
+// created.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Blocks of samples that are rendered separately add up to the bits of a single run, for every level mode and split.
+// Tests that blocks of samples that are rendered separately add up to an image that is bit-identical to a single run,
+// for every level mode and split.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ protected:
         return settings;
     }
 
-    // Draws all samples, or only those in `range`, in waves of `wave` samples (0: default).
+    // Draws all samples, or only the samples in `range`, in waves of `wave` samples (0: default).
     static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
                              std::uint32_t wave = 0) {
         FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
@@ -54,7 +55,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // Each part is rendered by its own driver with its own wave size, then written to a file and read back.
+        // Each part is rendered by its own driver with its own wave size, written to a file, and read again.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -67,7 +68,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// A part stores only its finished blocks: their numbers, sample counts and sums.
+// The file of a part contains only its finished blocks: their numbers, sample counts and sums.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

@@ -1,5 +1,5 @@
-// Tests which settings presets change, and that the plan of jeong2011 follows the paper's formulas. The tests repeat
-// the formulas, computed from scene and camera alone.
+// Tests that presets change exactly the settings that they list, and that the plan of jeong2011 follows the paper's
+// formulas. The tests repeat the formulas and compute them from scene and camera alone.
 
 #include "frame/settings/presets.h"
 
@@ -33,7 +33,7 @@ TEST(Presets, setWhatTheyList) {
             ASSERT_NE(setting, nullptr) << value.setting;
             EXPECT_EQ(setting->text(request), value.text) << value.setting;
         }
-        // The preset changes no other setting.
+        // After clearing, no setting is changed, so the preset sets only the settings that it lists.
         clearPreset(preset, request);
         for (const Setting& setting : settings()) EXPECT_FALSE(changedText(setting, request)) << setting.name;
     }
@@ -44,7 +44,7 @@ TEST(Presets, areLeftByAnotherValue) {
     for (const PresetValue& value : jeong().values) {
         Request request;
         applyPreset(jeong(), request);
-        if (value.setting == "lod")  // the preset's value is the default
+        if (value.setting == "lod")  // this value of the preset equals the default, so another value is set
             request.lod = LodMode::nearest;
         else
             settingNamed(value.setting)->clear(request);
@@ -58,8 +58,8 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// The plan draws the level nearest to each object's score. The test recomputes the score from the plan's bounding boxes
-// and the circle-of-confusion formula.
+// The plan draws, for each object, the level nearest to the object's score. The test computes the score from the plan's
+// bounding boxes and the circle-of-confusion formula.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -76,7 +76,8 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        const double growth = 0.25 * object.coc.smallest / edge;  // a quarter of the blur over the edge's length in px
+        // a quarter of the blur over the edge length, both in px
+        const double growth = 0.25 * object.coc.smallest / edge;
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {
             const double middle = std::sqrt(pyramid.levels[l - 1].meanEdge * pyramid.levels[l].meanEdge);
@@ -89,7 +90,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     EXPECT_GE(levels.size(), 2u);
 }
 
-// Six fish, from in focus to strongly blurred.
+// Fixture with six fish, from in focus to strongly blurred.
 class JeongPlan : public testing::Test {
 protected:
     static void SetUpTestSuite() {

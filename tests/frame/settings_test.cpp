@@ -1,5 +1,5 @@
-// The table of settings: each setting reads back the value that it writes and accepts the values of its description,
-// and each member of Request has a setting.
+// Tests of the table of settings: each setting reads the value that it has written and accepts the values in its
+// description. Each member of Request has a setting.
 
 #include "frame/settings/settings.h"
 
@@ -79,7 +79,7 @@ TEST(Settings, whatARowWritesItReads) {
         else
             setting.set(again, *text);
         EXPECT_EQ(setting.text(again), text);
-        if (setting.name == "preset") continue;  // a preset sets other settings: presets_test.cpp
+        if (setting.name == "preset") continue;  // a preset sets other settings; presets_test.cpp tests it
         for (const Setting& other : settings()) {
             if (other.name == setting.name) continue;
             EXPECT_FALSE(changedText(other, request)) << other.name;
@@ -149,7 +149,8 @@ TEST(Settings, everyLensValueHasItsRow) {
         members.insert((*match)[1]);
     std::set<std::string> rows;
     for (const LensField& field : lensFields())
-        if (field.name != std::string_view("focusDistance")) rows.insert(field.name);  // belongs to Request::focus
+        // focusDistance is not a lens setting, since it belongs to Request::focus
+        if (field.name != std::string_view("focusDistance")) rows.insert(field.name);
     EXPECT_EQ(members, rows);
 }
 

@@ -1,5 +1,5 @@
-// A target error or a time limit ends a frame whose number of samples is open. Requests that support neither are
-// refused.
+// Tests that a target error or a time limit ends a frame whose number of samples is open. Requests that cannot be
+// stopped this way are rejected.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LT(renderer.statistics().samples, 64u);
 }
 
-// At full detail, a frame with an open number of samples has the bits of a frame with the same fixed number.
+// At full detail, a frame with an open number of samples is bit-identical to a frame in which the same number is fixed.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
     request.lod = LodMode::off;

@@ -47,7 +47,7 @@ std::string_view textOf(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Writes the bytes to a file, for readers that take a path. The folder lives as long as the process.
+// Writes the bytes to a file, for readers that need a path. The file exists until the process ends.
 std::filesystem::path written(const std::string& name, std::span<const std::byte> bytes) {
     static const ScratchFolder folder;
     const std::filesystem::path path = folder / name;
@@ -82,7 +82,7 @@ void runGltf(std::span<const std::byte> bytes) {
         request.size.width = 64;
         request.size.height = 48;
         request.samples = 8;
-        // Plans the scene without a ground, then with a ground and shadows.
+        // Plans the scene without a ground, and again with a ground and shadows.
         std::vector<Pyramid> pyramids;
         for (const bool ground : {false, true}) {
             request.ground = ground;
@@ -97,8 +97,8 @@ void runGltf(std::span<const std::byte> bytes) {
     }
 }
 
-// Returns a glTF file with lights, every material extension, a texture transform, and animations of them. Models either
-// lack some of these or are too large to fuzz.
+// Returns a glTF file with lights, every material extension, a texture transform, and animations of these. The
+// available models lack some of these features or are too large to fuzz.
 std::string furnishedScene() {
     GltfBuilder file;
     // A grey PNG of 1 × 1 px.
@@ -162,7 +162,8 @@ std::string furnishedScene() {
 
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
-    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // files with lamps, and with a lens in extras
+    // files with lamps, and with lens values in the extras of a camera
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {
         std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
         seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
     }
@@ -210,7 +211,7 @@ void runCache(std::span<const std::byte> bytes) {
 
     const std::optional<Pyramid> pyramid = decodePyramid(file, cachedMesh(), key);
     if (!pyramid) return;
-    // All indices of an accepted pyramid are in the range of their level, so that the pyramid can be drawn.
+    // All indices of an accepted pyramid are within the range of their level, so the pyramid can be drawn safely.
     for (const PyramidLevel& level : pyramid->levels)
         for (const IndexRange& range : level.primitives)
             for (std::uint32_t i = 0; i < range.count; ++i)
@@ -227,7 +228,7 @@ std::vector<Bytes> cacheSeeds() {
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
 constexpr std::size_t maxImagePixels = 1 << 14;
 
-// Reads the file as a tile of a frame: first its rows, then the frame that the tile completes.
+// Reads the file as a tile of a frame: first its rows, then the complete frame if the tile is its last one.
 void runRows(const std::filesystem::path& path) {
     static_cast<void>(isRowFile(path));
     try {
@@ -276,7 +277,7 @@ std::vector<Bytes> imageSeeds() {
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i % 11) / 8;
     std::vector<Bytes> seeds;
     for (std::size_t format = 0; format < imageNames.size(); ++format) {
-        if (std::string_view(imageNames[format]).ends_with("hdr")) continue;  // the format is read but never written
+        if (std::string_view(imageNames[format]).ends_with("hdr")) continue;  // HDR files can be read but not written
         const std::filesystem::path path = written(std::string("seed-") + imageNames[format], {});
         writeImage(path, image);
         std::ifstream file(path, std::ios::binary);
@@ -284,7 +285,7 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
-    // Two tiles, of which one is the whole frame, and a file with the samples of a part of a frame.
+    // Two tiles, one of which is a complete frame, and a file with a part of a frame's samples.
     const auto add = [&](const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);
         seeds.push_back(bytesOf(std::string(1, 0) + std::string(std::istreambuf_iterator<char>(file), {})));
@@ -309,7 +310,7 @@ std::vector<Bytes> imageSeeds() {
 
 // ---- settings
 
-// Runs the parsers of options outside the table of settings.
+// Runs the parsers of options that are not in the table of settings.
 void runParsers(std::string_view text) {
     const auto parse = [&](auto parser) {
         try {
@@ -321,7 +322,7 @@ void runParsers(std::string_view text) {
     parse(parseSampleRange);
     parse(parseFrameRange);
     parse(parseShotOverride);
-    // Printing and parsing an amount of memory preserves it within three digits.
+    // Printing an amount of memory and parsing the text again preserves the amount within three digits.
     parse([](std::string_view amount) {
         const auto bytes = static_cast<double>(parseBytes(amount));
         if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();
@@ -343,7 +344,7 @@ void runSettings(std::span<const std::byte> bytes) {
         } catch (const Error&) {
             continue;
         }
-        // skip settings of methods other than the request's
+        // skips settings of methods other than the request's method
         if (settingNamed(line.substr(0, equals)) == nullptr) continue;
         // Every accepted value is printed in a form that parses to the same value.
         for (const Setting& setting : settings()) {

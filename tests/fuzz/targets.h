@@ -14,7 +14,8 @@ struct FuzzTarget {
     const char* name = "";
     void (*run)(std::span<const std::byte> bytes) = nullptr;
     std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // initial inputs
-    std::size_t maxBytes = 0;                                  // longer inputs find no further faults
+    // max length of an input; longer inputs find no further faults
+    std::size_t maxBytes = 0;
 };
 
 // Fuzz targets by name:

@@ -71,7 +71,7 @@ TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
     }
 }
 
-// Vertex shader in which each vertex draws one pixel: its column is `place`.x, its row the instance.
+// Vertex shader in which each vertex draws one pixel. `place`.x is the pixel's column, and the instance is its row.
 constexpr const char* pixelOfVertex = R"(
 layout(location = 2) in vec2 place;
 layout(location = 5) in float shade;
@@ -91,7 +91,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     };
     const std::array<Vertex, 4> vertices = {{{-9, {0, 10}}, {-9, {1, 11}}, {-9, {2, 12}}, {-9, {3, 13}}}};
     const std::array<std::uint8_t, 4> shades = {0, 51, 102, 255};
-    const std::array<float, 2> steps = {100, 200};  // one per instance
+    const std::array<float, 2> steps = {100, 200};  // one value per instance
     const Buffer vertexBuffer = Buffer::of(std::span<const Vertex>(vertices));
     const Buffer shadeBuffer = Buffer::of(std::span<const std::uint8_t>(shades));
     const Buffer stepBuffer = Buffer::of(std::span<const float>(steps));
@@ -102,7 +102,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     array.bind(5, shadeBuffer, 0, 1);
     array.attribute(6, 1, GL_FLOAT, false, true);
     array.bind(6, stepBuffer, 0, sizeof(float));
-    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // no index refers to vertex 2
+    const std::array<std::uint16_t, 3> used = {3, 1, 0};  // indices that do not refer to vertex 2
     const Buffer indexBuffer = Buffer::of(std::span<const std::uint16_t>(used));
     array.indices(indexBuffer);
 

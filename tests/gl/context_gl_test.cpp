@@ -21,7 +21,7 @@ TEST_F(Context, isCurrentAndSaysWhatItRunsOn) {
     EXPECT_NE(context().log().back().find(context().device()), std::string::npos) << context().log().back();
 }
 
-// A second thread can create a context of its own. Destroying that context leaves this thread's context intact.
+// A second thread can create its own context. Destroying that context leaves this thread's context intact.
 TEST_F(Context, anotherThreadMayHaveItsOwn) {
     const Buffer kept(4);
     std::thread([] {

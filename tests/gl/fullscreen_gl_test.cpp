@@ -6,7 +6,7 @@ namespace {
 
 using FullscreenPass = GlTest;
 
-// A full-screen pass covers each pixel exactly once: additive blending onto 0 gives the drawn colour everywhere.
+// A full-screen pass covers each pixel exactly once: with additive blending onto 0, every pixel has the drawn colour.
 TEST_F(FullscreenPass, addsOnceToEachPixel) {
     const GlTexture texture({.format = TextureFormat::rgba32f, .width = 33, .height = 21});
     const Target target({&texture});
@@ -20,7 +20,7 @@ TEST_F(FullscreenPass, addsOnceToEachPixel) {
     fullscreen.drawAdding(one);
     const Image twice = readBack(texture, 4);
     for (int c = 0; c < 4; ++c) EXPECT_EQ(twice.at(32, 20)[c], 2 * (c == 3 ? 0.5f : static_cast<float>(c + 1)));
-    fullscreen.draw(one);  // without blending, the colour is replaced
+    fullscreen.draw(one);  // without blending, the pass replaces the colour
     for (const float value : readBack(texture, 1).pixels) ASSERT_EQ(value, 1);
 }
 

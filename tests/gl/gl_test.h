@@ -1,5 +1,6 @@
 #pragma once
-// Fixture of GL tests: one context per suite and a folder for shaders. A test fails if it leaves a GL error behind.
+// Fixture of OpenGL tests: one context per suite and a folder for shaders. A test fails if OpenGL has an error at its
+// end.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ protected:
         std::filesystem::create_directories((folder_ / path).parent_path());
         std::ofstream(folder_ / path) << text;
     }
-    // Returns the program of shaders that are embedded or that the test wrote.
+    // Returns the program of shaders that are embedded in the library or written by the test.
     [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
         return Program({std::move(shaders), std::move(defines), folder_.path()});
     }

@@ -34,8 +34,8 @@ TEST_F(GlTextureTest, bytesAreSharesOf255) {
     for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_NEAR(image.pixels[i], bytes[i] / 255.0, 1e-6) << i;
 }
 
-// sRGB textures decode colours but not alpha. The tolerance is half a step between codes, since drivers decode by
-// polynomials.
+// sRGB textures decode colours but not alpha. The tolerance is half a step between codes, since drivers approximate the
+// decoding by polynomials.
 TEST_F(GlTextureTest, sRgbCodesAreDecodedAndAlphaIsNot) {
     GlTexture texture({.format = TextureFormat::srgb8Alpha8, .width = 256, .height = 1});
     const std::vector<std::uint8_t> bytes = allCodes();
@@ -58,7 +58,8 @@ TEST_F(GlTextureTest, floatsKeepTheirValueAndHalvesTenBits) {
         texture.upload(0, 2, 1, values.data());
         const Image image = fetched(texture);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;  // some drivers truncate
+            // some drivers truncate to half floats
+            const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;
             EXPECT_NEAR(image.pixels[i], values[i], relative * std::abs(values[i])) << i;
         }
     }
@@ -88,7 +89,7 @@ TEST_F(GlTextureTest, rowsFollowEachOtherFromTheBottom) {
         for (int x = 0; x < 3; ++x) EXPECT_EQ(*image.at(x, 2 - y), values[static_cast<std::size_t>(3 * y + x)]);
 }
 
-// Each mip level is the mean of four texels of the previous one, down to the mean of all.
+// Each texel of a mip level is the mean of four texels of the previous level. The last level is the mean of all texels.
 TEST_F(GlTextureTest, mipmapsAreMeans) {
     constexpr int size = 8;
     GlTexture texture(
@@ -123,7 +124,7 @@ TEST_F(GlTextureTest, wrapModesFoldTheCoordinates) {
     texture.upload(0, 2, 1, values.data());
     const Program sample = fragmentProgram("layout(binding = 0) uniform sampler2D source;",
                                            "value = texture(source, vec2(gl_FragCoord.x * 0.5 - 1.0, 0.5));");
-    // Returns the colours of the samples at u = −0.75, −0.25, 0.25, 0.75, 1.25 and 1.75 as letters r and g.
+    // Returns the colours of the samples at u = −0.75, −0.25, 0.25, 0.75, 1.25 and 1.75 as the letters r and g.
     const auto letters = [&](GLenum wrap) {
         texture.sampling(GL_NEAREST, GL_NEAREST, wrap, GL_CLAMP_TO_EDGE);
         texture.attach(0);
@@ -189,7 +190,7 @@ TEST_F(GlTextureTest, beyondMemoryIsAnError) {
     GLint limit = 0, layers = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    EXPECT_THROW(GlTexture({.width = limit, .height = limit, .layers = layers}), Error);  // at least 2 TB
+    EXPECT_THROW(GlTexture({.width = limit, .height = limit, .layers = layers}), Error);  // a texture of at least 2 TB
     while (glGetError() != GL_NO_ERROR) {
     }
 }

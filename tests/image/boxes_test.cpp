@@ -34,7 +34,7 @@ TEST(BoxDifference, isTheRootOfTheMeanSquare) {
     Image test = reference;
     for (int y = 0; y < 16; ++y)
         for (int x = 16; x < 32; ++x) test.at(x, y)[1] = 0.4f;
-    for (int y = 0; y < 32; ++y) test.at(36, y)[0] = 100;  // outside the last complete box
+    for (int y = 0; y < 32; ++y) test.at(36, y)[0] = 100;  // pixels beyond the last complete box
     EXPECT_NEAR(boxDifference(reference, test, 16), 0.4 / std::sqrt(12.0), 1e-7);
 }
 

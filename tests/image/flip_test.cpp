@@ -81,13 +81,14 @@ TEST(Flip, isSymmetricAndBounded) {
     for (const float value : ab.pixels) EXPECT_TRUE(value > 0 && value <= 1);
 }
 
-// FLIP normalises colour differences by the difference between green and blue, whose FLIP is therefore 1.
+// FLIP normalizes colour differences by the difference between green and blue. The FLIP of these two colours is
+// therefore 1.
 TEST(Flip, betweenGreenAndBlueIsOne) {
     for (const float value : flipErrorMap(constant(0, 1, 0), constant(0, 0, 1)).pixels) EXPECT_NEAR(value, 1, 1e-4);
 }
 
-// The HyAB difference of greys is their difference in lightness, since they have no chroma: 100 between black and
-// white, and 903.3·Y to black in the linear part of L*.
+// The HyAB difference of greys is their difference in lightness, since greys have no chroma. It is 100 between black
+// and white. In the linear part of L*, a grey of luminance Y differs from black by 903.3·Y.
 TEST(Flip, betweenDarkGreysFollowsLightness) {
     const double blackWhite = meanOf(flipErrorMap(constant(0, 0, 0), constant(1, 1, 1)));
     const double lightness = 0.008 * 24389.0 / 27.0;
@@ -115,7 +116,7 @@ TEST(Flip, isSmallerFromFartherAway) {
 }
 
 // HDR-FLIP at one exposure equals LDR-FLIP of the tone-mapped images. The tone map is ACES as fitted by Narkowicz
-// (2015), applied to 0.6 of the exposed light and clamped to 1.
+// (2015), applied to 0.6 times the exposed radiance and clamped to 1.
 TEST(HdrFlip, isLdrFlipOfToneMappedImages) {
     const Image a = noise(30, 20, 1, 9.0f), b = noise(30, 20, 2, 9.0f);
     for (const double exposure : {-3.0, 0.0, 1.5}) {

@@ -43,7 +43,7 @@ std::string readFault(const fs::path& path) {
     return messageOf<Error>([&] { readImage(path); });
 }
 
-// Expects one line that begins with the file name, or with "cannot read NAME: ".
+// Expects a message of one line that begins with the file name or with "cannot read NAME: ".
 void expectReadFault(const std::string& message, const std::string& name) {
     EXPECT_TRUE(message.starts_with(name) || message.starts_with("cannot read " + name + ": ")) << message;
     EXPECT_GT(message.size(), name.size() + 2) << message;
@@ -131,13 +131,13 @@ TEST(ImageFile, pngKeepsAll256Levels) {
 TEST(ImageFile, pngHoldsStraightAlpha) {
     const ScratchFolder folder;
     Image image(2, 1, 4);
-    // The first pixel has coverage 0.2 and, where covered, the colour 0.5. The second has emission without coverage,
-    // which PNG cannot represent.
+    // The first pixel has coverage 0.2, with the colour 0.5 in the covered part. The second pixel has emission without
+    // coverage, which PNG cannot represent.
     for (int c = 0; c < 4; ++c) image.at(0, 0)[c] = c == 3 ? 0.2f : 0.2f * 0.5f;
     image.at(1, 0)[0] = 0.7f;
     writeImage(folder / "a.png", image);
     const TextureImage raw = decodeTexture(readFile(folder / "a.png"), "a.png");
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(raw.rgba[c], 187.5, 0.51);  // 255 · sRGB(0.5), dithered
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(raw.rgba[c], 187.5, 0.51);  // 255 · sRGB(0.5) = 187.5, dithered
     EXPECT_EQ(Bytes(raw.rgba.begin() + 3, raw.rgba.end()), (Bytes{51, 0, 0, 0, 0}));
     const Image read = readImage(folder / "a.png");
     ASSERT_EQ(read.channels, 4);
@@ -276,7 +276,7 @@ TEST(BadImageFile, aFlippedBitInAPngIsFound) {
     }
 }
 
-// Damaged EXR and JPEG files never crash the reader. Damage outside the checksums may change the picture.
+// Damaged EXR and JPEG files never crash the reader. Damage to bytes without a checksum may change the image.
 TEST(BadImageFile, damagedExrAndJpegNeverCrash) {
     const ScratchFolder folder;
     for (const char* name : {"a.exr", "a.jpg"}) {
@@ -320,7 +320,7 @@ TEST(Texture, everyColourTypeBecomesStraightRgba) {
 }
 
 TEST(Texture, sixteenBitsAreRoundedToEight) {
-    // 255 · 0x80ff / 65535 = 128.5 → 128 or 129; 0xffff → 255; 0x0040 → 0.25 → 0
+    // 16-bit values are rounded to 8 bits: 255 · 0x80ff / 65535 = 128.5 → 128 or 129; 0xffff → 255; 0x0040 → 0.25 → 0
     const Bytes rgb = texture(buildPng(1, 1, 16, PngColour::rgb, {0x80, 0x80, 0xff, 0xff, 0x00, 0x40}));
     EXPECT_EQ(rgb, (Bytes{128, 255, 0, 255}));
     EXPECT_EQ(texture(buildPng(1, 1, 16, PngColour::greyAlpha, {0x40, 0x40, 0x10, 0x10})), (Bytes{64, 64, 64, 16}));
@@ -354,7 +354,7 @@ TEST(Texture, realTexturesDecode) {
     EXPECT_EQ(texture.rgba.size(), std::size_t(texture.width) * std::size_t(texture.height) * 4);
 }
 
-// A file that begins like a JPEG but has no image is refused.
+// A file that begins like a JPEG but contains no image is rejected.
 TEST(Texture, aJpegOfNothingIsRefused) {
     const ScratchFolder folder;
     const std::filesystem::path path = folder / "nothing.jpg";
@@ -369,14 +369,15 @@ TEST(Texture, anInvalidJpegIsRefused) {
     expectReadFault(readFault(path), path.string());
 }
 
-// A JPEG with too little data for its size is refused. Here the header says 16,000 × 16,000 px, but the data are those
-// of 8 × 8 px: libjpeg would fill in the rest for half a minute.
+// A JPEG with too little data for its size is rejected. Here the header declares 16,000 × 16,000 px, but the data
+// belong to an image of 8 × 8 px. libjpeg would fill in the rest, which takes half a minute.
 TEST(ImageFiles, aJpegTooShortForItsPixelsIsRefused) {
     const ScratchFolder folder;
     const fs::path path = folder / "a.jpg";
     writeImage(path, Image(8, 8, 3));
     std::vector<std::byte> bytes = readFile(path);
-    const std::array frame = {std::byte{0xff}, std::byte{0xc0}};  // SOF0: length (2), precision (1), height, width
+    // A SOF0 marker is followed by length (2 bytes), precision (1 byte), height and width.
+    const std::array frame = {std::byte{0xff}, std::byte{0xc0}};
     const auto found = std::ranges::search(bytes, frame);
     ASSERT_FALSE(found.empty());
     for (const std::ptrdiff_t at : {5, 7}) {

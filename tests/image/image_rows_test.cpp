@@ -1,5 +1,5 @@
-// Files written row by row equal files written at once. Files with some of a frame's rows have these rows at the right
-// position.
+// Tests that files written row by row equal files written at once, and that files with some of a frame's rows have
+// these rows at the right position.
 
 #include "image/image_rows.h"
 
@@ -102,7 +102,7 @@ TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     }
 }
 
-// A full disk, simulated by a limit of the file size, causes an Error with the file's name.
+// A full disk, simulated by a limit on the file size, throws an Error with the file's name.
 TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -123,12 +123,13 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
-// Attributes with damaged sizes are refused. OpenEXR itself would trust the size and allocate memory for it.
+// Attributes with damaged sizes are rejected. OpenEXR itself would trust the size and allocate memory for it.
 TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> full = readFile(path);
-    // Replaces the size of an attribute, or the 32-bit number `offset` bytes after the size.
+    // Replaces the size of an attribute; with `offset`, replaces the 32-bit number `offset` bytes after the start of
+    // the size.
     const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
                                 std::size_t offset = 0) {
         std::string bytes(reinterpret_cast<const char*>(full.data()), full.size());
@@ -148,13 +149,13 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
             }
         }
     };
-    withNumber("owner", "string", 6);  // the actual size
+    withNumber("owner", "string", 6);  // the size that the attribute has
     EXPECT_NO_THROW(static_cast<void>(readImage(path)));
     withNumber("owner", "string", 2'000'000'000);
     expectRefused("'owner'");
     withNumber("dataWindow", "box2i", 12);
     expectRefused("'dataWindow'");
-    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // the window's last column
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // index of the last column of the data window
     expectRefused("its rows have 10000000 pixels");
     withNumber("channels", "chlist", 54);
     expectRefused("'channels'");

@@ -1,4 +1,4 @@
-// Pixels that an ImageView refers to are written and compared like those of an Image.
+// Tests that pixels that an ImageView refers to are written and compared like the pixels of an Image.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(ImageView, isComparedAsAnImage) {
     std::vector<float> elsewhere = image.pixels;
     const ImageView view(image.width, image.height, 4, elsewhere);
     EXPECT_EQ(compareImages(image, view).maxError, 0);
-    elsewhere[4 * (2 * 9 + 7)] += 0.5f;  // row 2, column 7
+    elsewhere[4 * (2 * 9 + 7)] += 0.5f;  // a channel of the pixel in row 2, column 7
     EXPECT_EQ(compareImages(image, view).maxErrorPixel, (Pixel{7, 2}));
 }
 

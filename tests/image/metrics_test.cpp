@@ -33,7 +33,7 @@ Image pattern(int width, int height, int channels, unsigned seed) {
     return image;
 }
 
-// Returns SSIM computed directly by the paper's definition: one 2D window per pixel, for windows inside the image.
+// Returns the SSIM by the paper's definition: one 2D window per pixel, for all windows inside the image.
 double directSsim(const Image& a, const Image& b) {
     const auto luma = [](const Image& image, int x, int y) {
         const float* p = image.at(x, y);

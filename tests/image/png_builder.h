@@ -1,5 +1,5 @@
 #pragma once
-// Builds PNG files of any colour type byte by byte, with stored deflate blocks, so that tests read files that no
+// Builds PNG files of any colour type byte by byte, with stored deflate blocks, so that tests can read files that no
 // library has written.
 
 #include <cstddef>

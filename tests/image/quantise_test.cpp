@@ -32,7 +32,7 @@ TEST(Quantised, theMeanIsTheValueAndNoneIsAWholeStepAway) {
     }
 }
 
-// Squares of 4 × 4 px keep their mean too; clumped dither noise would be visible.
+// Squares of 4 × 4 px also keep their mean; otherwise, clumps of dither noise would be visible.
 TEST(Quantised, smallSquaresHaveTheirMeanToo) {
     const std::vector<std::uint8_t> bytes = quantised(evenly(100.5f / 255, 1));
     for (std::size_t y = 0; y + 4 <= 64; y += 4)

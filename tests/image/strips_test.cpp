@@ -1,4 +1,4 @@
-// Images that are read and compared in strips give the bits of complete images.
+// Tests that images that are read and compared in strips are bit-identical to complete images.
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(Strips, areReadAsTheCompleteImage) {
         }
 }
 
-// With SOURCE_DATE_EPOCH, the date in a file doesn't depend on the clock.
+// With SOURCE_DATE_EPOCH, the date in a file does not depend on the clock.
 TEST(SourceDate, isTheDateOfEveryFile) {
     const ScratchFolder scratch;
     ::setenv("SOURCE_DATE_EPOCH", "86400", 1);

@@ -55,8 +55,9 @@ protected:
 
 TEST_F(TextInImages, StandsOnItsLineAndGrowsWithItsSize) {
     const Ink small = written(40, 150, "H", 40);
-    EXPECT_NEAR(small.bottom, 149, 1);                            // the row above the baseline
-    EXPECT_NEAR(small.bottom - small.top, 0.72 * 40, 0.08 * 40);  // capital letters of sans-serif fonts: 0.7 to 0.73 em
+    EXPECT_NEAR(small.bottom, 149, 1);  // the letter ends in the row above the baseline
+    // in sans-serif fonts, capital letters are 0.7 to 0.73 em tall
+    EXPECT_NEAR(small.bottom - small.top, 0.72 * 40, 0.08 * 40);
     EXPECT_GE(small.left, 40);
     const Ink large = written(40, 150, "H", 80);
     EXPECT_NEAR(large.bottom - large.top, 2 * (small.bottom - small.top), 3);

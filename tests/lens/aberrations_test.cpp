@@ -47,8 +47,8 @@ TEST(Aberrations, areTheGradientOfTheWavefront) {
 }
 
 // At the right edge of an image 36 mm wide, astigmatism turns a point into a line and coma into a comet, each as long
-// as stated in mm. Coma maps a circle on the lens to a circle that is traversed twice, and all of these circles lie
-// within an angle of 60°.
+// as the lens setting in mm. Coma maps a circle on the lens to a circle that is traversed twice, and all of these
+// circles lie within an angle of 60°.
 TEST(Aberrations, areAsLongOnTheSensorAsTheySay) {
     const ClipCircleOfConfusion line = aberratedLens(0.9, 0);
     const double length = aberration(line, {1, 0}, {1, 0}).x - aberration(line, {1, 0}, {-1, 0}).x;

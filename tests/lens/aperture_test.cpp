@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int gridSize = 700;  // cells per side of the unit square: 490,000 points in total
+constexpr int gridSize = 700;  // cells per side of the unit square, which gives 490,000 points in total
 
 // Returns the centres of the unit square's cells, mapped to the lens.
 std::vector<glm::dvec2> mapped(const Lens& lens) {
@@ -57,7 +57,8 @@ std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
     return shares;
 }
 
-// Returns the share of light that lies in the wrong cell: half the sum of the absolute differences of all cells.
+// Returns the share of light that lies in the wrong cell: half the sum over all cells of the absolute difference
+// between a and b.
 double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / 2;
@@ -96,7 +97,8 @@ TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
         EXPECT_GT(fromCentre, 0.3 * lens.obstruction);
 }
 
-// The concentric map from the square to the disk and its inverse cancel, also on the square's diagonals and centre.
+// The concentric map from the square to the disk and its inverse cancel, even on the square's diagonals and at its
+// centre.
 TEST(ConcentricDisk, isUndoneByItsInverse) {
     for (int y = 0; y <= 16; ++y)
         for (int x = 0; x <= 16; ++x) {
@@ -119,7 +121,8 @@ TEST_P(ApertureOf, isContinuous) {
             for (const glm::dvec2& move : {glm::dvec2(step, 0), glm::dvec2(0, step)})
                 farthest = std::max(farthest, glm::length(apertureSample(aperture, glm::dvec2(x, y) + move) - here));
         }
-    EXPECT_LT(farthest, 300 * step);  // allows for the steep √ at a soft disk's rim and a ring's centre
+    // tolerance for the steep square root at the rim of a soft disk and at the centre of a ring
+    EXPECT_LT(farthest, 300 * step);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ApertureOf, testing::ValuesIn(apertureShapes),
@@ -165,7 +168,7 @@ TEST(ApertureImage, colourPassesByItsLuminance) {
 
 TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
     Image image(3, 3, 1);
-    *image.at(2, 1) = 1;  // right of the centre
+    *image.at(2, 1) = 1;  // a pixel to the right of the centre
     Lens lens = lensWith(image);
     lens.bladeRotation = std::numbers::pi / 2;
     lens.anamorphicRatio = 0.5;
@@ -177,7 +180,7 @@ TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
 }
 
 TEST(ApertureImage, goodPointsStayWellSpread) {
-    // A white aperture image keeps an even 16 × 16 grid evenly spread: half of the points lie on either side of the
+    // A white aperture image preserves the spread of an even 16 × 16 grid: half of the points lie on either side of the
     // centre.
     Image white(64, 64, 1);
     std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);

@@ -1,4 +1,5 @@
-// Tests of the lens of a file's camera, which keeps the camera's field of view and takes its sensor and focal length.
+// Tests of lenses that are created from a file's camera: they keep the camera's field of view and take its sensor and
+// focal length.
 #include "lens/camera_lens.h"
 
 #include <gtest/gtest.h>

@@ -40,8 +40,8 @@ double random(std::mt19937& source, double min, double max) {
     return std::uniform_real_distribution<double>(min, max)(source);
 }
 
-// For C = a/w + b, a foreground limit R clamps C at all depths w ≤ −a/(b + R), and C is unchanged at larger depths
-// (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
+// If C = a/w + b at depth w, a foreground limit R clamps C at all depths w ≤ −a/(b + R). At larger depths, C is
+// unchanged (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
 TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
@@ -66,8 +66,8 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
-// A focus range is sharp from end to end. Blur close to the lens is preserved, and so is blur at infinity unless the
-// range refocuses (Munkberg et al. 2012).
+// The blur is zero in the entire focus range. Blur close to the lens is preserved, and so is blur at infinity unless
+// the range refocuses (Munkberg et al. 2012).
 TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
@@ -88,7 +88,9 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         // At infinity, the focus range leaves C unchanged. If the range refocuses, C is that of a lens focused at 5 m.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
-        // At 8 m, C is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if the range refocuses.
+        // At depth z = 8 m, C is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if the range refocuses.
+        // A is the aperture diameter, W the image width in px, θx the horizontal field of view and s the focus
+        // distance.
         const double atInfinity = circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
                     refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);
@@ -149,8 +151,8 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// A foreground limit holds for interpolated |C/w| from the near plane, where triangles are clipped, to any vertex whose
-// blur is limited (Munkberg et al. 2012, 4.1).
+// A foreground limit also limits interpolated |C/w| from the near plane, where triangles are clipped, to any vertex
+// whose blur is limited (Munkberg et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;
@@ -181,7 +183,7 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, width, 600);
         const double tanX = tanHalfHorizontalFov(lens);
         const glm::dvec2 tanHalf(tanX, tanX * 0.6);
-        glm::dvec3 ends[2];  // x, y, depth in view space, m
+        glm::dvec3 ends[2];  // view-space x and y, and depth
         for (glm::dvec3& end : ends) {
             end.z = random(source, 0.5, 4);
             end.x = random(source, -1, 1) * tanHalf.x * end.z;

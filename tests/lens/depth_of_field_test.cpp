@@ -23,8 +23,9 @@ Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathi
 }
 
 // Returns the diameter of the blur disk on the sensor, mm, by Newton's and Gauss's equations, independent of the code
-// under test. A point at depth z is imaged at i(z) = f·z/(z − f) behind the lens, and the sensor lies at i(s). The cone
-// from the aperture f/N meets the sensor in a disk of diameter f/N·|i(s) − i(z)|/i(z).
+// under test. With the focal length f, a point at depth z is imaged at i(z) = f·z/(z − f) behind the lens. For the
+// focus distance s, the sensor lies at i(s). The cone from the aperture of diameter f/N meets the sensor in a disk of
+// diameter f/N·|i(s) − i(z)|/i(z).
 double diskOfTheThinLens(const Lens& lens, double z) {
     const double f = lens.focalLength;  // mm
     const auto image = [&](double depth) { return 1000 * depth * f / (1000 * depth - f); };
@@ -34,8 +35,8 @@ double diskOfTheThinLens(const Lens& lens, double z) {
 }
 
 TEST(DepthOfField, limitsOfATextbookLens) {
-    // A 50 mm lens at f/8 with an acceptable circle of 0.03 mm has the hyperfocal distance H = 2500/0.24 + 50 =
-    // 10466.67 mm.
+    // A 50 mm lens at f/8 with an acceptable circle of confusion of 0.03 mm has the hyperfocal distance H = 2500/0.24 +
+    // 50 = 10466.67 mm.
     const Lens lens = lensOf(50, 8, 3, true);
     const DepthOfField depth = depthOfField(lens, 0.03);
     EXPECT_NEAR(depth.hyperfocal, 10.4666667, 1e-6);
@@ -56,8 +57,8 @@ TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
         }
 }
 
-// At both limits of the depth of field, the blur of rendered images equals the acceptable circle for any image width
-// and blur scale.
+// At both limits of the depth of field, the blur of rendered images equals the acceptable circle of confusion, for any
+// image width and blur scale.
 TEST(DepthOfField, blurOfTheImageAtTheLimitsIsTheAcceptableOne) {
     for (const bool breathing : {false, true})
         for (const int width : {640, 300}) {

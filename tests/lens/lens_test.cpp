@@ -13,8 +13,9 @@ namespace defocus::engine {
 namespace {
 
 TEST(Lens, circleOfConfusionOfATextbookExample) {
-    // A 50 mm lens at f/2, focused at 2 m: A = 25 mm and tan(θx/2) = 36/100. In an image 1000 px wide, a point at 4 m
-    // has c = 0.025·(1/2 − 1/4)·1000/0.72 = 8.6806 px.
+    // A 50 mm lens at f/2 has an aperture diameter A = 25 mm, and tan(θx/2) = 36/100 for its horizontal field of view
+    // θx. Focused at 2 m, in an image 1000 px wide, the blur of a point at 4 m is c = 0.025·(1/2 − 1/4)·1000/0.72 =
+    // 8.6806 px.
     Lens lens;
     lens.fStop = 2;
     lens.focusDistance = 2;
@@ -46,9 +47,9 @@ TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
 }
 
 TEST(Lens, focusBreathingIsTheThinLens) {
-    // A thin lens focused at s has the image distance i = f·s/(s − f), and tan(θx/2) is half the width of the sensor
-    // over i. On the sensor, the CoC at depth z is A·|z − s|/z · i/s. The image has W/horizontalAperture px per mm of
-    // the sensor.
+    // A thin lens of focal length f, focused at s, has the image distance i = f·s/(s − f). tan(θx/2) is half the width
+    // of the sensor over i. On the sensor, the CoC at depth z is A·|z − s|/z · i/s, with the aperture diameter A. The
+    // image has W/horizontalAperture px per mm of the sensor, with the image width W in px.
     Lens lens;
     lens.focusBreathing = true;
     lens.focusDistance = 1;

@@ -22,8 +22,8 @@ TEST(PhotographicExposure, exposureValuesOfTheTables) {
     EXPECT_NEAR(exposureValue100(exposed(2, 1.0 / 32, 400)), 5, 1e-12);
 }
 
-// By ISO 12232, a surface of luminance L exposes the sensor with H = q·L·t/N² lx·s, q = 0.65. A sensor of speed S
-// saturates at H = 78/S lx·s, which maps to display white (1).
+// By ISO 12232, a surface of luminance L exposes the sensor with H = q·L·t/N² lx·s, with q = 0.65, the exposure time t
+// and the f-number N. A sensor of speed S saturates at H = 78/S lx·s, which maps to display white (1).
 TEST(PhotographicExposure, whiteIsWhatSaturatesTheSensor) {
     for (const auto& [fStop, time, iso] :
          {std::tuple{1.4, 1.0 / 60, 100.0}, {16.0, 1.0 / 125, 400.0}, {4.0, 2.0, 25.0}}) {

@@ -59,7 +59,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes at a corner of the square: the parts of the pixel that an edge in focus hides.
+// Returns boxes at a corner of the square: the parts of a pixel that the edge of an object in focus hides.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 8; ++x)
@@ -68,8 +68,8 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Returns the max, over all regions and all prefixes of n ≥ 16 points, of n/log²n times the error of the share of
-// points in the region.
+// Returns the largest value of n/log²n times the error of the share of points in a region. The max is over all regions
+// and all prefixes of n ≥ 16 points.
 double worstPrefix(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
     double worst = 0;
     for (const Region& region : regions) {
@@ -120,7 +120,7 @@ TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
-// The even-numbered points of a sequence and independent points exceed the bounds that complete sequences keep.
+// The even-numbered points of a sequence exceed the error bounds of complete sequences, and so do independent points.
 TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {
@@ -131,7 +131,8 @@ TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     std::vector<glm::dvec2> independent;
     std::uint64_t state = 1;
     const auto next = [&state] {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;  // constants of Knuth's MMIX
+        // multiplier and increment of Knuth's MMIX generator
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
         return static_cast<double>(state >> 11) * 0x1p-53;
     };
     for (int i = 0; i < 1024; ++i) independent.emplace_back(next(), next());

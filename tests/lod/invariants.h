@@ -32,7 +32,7 @@ inline void expectClustersHold(const Pyramid& pyramid) {
                 glm::dvec3 p[3];
                 for (std::uint32_t k = 0; k < 3; ++k) p[k] = glm::dvec3(level.positions[pyramid.indices[i + k]]);
                 for (const glm::dvec3& corner : p) ASSERT_LE(glm::distance(corner, glm::dvec3(c.centre)), c.radius);
-                if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // degenerate, so nothing is drawn
+                if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // degenerate triangles cover no pixels
                 const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
                 const double longest =
                     std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
@@ -45,9 +45,9 @@ inline void expectClustersHold(const Pyramid& pyramid) {
     }
 }
 
-// Expects λ to grow without jumps from level 0 to the last level as the target grows. The min growth per level, 5 % for
-// edges and 25 % for errors, bounds the slope of λ. For errors, the slope is largest at the end of the interval between
-// two levels.
+// Expects λ to grow without jumps from level 0 to the last level as the target, an edge length or an error in px,
+// grows. Edges grow by at least 5 % per level and errors by at least 25 %, which bounds the slope of λ. For errors, the
+// slope is largest at the end of the interval between two levels.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;

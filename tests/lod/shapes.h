@@ -1,5 +1,6 @@
 #pragma once
-// Small meshes with seams and borders as in real files. Counts over their surfaces join vertices at the same position.
+// Small meshes with seams and borders as in real files. Functions that count faces or edges treat vertices at the same
+// position as one.
 
 #include <algorithm>
 #include <array>
@@ -142,8 +143,8 @@ inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size
     return indices;
 }
 
-// Number of faces at an undirected edge, whose ends are joined by position: `balance` is forward minus backward uses,
-// `count` their sum.
+// Faces at an undirected edge, whose ends are joined by position. `count` is the number of faces, and `balance` the
+// number that use the edge forwards minus the number that use it backwards.
 struct EdgeUse {
     int balance = 0;
     int count = 0;
@@ -192,8 +193,8 @@ inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     return places;
 }
 
-// Returns the triangles as corner positions, each rotated to start with its smallest corner, sorted. Equal sets of
-// triangles give equal results.
+// Returns the triangles as a sorted list of corner positions. Each triangle starts with its smallest corner, so equal
+// sets of triangles give equal results.
 inline std::vector<std::array<PositionKey, 3>> triangleSet(const std::vector<glm::vec3>& positions,
                                                            const std::vector<std::uint32_t>& indices) {
     std::vector<std::array<PositionKey, 3>> result;

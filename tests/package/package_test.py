@@ -64,7 +64,7 @@ def check_shared_library(prefix, version):
     check(f"[libdefocus.so.{'.'.join(version.split('.')[:2])}]" in dynamic, dynamic)
     for needed in re.findall(r"\(NEEDED\).*\[(.*)\]", dynamic):
         check(not re.search("glfw|imgui|X11", needed), f"the library needs {needed}")
-    # Weak symbols belong to templates of the standard library; all other symbols must belong to the API.
+    # Weak symbols belong to templates of the standard library; all other symbols must belong to the library's API.
     for line in run("nm", "-D", "-C", "--defined-only", libraries[0]).splitlines():
         kind, name = line.split(None, 2)[1:]
         api = re.match(r"((typeinfo|vtable|typeinfo name) for )?defocus::", name)
@@ -126,7 +126,7 @@ def main():
     check_documentation(source)
     with tempfile.TemporaryDirectory(prefix="defocus-package-") as name:
         root = Path(name)
-        scene = root / "scene.glb"  # the scene is animated
+        scene = root / "scene.glb"  # the scene has an animation
         shutil.copy(source / "meshes" / "reed.glb", scene)
         environment = dict(os.environ, XDG_CACHE_HOME=str(root / "cache"))
         outputs = []

@@ -37,8 +37,8 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// In continuous mode, the two levels of an object together draw every sample. Both draw only the boundary sample, if
-// there is one.
+// In continuous mode, the two levels of an object together draw every sample. At most one sample, which is split
+// between the levels, is drawn by both.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -72,13 +72,13 @@ TEST(FramePlan, otherModesHaveNoBoundarySample) {
 TEST(FramePlan, depthsAndBlurFollowTheFormula) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-    const ObjectPlan& nearest = plan.objects.front();  // sorted front to back
+    const ObjectPlan& nearest = plan.objects.front();  // the first object, since objects are sorted front to back
     EXPECT_EQ(nearest.object, 0);
     EXPECT_NEAR(nearest.nearestDepth, 1.05, 0.01);
     const double A = 0.05 / 1;
     const double expected = A * (1 / 3.0 - 1 / nearest.nearestDepth) * 160 / (36.0 / 50);
     EXPECT_NEAR(nearest.coc.nearest, expected, 1e-9);
-    EXPECT_EQ(plan.objects[1].coc.smallest, 0) << "it straddles the focus plane";
+    EXPECT_EQ(plan.objects[1].coc.smallest, 0) << "the object straddles the focus plane";
     EXPECT_TRUE(std::is_sorted(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& a, const ObjectPlan& b) {
         return a.nearestDepth < b.nearestDepth;
     }));
@@ -100,7 +100,7 @@ TEST(FramePlan, objectsOutsideTheWidenedFrustumAreLeftOut) {
     EXPECT_FALSE(leftOut(planFrame(small->world, small->view, everything), "Object 4"));
 }
 
-// No object is culled whose blurred image reaches the frame. The expected result is found by brute force over lens
+// No object whose blurred image reaches the frame is culled. The expected result is computed by brute force over lens
 // points and corners of the bounding box.
 TEST(FramePlan, cullingIsConservative) {
     const auto small = fiveSpheres();
@@ -183,10 +183,10 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
 }
 
 // λ has no jumps while a sphere moves away: the change in each step from distance n to n' stays below a bound. An edge
-// at distance n projects to a length proportional to 1/n. At λ, an object's edges, interpolated in their logarithm
-// between levels, project to τ = max(kBlur·c, kSize), with the blur c in px and the thresholds kBlur and kSize. Edges
-// grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ,
-// by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+// at distance n projects to a length proportional to 1/n. At λ, an object's edge length is interpolated logarithmically
+// between levels and projects to τ = max(kBlur·c, kSize), with the blur c in px and the thresholds kBlur and kSize.
+// Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n|, with
+// the focus distance s, changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -197,7 +197,7 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const Lens& lens = small->view.lens;
     const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
                         lens.horizontalAperture;  // K in c = K·|1/s − 1/n|, px·m
-    const double reach = 1.03 * dollyRadius;      // radius including the sphere's ripples, m
+    const double reach = 1.03 * dollyRadius;      // radius of the sphere including its ripples, m
     const std::vector<DollyStep> steps = dolly(settings, 1.001);
     for (std::size_t i = 1; i < steps.size(); ++i) {
         const double before = steps[i - 1].distance - reach;
@@ -219,7 +219,7 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
         return largest;
     };
     const std::vector<DollyStep> steps = dolly(settings, 1.002);
-    // Half the step changes a continuous λ half as much; a jump would keep its size.
+    // Half the step in distance changes a continuous λ half as much, whereas a jump in λ would keep its size.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
     EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";
@@ -271,7 +271,7 @@ TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) 
 }
 
 // Levels chosen by blur alone or by projected size alone are at most as coarse as levels chosen by both. A pinhole has
-// no blur, so both causes select levels by size, and blur alone selects full detail.
+// no blur. Selection by both then equals selection by size, and selection by blur alone gives full detail.
 TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
     const auto small = fiveSpheres();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {

@@ -15,7 +15,7 @@ inline RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-// Returns whether the plan's list of omitted items has a name that contains `what`.
+// Returns whether an entry in the plan's list of omitted items contains `what`.
 inline bool leftOut(const FramePlan& plan, const std::string& what) {
     return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),
                        [&](const LeftOut& entry) { return entry.what.find(what) != std::string::npos; });

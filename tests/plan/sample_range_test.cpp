@@ -7,7 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// The levels of an object that draw one sample, and the coarse level's share of pixels if both draw the sample.
+// The levels of an object that draw one sample, and the fraction of pixels that show the coarse level if both levels
+// draw it.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;

@@ -64,7 +64,7 @@ def test_a_renderer_renders_frame_after_frame(small):
         assert renderer.statistics.triangles_drawn > 0 and renderer.statistics.device
     assert numpy.array_equal(first, again)
     assert numpy.array_equal(first, defocus.render(**small, f_stop=1.4))
-    assert numpy.array_equal(second, kept)  # each frame has its own pixels
+    assert numpy.array_equal(second, kept)  # a later frame does not overwrite the pixels of an earlier one
     assert numpy.array_equal(second, defocus.render(**small, f_stop=8))
     with pytest.raises(defocus.Error, match="the renderer is closed"):
         renderer.render()
@@ -129,7 +129,7 @@ def test_closing_the_generator_frees_the_renderer(small, monkeypatch):
 
     monkeypatch.setattr(defocus._defocus, "Renderer", noted)
     images = defocus.progressive(**small, wave=1)
-    assert not made  # rendering starts with the first step
+    assert not made  # no frame is rendered before the first step of the iterator
     image, samples = next(images)
     assert samples == 1 and made[0]() is not None
     images.close()

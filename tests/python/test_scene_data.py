@@ -68,17 +68,17 @@ def test_arrays_are_copied():
 @pytest.mark.usefixtures("gl")
 def test_transforms_move_instances_cameras_and_lights():
     moved = numpy.eye(4)
-    moved[:3, 3] = 0.25, 0, 0  # 8 pixels to the right
+    moved[:3, 3] = 0.25, 0, 0  # translation by 8 pixels to the right
     mesh = square()
     scene = defocus.Scene.create([mesh, defocus.Instance(mesh, moved, name="Right")], cameras=[CAMERA])
     assert scene.nodes == ["Square", "Right", ""] and scene.triangles == 2
     image = defocus.render(scene, **SETTINGS)
     assert image[20, 16:48, 3].min() == 1 and image[20, 48:, 3].max() == 0
-    # From behind the square, its front faces are invisible.
+    # Seen from behind, the square is invisible, because it is single-sided.
     behind = defocus.Camera(defocus.look_at((0, 0, -4), (0, 0, -2)))
     image = defocus.render(defocus.Scene.create([mesh], cameras=[behind]), **SETTINGS)
     assert image[..., 3].max() == 0
-    # A lamp on the camera's side of the square lights what the camera sees.
+    # A lamp on the camera's side of the square illuminates the side that the camera sees.
     lamp = defocus.Light("point", moved, intensity=50)
     grey = square(material=defocus.Material(metallic=0))
     lit = defocus.render(defocus.Scene.create([grey], cameras=[CAMERA], lights=[lamp]), **SETTINGS)

@@ -50,7 +50,7 @@ def test_what_is_given_beside_a_preset_wins():
         assert plan["lod"]["metric"] == "proportional" and plan["lod"]["vertices"] == "surviving"
 
 
-# Every setting is a keyword that accepts the setting's own default.
+# Every setting is a keyword argument that accepts the setting's own default.
 @pytest.mark.parametrize("setting", [s for s in defocus.settings() if s.default is not None], ids=lambda s: s.keyword)
 def test_every_setting_takes_its_default(setting):
     defocus._settings.request_of(None, {setting.keyword: setting.default})

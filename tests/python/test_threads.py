@@ -42,8 +42,8 @@ def test_what_progress_raises_ends_the_work_and_reaches_the_caller(small):
 
 
 # Rendering releases the GIL. With an endless switch interval, a thread runs only if another thread releases the GIL.
-# The progress function does not release it, so the counter advances between two calls only if C++ works without the
-# GIL.
+# The progress function does not release the GIL, so the counter advances between two of its calls only if C++ renders
+# without the GIL.
 def test_python_goes_on_while_c_plus_plus_renders(small):
     count = 0
     finished = threading.Event()
@@ -63,7 +63,7 @@ def test_python_goes_on_while_c_plus_plus_renders(small):
     sys.setswitchinterval(1e4)
     try:
         with defocus.Renderer(**small, wave=1) as renderer:
-            for _ in range(1000):  # repeats, since the system decides when the other thread runs
+            for _ in range(1000):  # repeats, since the operating system decides when the other thread runs
                 counts = []
                 renderer.render(progress=lambda *_: counts.append(count))
                 if counts[-1] > counts[0]:

@@ -37,7 +37,7 @@ RenderSettings fullDetail(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
+    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
     return settings;
 }
 
@@ -86,7 +86,7 @@ constexpr double ownVariance = 5.0 / 12;
 // by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
-    constexpr double share = 0.05;  // A, relative to half the image's width
+    constexpr double share = 0.05;  // astigmatism A as a fraction of half the image's width
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
@@ -108,7 +108,7 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
 // it. Over the disk, the mean deviation is B·m, and the variances are B²·m²/2 and B²·m²/6. A ray through l enlarges the
 // point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
-    for (const double share : {0.03, -0.03}) {  // B, relative to half the image's width
+    for (const double share : {0.03, -0.03}) {  // coma B as a fraction of half the image's width
         const glm::dvec2 place(134, 60);
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
@@ -141,7 +141,8 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     }
 }
 
-// An aberrated lens focused at infinity shows a gradient sky as the mean of the samples' rays.
+// Through an aberrated lens focused at infinity, a pixel shows the mean radiance of a gradient sky along the rays of
+// the lens samples.
 TEST_F(Aberrations, skyIsSeenThroughThem) {
     View view = viewOf(20, 20);
     view.lens.focusDistance = std::numeric_limits<double>::infinity();

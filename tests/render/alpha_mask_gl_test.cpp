@@ -1,5 +1,5 @@
-// Tests of cut-outs (alphaMode MASK): a picture of any size shows the fraction of the texture that reaches the cutoff,
-// in the colour of what is shown.
+// Tests of cut-outs (alphaMode MASK): at any image size, the covered fraction of a wall equals the fraction of texels
+// whose alpha reaches the cutoff. The cut-out has the colour of these texels.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ protected:
 constexpr int cutTexels = 160;
 constexpr double shownShare = 0.3;
 
-// Three of ten squares of 8 × 8 texels are shown, in green; the others are red and transparent.
+// Three of ten squares of 8 × 8 texels are opaque green; the others are transparent red.
 Texel cutTexel(int column, int row) {
     return (7 * (column / 8) + 3 * (row / 8)) % 10 < 3 ? Texel{0, 255, 0, 255} : Texel{255, 0, 0, 0};
 }
@@ -35,7 +35,8 @@ std::unique_ptr<SmallWorld> cutWall(double pixels) {
     small->scene.textures[0].mipmaps = true;
     small->world.environment.type = EnvironmentType::none;
     small->view.width = small->view.height = 64;
-    const double distance = 2 * 64 / (2 * 0.36 * pixels);  // the default lens shows 0.72 m of width at 1 m
+    // the default lens shows 0.72 m in width at a distance of 1 m
+    const double distance = 2 * 64 / (2 * 0.36 * pixels);
     small->world.pose.objects[0].worldFromObject =
         glm::translate(small->view.worldFromCamera, glm::dvec3(0.013, 0.007, -distance));
     return small;
@@ -62,14 +63,17 @@ TEST_F(AlphaMask, keepsItsCoverageAndColorAtEverySize) {
         for (const std::uint32_t samples : {4u, 64u}) {
             const glm::dvec4 sum = channelSums(cutImage(*cutWall(pixels), samples));
             const double places = samples * pixels * pixels;
-            const double error = std::max(0.02, 3 * std::sqrt(shownShare / places));  // 3 σ if places were random
+            // 3 σ of independent random positions
+            const double error = std::max(0.02, 3 * std::sqrt(shownShare / places));
             EXPECT_NEAR(sum.a / (pixels * pixels), shownShare, error) << pixels << " px, " << samples << " samples";
-            // At the edges of what is shown, full-size texels are interpolated with the red of hidden ones.
+            // Tolerance for the edges of opaque squares, where the texture filter mixes green with the red of
+            // transparent texels.
             EXPECT_NEAR(sum.g / sum.a, 1, 0.07) << pixels << " px, " << samples << " samples";
         }
 }
 
-// In a magnified texture, the interpolated alpha decides, so a pixel with a single sample is either opaque or empty.
+// The interpolated alpha of a magnified texture is compared with the cutoff, so a pixel with a single sample is either
+// opaque or empty.
 TEST_F(AlphaMask, magnifiedEdgesAreSharp) {
     const auto small = cutWall(1000);
     const Image image = cutImage(*small, 1);

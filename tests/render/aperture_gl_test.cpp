@@ -1,4 +1,4 @@
-// Tests of the bokeh of each aperture against the aperture's definition, drawn without the renderer.
+// Tests of each aperture's bokeh against an image that is computed from the aperture's definition without the renderer.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::unique_ptr<GlContext> ApertureBokeh::context_;
 
 constexpr double square = 5;  // side of the bright square, px
 constexpr double energy = 2500;
-constexpr double depth = 6;  // m; behind the focus, the bokeh shows the aperture upright
+constexpr double depth = 6;  // depth of the square in m, behind the focus, where the bokeh shows the aperture upright
 
 // Returns a view whose lens blurs the square to about two thirds of the image's height.
 View wideView() {

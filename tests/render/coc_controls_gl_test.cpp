@@ -1,5 +1,5 @@
-// Tests of the controls of C(w) in images: each control has its documented effect, and large triangles look like small
-// ones.
+// Tests of the controls of the circle of confusion in images: each control has its documented effect, and large
+// triangles look like small ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // otherwise a pinhole image draws fewer samples
+    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
@@ -45,8 +45,8 @@ double rootMeanSquare(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m ahead, of `cells` × `cells` squares of two
-// triangles.
+// Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m in front of it. It has `cells` × `cells`
+// squares of two triangles each.
 std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) {
     auto small = std::make_unique<SmallWorld>();
     TextureImage image;
@@ -94,15 +94,16 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
-// Returns the same floor in white before black, with triangles of many shapes: jittered corners and diagonals in both
-// directions.
+// Returns the same floor in white, in front of a black background. Its triangles have many shapes: corners are
+// jittered, and diagonals run in both directions.
 std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
     auto small = checkeredFloor(cells, begin, end);
     small->scene.materials[0].baseColor.texture = -1;
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     Mesh& mesh = small->scene.meshes[0];
     std::minstd_rand random(7);
-    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };  // in [−1, 1]
+    // uniform random number in [−1, 1]
+    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };
     const auto across = static_cast<std::size_t>(cells) + 1;
     const glm::vec2 cell(5.0 / cells, (end - begin) / cells);
     for (std::size_t i = 0; i < mesh.vertices.positions.size(); ++i) {
@@ -126,7 +127,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 struct Control {
     const char* name;
     std::function<void(Lens&)> set;
-    double begin;  // near end of the floor, m ahead of the camera
+    double begin;  // near end of the floor, in m in front of the camera
 };
 
 void PrintTo(const Control& control, std::ostream* out) {
@@ -135,9 +136,9 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// C is interpolated linearly inside a triangle, so a large triangle in which the slope of C jumps would move the focus
-// (Munkberg et al. 2012, Figures 2 and 10). Two large triangles are therefore divided, and their floor looks like one
-// of many small triangles.
+// The circle of confusion C is interpolated linearly inside a triangle. A large triangle in which the slope of C jumps
+// would therefore move the focus (Munkberg et al. 2012, Figures 2 and 10). The renderer therefore divides large
+// triangles: a floor of two triangles looks like a floor of many small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
@@ -155,13 +156,14 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
-// Neighbouring triangles divide their common edge alike, so no black shows through a white floor of uneven triangles.
+// Neighbouring triangles divide their common edge at the same points, so a white floor of uneven triangles has no gaps
+// that show the black background.
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one sample
-    // would cost 1/16; smaller differences are rounding.
+    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one of the
+    // 16 samples would darken a pixel by 1/16; smaller differences are rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -194,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),
     [](const testing::TestParamInfo<Control>& control) { return std::string(control.param.name); });
 
-// Returns three patches side by side at 1, 2.5 and 8 m, in front of black.
+// Returns three patches side by side at 1, 2.5 and 8 m, in front of a black background.
 std::unique_ptr<SmallWorld> threePatches() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.6f, 1}));
@@ -244,9 +246,9 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
     EXPECT_GT(rootMeanSquare(part(before, 2), part(after, 2)), 0.01);
 }
 
-// In front of the range, the blur equals that of a lens focused at the near end. Behind it, the preserved far blur
-// equals that of a lens focused at the far end, with the aperture scaled by the far end's distance over the focus
-// distance.
+// Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
+// preserved far blur equals that of a lens focused at the far end. Its aperture is scaled by the far end's distance
+// over the focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -260,7 +262,8 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
-// At both ends of a range that refocuses, the blur equals that of a lens focused at that end, with the same aperture.
+// At both ends of a focus range that refocuses, the blur equals that of a lens focused at that end, with the same
+// aperture.
 TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -277,14 +280,14 @@ TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
 TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     const auto small = threePatches();
     const Image blurred = rendered(*small, 64);
-    small->view.lens.focusRangeFront = 1.6;  // near end at 0.9 m
-    small->view.lens.focusRangeBehind = 2;   // far end at 4.5 m
+    small->view.lens.focusRangeFront = 1.6;  // near end of the focus range at 0.9 m
+    small->view.lens.focusRangeBehind = 2;   // far end of the focus range at 4.5 m
     const Image range = rendered(*small, 64);
     small->view.lens.dofEnabled = false;
     const Image pinhole = rendered(*small, 64);
     EXPECT_LT(rootMeanSquare(part(range, 0), part(pinhole, 0)), 1e-5);
     EXPECT_LT(rootMeanSquare(part(range, 1), part(pinhole, 1)), 1e-5);
-    EXPECT_GT(rootMeanSquare(part(range, 2), part(pinhole, 2)), 1e-3) << "beyond the range it is blurred";
+    EXPECT_GT(rootMeanSquare(part(range, 2), part(pinhole, 2)), 1e-3) << "beyond the range, blur remains";
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
@@ -308,11 +311,11 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const Image pinhole = rendered(*small, 64);
     EXPECT_LT(rootMeanSquare(part(after, 0), part(pinhole, 0)), 1e-5);
     small->world.shutter.poses.clear();
-    EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
+    EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "the patch moves";
 }
 
-// An object whose blur is scaled to zero has the pinhole's edges under any aperture, and the other objects keep their
-// bokeh (Munkberg et al. 2012, Figure 8).
+// An object whose blur is scaled to zero has the same edges as in a pinhole image under any aperture. The other objects
+// keep their bokeh (Munkberg et al. 2012, Figure 8).
 TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     const auto small = threePatches();
     const Image circular = rendered(*small, 256);
@@ -345,7 +348,7 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 0.25;
     const Image expected = rendered(*small, 64);
     small->world.pose.objects[2].cocScale = 1;
-    // The third patch gets its own mesh with a blur attribute of 0.25.
+    // The third patch uses a mesh with a blur attribute of 0.25.
     Mesh scaled = quad(0);
     scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
     scaled.blurBounds = boundsOf(scaled.vertices.blurs);
@@ -355,12 +358,13 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     EXPECT_LT(rootMeanSquare(rendered(*small, 64), expected), 1e-6);
 }
 
-// All points of the tilted focus plane w + m·X = s are sharp.
+// All points of the tilted focus plane w + m·X = s are sharp. w is the depth, X the horizontal camera-space position, m
+// the slope and s the focus distance.
 TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     const auto small = threePatches();
     Lens& lens = small->view.lens;
     lens.fStop = 0.5;
-    // The patches at (X, depth) lie on the plane depth = s − tan(swing)·X.
+    // The patches at (X, depth) lie on the plane depth = s − tan(swing)·X, with the focus distance s.
     const double m = std::tan(0.9);
     lens.focusSwing = 0.9;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -377,7 +381,7 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     EXPECT_GT(rootMeanSquare(tilted, rendered(*small, 64)), 0.006) << "without the swing the sides are blurred";
 }
 
-// The CoC AOV equals the plan's function for any combination of controls.
+// The CoC AOV equals the frame plan's CoC function for any combination of controls.
 TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
     const auto small = checkeredFloor(4, 0.7, 12);
     Lens& lens = small->view.lens;
@@ -405,7 +409,7 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods use the same CoC: if all blur is limited to zero, they give the pinhole image.
+// Post-process methods use the same CoC: if the controls limit all blur to zero, these methods give the pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

@@ -1,4 +1,4 @@
-// Tests of the ray tracer's bokeh of every aperture with a mask, against the aperture's definition.
+// Tests of the ray tracer's bokeh, for every aperture that needs a mask, against the aperture's definition.
 
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@
 namespace defocus::engine {
 namespace {
 
-// The bokeh of an aperture that is sampled by rejection, or given by an image, has the aperture's density of light. The
+// The bokeh of an aperture that is sampled by rejection, or given by an image, has the aperture's light density. The
 // tolerance covers the noise of the 18,000 rays that hit the bright square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
-    view.lens.fStop = 0.03;  // a blur of 28 px and the square just fit the image
+    view.lens.fStop = 0.03;  // the square with a blur of 28 px just fits the image
     std::vector<std::pair<std::string, Lens>> lenses = {{"image", view.lens}};
     lenses.front().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
     for (const ApertureShape& shape : apertureShapes)

@@ -1,4 +1,5 @@
-// Tests of the ray tracer, the reference of other tests, against closed forms (no GPU, no code of the rasterizer).
+// Tests of the ray tracer, which is the reference of other tests, against closed forms (no GPU, no code of the
+// rasterizer).
 
 #include <gtest/gtest.h>
 
@@ -80,12 +81,14 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     view.lens.focusDistance = 1;
     const double still = lensCamera(view).tanHalfHorizontal;
     view.lens.focusBreathing = true;
-    // With focus breathing, the sensor lies at 1/(1/f − 1/s) instead of f: 1/(1/0.05 − 1) = 0.0526 m.
+    // With focus breathing, the distance from lens to sensor is 1/(1/f − 1/s) instead of the focal length f. With f =
+    // 0.05 m and the focus distance s = 1 m, it is 1/(1/0.05 − 1) = 0.0526 m.
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
 // With a foreground limit (Munkberg, Toth and Akenine-Möller 2012), a ray passes through the points that the limited C
-// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d and the lens point (u, v).
+// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) with the pixel's axis d, the horizontal field of view θx and the lens
+// point (u, v).
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -100,8 +103,9 @@ TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
             const LensRay behind = refractedRay(camera, image, eye);
             const glm::dvec2 axis(image.x * tangent, image.y * tangent * 120 / 200);
             for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
-                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // blur in px, > 0 in front
-                const double shift = tangent * std::min(plain, 7.0) / 200;          // lateral offset per m of depth
+                // blur in px; positive in front of the focus
+                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;
+                const double shift = tangent * std::min(plain, 7.0) / 200;  // lateral offset per m of depth
                 const LensRay& ray = z < camera.lensDepth ? eye : behind;
                 const double along = z + ray.origin.z;
                 const glm::dvec2 place(ray.origin.x + along * ray.direction.x, ray.origin.y + along * ray.direction.y);
@@ -149,14 +153,16 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeBokeh,
 TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     View view = bokehView(64, 64);
     view.lens.bladeCount = 3;
-    view.lens.bladeRotation = std::numbers::pi / 2;  // the first corner points up
-    // Behind the focus, the image of a point moves with the lens point (C > 0), so the bokeh has a corner at the top.
-    // In front of the focus, the corner is at the bottom.
+    view.lens.bladeRotation = std::numbers::pi / 2;  // rotates the polygon so that its first corner points up
+    // Behind the focus, the image of a point moves with the lens point, so the bokeh has a corner at the top. In front
+    // of the focus, the corner is at the bottom.
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
-        const int lit = static_cast<int>(0.8 * radius);             // px towards the corner
-        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;  // px towards the flat side, outside the bokeh
+        // distance in px towards the corner, inside the bokeh
+        const int lit = static_cast<int>(0.8 * radius);
+        // distance in px towards the flat side, outside the bokeh
+        const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;
         const bool upright = depth > view.lens.focusDistance;
         EXPECT_GT(*image.at(32, upright ? 31 - lit : 32 + lit), 0.5f * *image.at(32, 32));
         EXPECT_EQ(*image.at(32, upright ? 32 + dark : 31 - dark), 0);
@@ -223,7 +229,7 @@ TEST(EmbreeCulling, NothingNearerThanTheNearPlaneIsSeen) {
 TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
     View view = bokehView(64, 48);
     view.lens.dofEnabled = false;
-    const double pitch = 0.4;  // rad, the camera looks up
+    const double pitch = 0.4;  // angle in rad by which the camera looks up
     view.worldFromCamera = glm::rotate(glm::dmat4(1), pitch, glm::dvec3(1, 0, 0));
     Environment sky;
     sky.zenith = glm::vec3(1, 0, 0);
@@ -232,7 +238,8 @@ TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
     const Image image = traced(Scene{}, view, 64, sky);
     for (const int row : {0, 23, 47}) {
         const double slope = (24 - row - 0.5) * 2 * tanHalf(view) / 64;
-        const double height = std::sin(pitch + std::atan(slope));  // y of the middle column's direction
+        // y component of the direction through the middle column
+        const double height = std::sin(pitch + std::atan(slope));
         EXPECT_NEAR(image.at(32, row)[0], std::max(0.0, height), 2e-3);
         EXPECT_NEAR(image.at(32, row)[1], 1 - std::abs(height), 2e-3);
         EXPECT_NEAR(image.at(32, row)[2], std::max(0.0, -height), 2e-3);
@@ -280,8 +287,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
     const World world = flatWorld(scene, blackBackground());
     FramePlan plan = planOf(view, 1);
-    // Moving the lens point right and up moves objects behind the focus right and up. Moving the pixel point right and
-    // up moves the image left and down.
+    // If the lens point moves right and up, objects behind the focus move right and up in the image. If the pixel point
+    // moves right and up, the image moves left and down.
     LensSample sample;
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);
@@ -312,7 +319,8 @@ TEST(EmbreeLambert, RadianceIsAlbedoTimesIlluminanceOverPi) {
     World world = flatWorld(scene, blackBackground());
     PlacedLight sun;
     sun.light.intensity = 4;
-    sun.direction = glm::normalize(glm::dvec3(std::sqrt(3.0), 0, -1));  // 60° from the surface's normal
+    // direction of the light, 60° from the surface's normal
+    sun.direction = glm::normalize(glm::dvec3(std::sqrt(3.0), 0, -1));
     world.lights.push_back(sun);
     const Image image = renderedImage(*makeEmbreeRenderer(world), planOf(view, 1));
     EXPECT_NEAR(*image.at(16, 16), 0.5 * 4 * 0.5 / std::numbers::pi, 1e-6);

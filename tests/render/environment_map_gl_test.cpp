@@ -1,7 +1,8 @@
 // Tests of environments that vary with the direction: their radiance in a pixel, and their light on a surface.
 //
-// Maps hold L(d) = 1 + linear and quadratic terms in d, which are spherical harmonics of the bands 0, 1 and 2. The
-// clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the matt reflection is known.
+// Maps hold the radiance L(d) = 1 + linear and quadratic terms in d, which are spherical harmonics of the bands 0, 1
+// and 2. The clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the matt reflection
+// is known.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@ namespace {
 
 using EnvironmentMaps = LitWall;
 
-// Linear terms of L(d) in `first`, quadratic terms without trace in `second`, so that each belongs to one band. All
-// axes differ, so that an exchanged or rotated axis fails a test.
+// `first` returns linear terms of the radiance L(d), and `second` traceless quadratic terms, so that each function
+// belongs to a single band. All axes differ, so that an exchanged or rotated axis fails a test.
 glm::dvec3 first(const glm::dvec3& d) {
     return {0.3 * d.x + 0.2 * d.y - 0.1 * d.z, 0.35 * d.y, 0.3 * d.z};
 }
@@ -43,8 +44,8 @@ Environment mapEnvironment() {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Bound on the error of the map. Half floats, and linear interpolation between texels that are π/128 apart, err by
-// 2⁻¹¹·1.7 + (π/128)²/8·4.
+// Bound on the error of the map. Half floats, and linear interpolation between texels that are π/128 apart, have an
+// error of 2⁻¹¹·1.7 + (π/128)²/8·4.
 constexpr double mapError = 1.2e-3;
 
 const std::vector<glm::dmat4>& turns() {
@@ -58,7 +59,7 @@ const std::vector<glm::dmat4>& turns() {
     return list;
 }
 
-// Returns a wall and its camera, turned together.
+// Returns a wall and its camera, both rotated by `turn`.
 std::unique_ptr<SmallWorld> turnedWall(const Material& material, const glm::dmat4& turn) {
     auto small = litWall(material);
     small->view.worldFromCamera = turn;
@@ -80,8 +81,8 @@ TEST_F(EnvironmentMaps, aPixelSeesTheDirectionItLooksIn) {
     }
 }
 
-// Returns the share of light that reaches a wall's matt part: the light that a black wall does not reflect under
-// uniform light 1.
+// Returns the fraction of light that reaches a wall's diffuse layer: the fraction that a black wall does not reflect
+// under a uniform radiance of 1.
 double shareOfMattPart(Material material, const glm::dmat4& turn) {
     material.baseColorFactor = {0, 0, 0, 1};
     const auto small = turnedWall(material, turn);
@@ -89,8 +90,8 @@ double shareOfMattPart(Material material, const glm::dmat4& turn) {
     return 1 - static_cast<double>(wallImage(*small).at(16, 12)[0]);
 }
 
-// A matt wall reflects the light of the hemisphere before it. The difference between a white and a black wall is the
-// matt part's reflection.
+// A matt wall reflects the light of the hemisphere in front of it. The difference between a white and a black wall is
+// the diffuse reflection.
 TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
     for (const glm::dmat4& turn : turns())
         for (const float lighting : {1.0f, 0.5f}) {
@@ -129,8 +130,9 @@ TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     }
 }
 
-// A matt wall under a gradient sky reflects E(n)/π, summed over the hemisphere before it. The renderer omits the bands
-// beyond the second. The largest omitted band, the fourth, contributes −3/32 of the poles' differences times −1/24.
+// A matt wall under a gradient sky reflects the radiance E(n)/π. The irradiance E(n) is summed numerically over the
+// hemisphere in front of the wall. The renderer omits the bands beyond the second. The largest omitted band is the
+// fourth: its coefficient is −3/32 times zenith + nadir − 2·horizon, and the clamped cosine scales it by −1/24.
 TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
     const Environment sky = {
         EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
@@ -152,7 +154,7 @@ TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
         const glm::dmat3 wall(turn);
         glm::dvec3 sum(0);
         constexpr int steps = 200;
-        for (int i = 0; i < steps; ++i)  // equal steps of sin²θ and φ have equal cosine weight
+        for (int i = 0; i < steps; ++i)  // equal steps of sin²θ and φ have equal cosine-weighted solid angles
             for (int k = 0; k < steps; ++k) {
                 const double sine = std::sqrt((i + 0.5) / steps), azimuth = 2 * std::numbers::pi * (k + 0.5) / steps;
                 const glm::dvec3 local(sine * std::cos(azimuth), sine * std::sin(azimuth), std::sqrt(1 - sine * sine));

@@ -1,5 +1,5 @@
-// Tests of surfaces in a white furnace, with light 1 from everywhere: no surface reflects more than it receives, or
-// less than zero.
+// Tests of surfaces in a white furnace, with a radiance of 1 from all directions: no surface reflects more light than
+// it receives, or a negative amount.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-// Returns a wall that fills the frame and whose normal has approximately this cosine to the view axis.
+// Returns a wall that fills the frame. The angle between its normal and the view axis has approximately the given
+// cosine.
 std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -50,9 +51,10 @@ Material furnaceMaterial(float base, float metallic, float roughness) {
 
 constexpr double rounding = 1e-5;
 constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
-constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // cosines to the view axis; pixels deviate by up to 20°
+// cosines of the angle between normal and view axis; pixels deviate from the view axis by up to 20°
+constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};
 
-// A white dielectric reflects all of the light: the base reflects what its coat lets through.
+// A white dielectric reflects all light: its diffuse base reflects the light that its specular layer transmits.
 TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {
@@ -74,8 +76,8 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
                 }
 }
 
-// A white metal loses light only through its roughness. Single scattering between rough facets loses more light the
-// rougher they are, and a mirror loses none.
+// A white metal loses light only by its roughness. Single scattering between rough facets loses more light the rougher
+// they are, and a mirror loses none.
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {

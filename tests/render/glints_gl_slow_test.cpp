@@ -1,5 +1,5 @@
 // Tests of glints of a glossy surface that are far smaller than a pixel. With few samples, they leave no isolated white
-// pixels. They send as much light as with many samples and without the filter that spreads them.
+// pixels. Their mean radiance equals that of many samples without the filter that spreads glints.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ PlacedLight sun(const glm::dvec3& direction, float intensity) {
 }
 
 // Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979), with a different offset for each
-// `set`. A single sun would measure the positions of the ripples' caustics rather than their light.
+// `set`. With a single sun, the result would depend on the positions of the ripples' caustics.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;
@@ -60,7 +60,7 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
 }
 
 // Renders the ball with or without the filter that spreads glints. The filter acts on a frame's first samples only, so
-// unfiltered images use samples after the first million.
+// unfiltered images use sample indices from 2²⁰ on.
 Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
     RenderSettings settings;
     settings.sampleCount = samples;
@@ -77,7 +77,7 @@ double meanOf(const Image& image) {
     return sum / (static_cast<double>(image.width) * image.height);
 }
 
-// Returns the largest ratio of a pixel to its brightest neighbour. Neighbours darker than 0.05 count as 0.05.
+// Returns the largest ratio of a pixel to its brightest neighbour, with neighbours clamped to at least 0.05.
 double worstPixel(const Image& image) {
     double worst = 0;
     for (int y = 1; y + 1 < image.height; ++y)

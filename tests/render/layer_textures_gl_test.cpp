@@ -1,5 +1,5 @@
-// Tests of textures of the KHR_materials extensions, slot by slot: the channel that is read, its decoding, and the
-// product with its factor. Each pixel is compared with the value computed from its texel.
+// Tests of textures of the KHR_materials extensions. For each slot, they test the channel that is read, its decoding,
+// and the product with its factor. Each pixel is compared with the value computed from its texel.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using LayerTextures = LitWall;
 
-// Returns a material that is black and reflects nothing.
+// Returns a black material without reflection.
 Material blackMaterial() {
     Material result;
     result.baseColorFactor = {0, 0, 0, 1};
@@ -26,13 +26,13 @@ std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Ma
     return small;
 }
 
-// Returns the relative error that a driver's decoding of the texel may cause.
+// Returns the relative error that is due to the driver's sRGB decoding of the texel.
 glm::dvec3 relativeErrors(const Texel& texel) {
     return decodingErrors(texel) / decoded(texel);
 }
 
-// Expects a wall of `material` under two suns to show, at each texel, the surface that `surfaceOf` computes from the
-// texel.
+// Expects a wall of `material` under two suns to have, at each texel, the radiance of the surface that `surfaceOf`
+// computes from the texel.
 void expectSurface(const Material& material, TextureUse Material::*slot,
                    const std::function<GltfSurface(const Texel&)>& surfaceOf, bool isColor = false) {
     const auto small = texturedWall(material, slot);
@@ -66,7 +66,8 @@ TEST_F(LayerTextures, redOfTransmissionLetsThrough) {
     });
 }
 
-// The green channel scales the thickness d in Beer-Lambert absorption, c^(d/D).
+// The green channel scales the thickness d in Beer-Lambert absorption, c^(d/D), with the attenuation colour c and the
+// attenuation distance D.
 TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
     Material glass = blackMaterial();
     glass.baseColorFactor = glm::vec4(1);
@@ -92,7 +93,7 @@ Material glossyMaterial() {
     result.metallicFactor = 0;
     result.roughnessFactor = 0.4f;
     result.specularFactor = 0.7f;
-    result.ior = 2;  // reflects 1/9 at normal incidence
+    result.ior = 2;  // a reflectance of 1/9 at normal incidence
     return result;
 }
 
@@ -105,7 +106,8 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    glossy.baseColorFactor = {0, 0, 0, 1};  // black base colour: only the reflectance has a strongest channel
+    // black base colour, so the strongest channel of the reflectance, which reduces the base, does not matter
+    glossy.baseColorFactor = {0, 0, 0, 1};
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(
         glossy, &Material::specularColor,
@@ -166,7 +168,8 @@ TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
 
 // ---- sheen
 
-// Expects cloth to show, at each texel, the sheen that `sheenOfTexel` computes from the texel as colour and roughness.
+// Expects a wall of cloth to have, at each texel, the radiance of the sheen whose colour and roughness `sheenOfTexel`
+// computes from the texel.
 void expectSheen(const Material& cloth, TextureUse Material::*slot,
                  const std::function<std::pair<glm::dvec3, double>(const Texel&)>& sheenOfTexel, bool isColor = false) {
     const auto small = texturedWall(cloth, slot);

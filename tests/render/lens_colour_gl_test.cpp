@@ -22,7 +22,7 @@ std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance
-    glm::dvec3 moment{0};  // Σ radiance · squared distance from the centroid / energy, px²
+    glm::dvec3 moment{0};  // sum of radiance · squared distance from the centroid, divided by the energy, px²
     glm::dvec2 centre{0};
 };
 
@@ -90,7 +90,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     const int steps = 2000;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps;
-        const double inverseFocus = 1 / 2.0 + 3 * 0.08 * (t - 0.5);  // red (t = 0) focuses farther away
+        const double inverseFocus = 1 / 2.0 + 3 * 0.08 * (t - 0.5);  // red light (t = 0) focuses farther away
         const double diameter = aperture * (inverseFocus - 1 / depth) * 128 / 0.72;
         const double middle = aperture * (1 / 2.0 - 1 / depth) * 128 / 0.72;
         const glm::dvec3 weight(2 * (1 - t), 1.5 * (1 - (2 * t - 1) * (2 * t - 1)), 2 * t);
@@ -98,7 +98,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
         central += middle * middle / 8 / steps;
     }
     EXPECT_NEAR(plain.moment.r - central, plain.moment.b - central, 1e-6);
-    const double box = plain.moment.g - central;  // contribution of the point and the pixel filter
+    const double box = plain.moment.g - central;  // contribution of the point's size and the pixel filter
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(blob.moment[c], expected[c] + box, 0.02 * expected[c]) << "channel " << c;
         EXPECT_NEAR(blob.energy[c] / plain.energy[c], 1, 0.01) << "channel " << c;
@@ -106,8 +106,8 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     EXPECT_GT(blob.moment.b, 1.1 * blob.moment.r) << "behind the focus blue is blurred more";
 }
 
-// A grey scene stays grey under each aberration alone. With both, a pixel's own selection of samples would be tinted by
-// sampling noise.
+// A grey scene stays grey under each aberration alone. With both aberrations, pixels use different subsets of the
+// samples, and sampling noise would tint them.
 TEST_F(LensColour, greyStaysGrey) {
     const Scene empty;
     Environment grey = blackBackground();
@@ -131,8 +131,8 @@ TEST_F(LensColour, greyStaysGrey) {
 }
 
 // With the cat's eye effect, the aperture seen from the image's corner is the intersection of two circles that are
-// `catEye` radii apart. Its short axis points towards the image's centre. Its total brightness is unchanged, as its
-// rays weigh more.
+// `catEye` radii apart. Its short axis points towards the image's centre. The brightness is unchanged, because the
+// remaining rays have larger weights.
 TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     View view = viewOf(0.35);
     view.lens.catEye = 0.8;
@@ -142,7 +142,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     const Blob round = blobOf(renderedPoint(view, 108, 16, depth));
     const Blob cut = blobOf(inCorner);
 
-    // Second moments of the cut bokeh along the direction to the centre and across that direction.
+    // Second moments of the clipped bokeh along and across the direction to the image's centre.
     const glm::dvec2 outward = glm::normalize(glm::dvec2(108 - 64, 16 - 48));
     double along = 0;
     double across = 0;
@@ -154,7 +154,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected moments, from points that lie inside both circles as seen from each pixel of the bokeh.
+    // Expected second moments, from lens points that lie inside both circles as seen from each pixel of the bokeh.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;
@@ -164,7 +164,7 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     std::vector<glm::dvec2> points;
     for (int i = -200; i <= 200; ++i)
         for (int j = -200; j <= 200; ++j) {
-            const glm::dvec2 lens(i / 200.0, j / 200.0);  // +x right, +y up
+            const glm::dvec2 lens(i / 200.0, j / 200.0);  // lens point: x grows to the right, y upwards
             if (glm::dot(lens, lens) > 1) continue;
             const glm::dvec2 pixel(108 + 0.5 * diameter * lens.x, 16 - 0.5 * diameter * lens.y);
             const glm::dvec2 place((pixel.x - 64) / 64 / corner, -(pixel.y - 48) / 64 / corner);

@@ -1,7 +1,7 @@
 #pragma once
-// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance that glTF 2.0's
-// equations give for each pixel. The equations are evaluated in double precision, with half vectors and angles as
-// written in glTF.
+// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance of each pixel by glTF
+// 2.0's equations. The equations are evaluated in double precision, with half vectors and angles as written in the glTF
+// specification.
 
 #include <gtest/gtest.h>
 
@@ -20,22 +20,22 @@
 
 namespace defocus::engine {
 
-inline constexpr double wallDepth = 2;  // m in front of the camera
+inline constexpr double wallDepth = 2;  // distance in m in front of the camera
 
-// Returns the wall and its camera. The camera looks along no axis and does not stand at the origin, so that world axes
-// and camera axes cannot be confused.
+// Returns the wall and its camera. The camera looks along none of the world axes and is not at the origin, so that
+// world and camera coordinates cannot be confused.
 inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
     Mesh mesh = quad(0);
-    mesh.vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // v grows downwards
+    mesh.vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // texture coordinates; v grows downwards
     mesh.vertices.tangents.assign(4, {1, 0, 0, 1});
     small->scene.meshes.push_back(std::move(mesh));
     small->view.worldFromCamera =
         glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -1, 2)), 0.7, glm::dvec3(0, 1, 0)), 0.4,
                     glm::dvec3(1, 0, 0));
     place(*small, 0,
-          // The wall spans [−1, 1]² m; the frame shows [−0.72, 0.72] m of its width.
+          // The wall spans [−1, 1]² m; the frame shows x from −0.72 to 0.72 m.
           glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));
     small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
     small->view.width = 32;
@@ -69,7 +69,7 @@ inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     const View& view = small.view;
     const FramePlan plan = wallPlan(small);
     const glm::dvec2 offset(plan.samples[0].pixel);
-    const double tanX = 36.0 / (2 * 50);  // of the default lens
+    const double tanX = 36.0 / (2 * 50);  // tan(θx/2) of the default lens
     std::vector<WallPoint> points;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -160,7 +160,7 @@ inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
     return sun;
 }
 
-// Converts a direction from the wall's axes (right, up, towards the camera) to the world.
+// Converts a direction from the wall's coordinates (right, up, towards the camera) to world coordinates.
 inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
     return glm::dmat3(small.view.worldFromCamera) * direction;
 }
@@ -174,7 +174,7 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
 
 // Expects a pixel to have the radiance `expected` to within rounding. Single precision over some dozens of operations
 // errs by 2e-5. The GGX distribution compares the half vector's cosine with α², which magnifies rounding. `slope` is
-// the change of the light over the position's uncertainty.
+// the change of the radiance over the uncertainty of the position.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

@@ -19,7 +19,7 @@ Material material(const glm::vec3& base, float roughness) {
     return result;
 }
 
-// Returns a material that is black and reflects nothing.
+// Returns a black material without reflection.
 Material nothing() {
     Material result = material(glm::vec3(0), 1);
     result.specularFactor = 0;
@@ -30,8 +30,8 @@ double reflectanceOf(double ior) {
     return std::pow((ior - 1) / (ior + 1), 2);
 }
 
-// Returns the image of a wall in a furnace of light 1. The wall's normal has approximately this cosine to the view
-// axis.
+// Returns the image of a wall in a furnace of radiance 1. The angle between the wall's normal and the view axis has
+// approximately the given cosine.
 Image furnace(const Material& material, double cosine) {
     auto small = litWall(material);
     const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
@@ -78,7 +78,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // metal ignores both factors
+    colored.metallicFactor = 1;  // a metal, since metals ignore both factors
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 
@@ -89,8 +89,8 @@ TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
     expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
 }
 
-// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light, which is all the
-// light that a black wall shows. With a glowing base, coat and base add up to 1.
+// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light. A black wall below
+// the coat adds nothing. Below the coat, a base that emits a radiance of 1 raises the sum to 1.
 TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     Material coated = nothing();
     coated.clearcoatFactor = 1;
@@ -122,7 +122,8 @@ TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
 
 // ---- sheen --------------------------------------------------------------------------------------
 
-// Returns the albedo of sheen, ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
+// Returns the albedo of sheen for the view cosine `nv`: ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in
+// √(n·l) and the azimuth.
 double sheenAlbedo(double nv, double roughness) {
     constexpr int rings = 300, sectors = 300;
     const double sv = std::sqrt(1 - nv * nv);
@@ -147,7 +148,7 @@ TEST_F(MaterialLayers, sheenThrowsBackItsIntegralOfAFurnacesLight) {
             velvet.sheenColorFactor = glm::vec3(1);
             velvet.sheenRoughnessFactor = static_cast<float>(roughness);
             const Image image = furnace(velvet, cosine);
-            // The view axis passes between the four pixels in the middle.
+            // Mean of the four pixels around the view axis.
             const double seen =
                 0.25 * (image.at(15, 11)[0] + image.at(16, 11)[0] + image.at(15, 12)[0] + image.at(16, 12)[0]);
             EXPECT_NEAR(seen, sheenAlbedo(cosine, roughness), 0.012) << roughness << ' ' << cosine;
@@ -164,7 +165,7 @@ TEST_F(MaterialLayers, sheenUnderALightIsTheStandardsAndTakesFromTheBase) {
         small->world.lights = {sunFrom(fromWall(*small, {1.5, -0.4, -1}), 4)};
         const Image image = wallImage(*small);
         const std::vector<WallPoint> points = wallPoints(*small);
-        for (std::size_t i = 0; i < points.size(); i += 101) {  // a subset, as the integrals are slow
+        for (std::size_t i = 0; i < points.size(); i += 101) {  // only every 101st point, as the integrals are slow
             const WallPoint& point = points[i];
             const glm::dvec3 l = -glm::normalize(small->world.lights[0].direction);
             const double nl = glm::dot(point.normal, l), nv = glm::dot(point.normal, point.toEye);

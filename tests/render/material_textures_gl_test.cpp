@@ -1,5 +1,5 @@
-// Tests of textured pixels against computed ones: the meaning of each channel, its decoding, and the texel's position
-// on the surface.
+// Tests of textured pixels against values computed from texels: the meaning of each channel, its decoding, and the
+// texel's position on the surface.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
     });
 }
 
-// Occlusion, in the red channel, darkens only the environment's light, not the light of lamps and emission.
+// Occlusion, in the red channel, darkens only the light of the environment, not the light of lamps or emission.
 TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     Material material;
     material.metallicFactor = 0;
@@ -77,8 +77,8 @@ TEST_F(MaterialTextures, theNormalTextureTiltsTheNormal) {
     });
 }
 
-// An alpha mask discards pixels whose texture alpha times the factor is below the cutoff. At the cutoff, pixels are
-// kept.
+// An alpha mask discards pixels if the texture's alpha times the factor is below the cutoff. Pixels with an alpha equal
+// to the cutoff are kept.
 TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     Material material = unlitMaterial({1, 1, 1, 0.5f});
     material.alphaMode = AlphaMode::mask;
@@ -100,7 +100,7 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     }
     EXPECT_GT(holes, 100);
     EXPECT_GT(left, 100);
-    // An alpha of 1 · 1 is kept at a cutoff of 1.
+    // At a cutoff of 1, texels with an alpha of 1 are kept if the factor is 1.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
     const Image full = wallImage(*small);
@@ -119,7 +119,8 @@ TEST_F(MaterialTextures, transformsAndSetsAreEachTexturesOwn) {
     material.metallicFactor = 0;
     const auto small = litWall(material);
     Mesh& mesh = small->scene.meshes[0];
-    mesh.vertices.uv1 = {{0.2f, 0.9f}, {0.8f, 0.9f}, {0.8f, 0.3f}, {0.2f, 0.3f}};  // 0.2 + 0.6 u, 0.3 + 0.6 v
+    // second coordinate set: (0.2 + 0.6 u, 0.3 + 0.6 v)
+    mesh.vertices.uv1 = {{0.2f, 0.9f}, {0.8f, 0.9f}, {0.8f, 0.3f}, {0.2f, 0.3f}};
     finish(*small);
     const int texture = addTexture(small->scene, 4, scrambled);
     const glm::dvec2 offset(0.3, -0.2), scale(0.7, 1.3);
@@ -161,7 +162,8 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
     };
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     Mesh& mesh = small->scene.meshes[0];
-    for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;  // −1.7 … 2.7 over the visible 0.72 of the wall
+    // texture coordinates −1.7 … 2.7 over the visible width of the wall
+    for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;
     finish(*small);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, 4, scrambled);
     for (const Wrap wrapS : {Wrap::repeat, Wrap::clampToEdge, Wrap::mirroredRepeat})
@@ -172,7 +174,8 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
                 *small,
                 [&](const glm::dvec2& uv) {
                     const glm::dvec2 wide = 6.0 * uv - 2.5;
-                    // An edge texel extends to infinity under clamping, so any point of it maps to the texel's middle.
+                    // With clamping, the edge texel extends to infinity, so any point beyond the edge maps to the
+                    // middle of that texel.
                     const auto inside = [](double u, Wrap wrap) {
                         return wrap == Wrap::clampToEdge && (u < 0.25 || u > 0.75) ? (u < 0.5 ? 0.125 : 0.875) : u;
                     };
@@ -227,7 +230,7 @@ TEST_F(MaterialTextures, darkVertexColoursAreKept) {
         expectRadiance(image, point, {118.0 / 65535, 0.0005, 0.3}, glm::dvec3(8e-6));
 }
 
-// Fitted colours of a level may lie outside [0, 1] and are not clamped.
+// Vertex colours that are fitted for a coarse level may lie outside [0, 1] and are not clamped.
 TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
@@ -246,7 +249,7 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
         expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }
 
-// Texture filtering interpolates decoded light, not codes. The interpolation weights have at least 8 bits.
+// Texture filtering interpolates linear values, not sRGB codes. The interpolation weights have at least 8 bits.
 TEST_F(MaterialTextures, filteringMixesLight) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     const auto code = [](int column, int) { return column == 0 ? Texel{0, 40, 255, 255} : Texel{255, 200, 90, 255}; };

@@ -20,7 +20,8 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
-    static constexpr double ballDepth = 200;  // m; so far that all visible light leaves in one direction
+    // distance in m, so large that all visible light leaves in almost the same direction
+    static constexpr double ballDepth = 200;
     static constexpr double ballRadius = 1;
     static constexpr double ballFocalLength = 2000;  // mm
 
@@ -51,7 +52,7 @@ protected:
         return imageInFloats(small.world, planFrame(small.world, small.view, settings));
     }
 
-    // Returns ∫ L dΩ over the image's red channel.
+    // Returns the integral of the image's red channel over the solid angle.
     static double intensityOf(const Image& image) {
         const double pixel = 36.0 / ballFocalLength / image.width;  // pixel size on the image plane at distance 1
         double sum = 0;

@@ -1,4 +1,4 @@
-// Tests of motion blur against closed forms and against renders of single moments.
+// Tests of motion blur against closed forms, and against the mean of images without motion.
 
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ struct WhiteSquare : SmallWorld {
     }
 };
 
-// A square that moves past leaves a trapezoid: the share of the exposure in which it covers a pixel. A square of width
-// 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
+// A square that moves past a pixel covers it for a share of the exposure; these shares form a trapezoid. A square of
+// width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
 TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     constexpr double a = 8, way = 40;
     WhiteSquare square(a);
@@ -85,7 +85,7 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
         const double place = x + 0.5 - 64;
         const double from = std::max((place - a) / way + 0.5, 0.0);
         const double to = std::min((place + a) / way + 0.5, 1.0);
-        // The tolerance covers half a pixel's width and the discrepancy of the sample times.
+        // The tolerance covers half a pixel's width and the uneven spacing of the sample times.
         ASSERT_NEAR(image.at(x, 48)[0], std::max(to - from, 0.0), 0.02) << "column " << x;
     }
 }
@@ -110,7 +110,7 @@ TEST_F(Motion, anOpenShutterChangesNoBitOfAStillScene) {
     EXPECT_TRUE(sameBits(renderedInFloat(small->world, small->view, fullDetailFor(16)), still));
 }
 
-// Post-process methods draw the middle of the exposure.
+// Post-process methods render the scene at the middle of the exposure.
 TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     const auto small = fiveSpheres();
     const auto circular = [&] {
@@ -157,7 +157,8 @@ TEST_F(Motion, segmentsFollowARotation) {
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
 
-// Returns the mean of renders of one sample each, which show the still scene at the sample's moment.
+// Returns the mean of images of one sample each. Each image shows the scene and the camera without motion at the
+// sample's time.
 Image meanOfMoments(const World& world, const View& view, std::uint32_t samples) {
     Image sum;
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -176,8 +177,9 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
     return sum;
 }
 
-// Expects motion blur to equal the mean of its moments for a skinned figure, a moving camera, defocus, and a lamp that
-// does not turn with the camera. `fStop` and `candela` suit the size of the figure.
+// Expects motion blur to equal the mean of images without motion at the samples' times. The scene has a skinned figure,
+// a moving camera, defocus, and a lamp that does not turn with the camera. `fStop` and `candela` suit the size of the
+// figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;
     const auto small = posedWorld(path, 0.3, clip);
@@ -209,10 +211,10 @@ TEST_F(Motion, aBendingReedBeforeAMovingCameraIsTheMeanOfItsMoments) {
 
 TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
-    expectMeanOfMoments(path, 2, 0.02, 20'000);  // the fox is a hundred metres long
+    expectMeanOfMoments(path, 2, 0.02, 20'000);  // large values, since the fox is a hundred metres long
 }
 
-// Returns five spheres with a morph target, which openShutter() moves along straight lines before a moving camera.
+// Returns five spheres with a morph target, which openShutter() moves along straight lines in front of a moving camera.
 std::unique_ptr<SmallWorld> straightWays() {
     auto small = fiveSpheres();
     small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};

@@ -1,4 +1,4 @@
-// Tests of skins and morph targets on the GPU against static meshes that the CPU posed at the same moment.
+// Tests of skins and morph targets on the GPU against static meshes that the CPU posed at the same time.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,8 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
     }
 }
 
-// A skin with eight influences, one of them beyond the skin's joints, combines with morph targets that have normals.
+// A skin with eight influences, one of which refers to a joint that the skin lacks, combines with morph targets that
+// have normals.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
     Material plain;
@@ -143,7 +144,7 @@ TEST_F(Posing, depthsAreThoseOfTheWalkingFox) {
     expectDepthsOfThePosedSurface(path, 1);
 }
 
-// A wall with a normal map looks the same whether a joint, a morph target or its own matrix turns it.
+// A wall with a normal map looks the same whether a joint, a morph target or its own matrix rotates it.
 TEST_F(Posing, tangentsTurnToo) {
     const auto wall = [] {
         auto small = std::make_unique<SmallWorld>();

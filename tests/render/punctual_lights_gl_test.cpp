@@ -17,8 +17,8 @@ Material materialOf(const GltfSurface& surface) {
     return material;
 }
 
-// Returns the change of the light over half a step of the grid of 1/256 px to which GPUs snap corners. Interpolated
-// positions may be off by that distance. Returns 0 for software rasterizers.
+// Returns the change of the radiance over half a step of the grid of 1/256 px to which GPUs round vertex positions.
+// Interpolated positions have errors up to that distance. Returns 0 for software rasterizers.
 glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point, const std::vector<PlacedLight>& lights,
                              const SmallWorld& small) {
     if (currentIsSoftware()) return glm::dvec3(0);
@@ -46,7 +46,7 @@ void expectClosedForm(const GltfSurface& surface, const std::vector<PlacedLight>
     EXPECT_GT(brightest, 1e-3) << "the light reaches the wall";
 }
 
-// Returns a lamp 1.2 m in front of the wall, off the wall's centre.
+// Returns a lamp 1.2 m in front of the wall, beside the wall's centre.
 PlacedLight lampBefore(const SmallWorld& small) {
     PlacedLight lamp;
     lamp.light.type = LightType::point;
@@ -81,7 +81,7 @@ TEST_F(PunctualLights, aLampFallsOffWithTheSquareOfItsDistance) {
     const auto small = litWall(materialOf(surface));
     small->world.lights = {lampBefore(*small)};
     expectClosedForm(surface, small->world.lights, *small);
-    // A lamp ten times as far and a hundred times as strong gives the same result.
+    // A lamp ten times as far away and a hundred times as strong gives the same irradiance.
     PlacedLight& lamp = small->world.lights[0];
     lamp.position += fromWall(*small, {0, 0, 9 * 1.2});
     lamp.light.intensity *= 100;
@@ -130,7 +130,7 @@ TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
     EXPECT_GT(dark, 50);
 }
 
-// Several lights add up, both a few lights that are constants of the shader and many lights that are read from a
+// Several lights add up: both a few lights, which are constants of the shader, and many lights, which are read from a
 // buffer.
 TEST_F(PunctualLights, severalAddUp) {
     const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};

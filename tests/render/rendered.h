@@ -13,7 +13,7 @@ inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
-// Returns the image by a method written as on the command line, with 32-bit float layers.
+// Renders an image with 32-bit float layers. `method` is a method and its settings as on the command line.
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);
     RendererOptions options;
@@ -22,7 +22,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
     return imageOf(*use.method->make(world, options), plan);
 }
 
-// Returns the image by the accumulation, with 32-bit float layers.
+// Renders an image by the accumulation with 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

@@ -1,4 +1,4 @@
-// Tests of the shading of coarse levels, whose normals describe a relief that their triangles have lost.
+// Tests of the shading of coarse levels whose normals describe a relief that the levels' triangles have lost.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Returns a square of edge 2 with 12 × 12 hills of slopes up to 27°, and with the normals of that relief.
+// Returns a square of side 2 with 12 × 12 hills of slopes up to 27°, and with the normals of these hills.
 Mesh hills() {
     constexpr int cells = 96;
     constexpr double waves = 12;
@@ -61,7 +61,7 @@ double meanLight(const SmallWorld& small, LodMode lod) {
 }
 
 // A flat level is as bright as the relief that it replaces. In an oblique view, the hillsides that face the eye cover
-// more of the picture. With only a mean normal, the flat level would be too dark, by 0.06 at 55°.
+// more of the picture. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     Material matt;

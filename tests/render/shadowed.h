@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for shadows of edges under a disk of light: scenes, images and closed forms.
+// Fixture for shadows of straight edges under a disk-shaped light: scenes, images and closed forms.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 class Shadowed : public testing::Test {
 protected:
-    static constexpr double receiverDepth = 4;  // m in front of the camera, as all depths here
+    static constexpr double receiverDepth = 4;  // depth in m; all depths here are distances in front of the camera
     static constexpr double tanHalfWidth = 36.0 / (2 * 50);
 
     static Material matt() {
@@ -80,12 +80,12 @@ protected:
         return renderer->image();
     }
 
-    // Returns the x of the wall point that the column's centre shows, m.
+    // Returns the x coordinate in m of the wall point at the centre of a column.
     static double wallX(const View& view, int column) {
         return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
     }
 
-    // Returns the light of each column in the image's middle row, relative to the light without shadows.
+    // Returns the radiance of each column in the image's middle row, relative to the radiance without shadows.
     static std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
                                          const std::string& method = "accumulation") {
         RenderSettings without = settings;
@@ -105,9 +105,9 @@ protected:
         return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
     }
 
-    // Returns the lit share of the sun at x on the wall, behind an edge at `left` and d in front of the wall. The sun
-    // stands 45° to the right, and t is the tangent of half its diameter. A point of the sun's disk at a·t from the
-    // disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
+    // Returns the share of the sun's disk that lights the position x on the wall. An edge is at x = `left`, at the
+    // distance d in front of the wall. The sun stands 45° to the right, and t is the tangent of its angular radius. A
+    // point of the sun's disk at a·t from the disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
     static double litShareBehindEdge(double x, double left, double d, double t) {
         const double q = (left - x) / d;
         return diskShare((q - 1) / ((q + 1) * t));

@@ -1,4 +1,5 @@
-// Slow tests of shadows for every wave size, and by multirate and post-process methods.
+// Slow tests of shadows: accumulation with different numbers of samples per wave, and multirate and post-process
+// methods.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // groups use different points on the lights
+              35);  // multirate uses different points on the lights
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);
@@ -40,7 +41,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
         max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
                                      litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(max, 0.12);  // noise of 16 points on the sun for each of 4 pinholes
+    EXPECT_LT(max, 0.12);  // noise: each of 4 pinholes uses 16 points on the sun
 }
 
 }  // namespace

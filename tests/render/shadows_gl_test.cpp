@@ -1,4 +1,4 @@
-// Tests of shadows of edges under a disk of light, against closed forms.
+// Tests of shadows of straight edges under a disk-shaped light, against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             finish(*small);
             const RenderSettings settings = settingsFor(256, Shadows::on);
             const std::vector<double> shares = litShares(*small, settings);
-            // The bias lifts the shadow map's lookup by at most a texel, which moves the shadow's edge by as much at
-            // 45°.
+            // The bias lifts the shadow map's lookup by at most a texel, which moves the shadow's edge by the same
+            // distance for light at 45°.
             const FramePlan plan = planFrame(small->world, small->view, settings);
             const double bias = shadowProjections(small->world, plan, {}).front().texel;
             double width = 0;  // number of columns in the penumbra
@@ -81,7 +81,7 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // the shadow is 1 m long, and a texel is wider along the wall than across the light
+            continue;  // the shadow is only 1 m long, and a texel is wider along the wall than across the light
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
@@ -112,8 +112,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// The floor at the foot of a wall throws no shadow on the wall, although light grazes the wall and a texel of the
-// shadow map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+// The floor at the foot of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
+// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();
@@ -125,7 +125,7 @@ TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     finish(*small);
     const Image shadowed = shadowImage(*small, settingsFor(64, Shadows::on));
     const Image lit = shadowImage(*small, settingsFor(64, Shadows::off));
-    const double pixel = 2 * tanHalfWidth * 2 / small->view.width;  // m on the wall
+    const double pixel = 2 * tanHalfWidth * 2 / small->view.width;  // size of a pixel on the wall, m
     int seen = 0;
     for (int y = 0; y < shadowed.height; ++y) {
         const double height = 0.5 + (0.5 * shadowed.height - y - 0.5) * pixel;
@@ -142,7 +142,7 @@ TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
 // A pane of glass casts a shadow of the light that it absorbs. Its metalness of 1 is cancelled by a texture without
 // metal, another texture halves its transmission, and its volume absorbs by Beer-Lambert.
 TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
-    constexpr double side = 4;  // m, of the pane
+    constexpr double side = 4;  // side of the pane, m
     constexpr double thickness = 0.1;
     const auto small = wall();
     addSun(*small, {1, 0, 1}, 0.01);
@@ -197,7 +197,7 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
             const std::vector<double> shares = litShares(*small, settingsFor(16, Shadows::on));
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = std::abs(wallX(small->view, x));
-                if (place < 0.29) continue;  // there, the board hides the wall
+                if (place < 0.29) continue;  // nearer to the centre, the board hides the wall
                 if (std::abs(place - 0.4) < 0.08) continue;
                 EXPECT_NEAR(shares[static_cast<std::size_t>(x)], place < 0.4 ? 0 : 1, 1e-4) << place;
             }

@@ -1,5 +1,5 @@
 #pragma once
-// KHR_materials_sheen's equations in double precision.
+// The equations of KHR_materials_sheen in double precision.
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Returns the function Lambda of Estevez and Kulla 2017, as KHR_materials_sheen prints it.
+// Returns the function Lambda of Estevez and Kulla 2017, as written in the specification of KHR_materials_sheen.
 inline double sheenLambda(double cosine, double alpha) {
     const auto l = [&](double x) {
         const double t = (1 - alpha) * (1 - alpha);

@@ -1,4 +1,4 @@
-// Tests of triangles far narrower than the fraction of a pixel to which rasterizers round corners.
+// Tests of triangles far narrower than the subpixel precision of rasterizers.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ private:
     std::uint64_t state_ = 1;
 };
 
-// Returns slivers in all directions, 1e-6 to 1 px wide. The corners of each sliver are all dark or all bright.
+// Returns slivers in all directions that are 1e-6 to 1 px wide. The corners of each sliver are all dark or all bright.
 Mesh slivers(int count, double pixel) {
     Mesh mesh;
     RandomUnits random;

@@ -1,5 +1,6 @@
-// Tests of the sharpness of textures on slanted surfaces. A sample represents a part of the pixel, so that the mean
-// over many samples is as sharp as the pixel allows, also where a mip level for the whole pixel would be much coarser.
+// Tests of the sharpness of textures on slanted surfaces. Each sample filters the texture over only a part of the
+// pixel. The mean of many samples is therefore as sharp as the pixel allows, even where the mip level of a full pixel
+// would be much coarser.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-constexpr double wallAway = 40;  // m; so far that all of the wall has almost the same scale
+constexpr double wallAway = 40;  // distance in m, so large that all of the wall has almost the same scale
 
 // Returns a wall turned about a vertical axis, with a texture of 1024² texels that is black above and white below.
 // Turned by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
@@ -43,7 +44,7 @@ double edgeWidth(const SmallWorld& small, const char* method, std::uint32_t samp
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // otherwise 16 samples would remain of a picture without blur
+    settings.keepAll = true;  // without keepAll, an image without blur uses only 16 samples
     const Image image = imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     const auto crossing = [&](double level) {
         for (int y = 8; y < image.height - 8; ++y) {
@@ -68,7 +69,7 @@ TEST_F(TextureSharpness, growsWithTheSamples) {
     const auto small = halfWhiteWall(80);
     const double one = edgeWidth(*small, "accumulation", 1);
     const double few = edgeWidth(*small, "accumulation", 8);
-    EXPECT_GT(one, 3);  // a single sample is filtered over the whole pixel
+    EXPECT_GT(one, 3);  // a single sample filters the texture over the full pixel
     EXPECT_LT(few, 0.6 * one);
     EXPECT_LE(edgeWidth(*small, "accumulation", 256), few);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Textures on the lit wall with distinct texels, and the texel that a pixel of the wall shows.
+// Textures with distinct texels for the lit wall, and a function that returns the texel that a pixel of the wall shows.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,8 @@ inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     return glm::ivec2(glm::floor(place));
 }
 
-// Returns the tolerance for a decoded code: half the step to the next code, since drivers decode by polynomials.
+// Returns the tolerance for a decoded code: half the step to the next code, since drivers approximate the decoding by
+// polynomials.
 inline double decodingError(int code) {
     return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
 }

@@ -1,4 +1,4 @@
-// Slow tests of a pane of glass before a blurred scene.
+// Slow tests of a pane of glass in front of a blurred scene.
 
 #include <algorithm>
 #include <cmath>

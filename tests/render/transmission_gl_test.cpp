@@ -31,7 +31,8 @@ TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
             }
 }
 
-// A slab absorbs by Beer-Lambert, c^(d/D). The thickness d scales with the object, the attenuation distance D does not.
+// A slab absorbs by Beer-Lambert, c^(d/D), with the attenuation colour c. The thickness d scales with the object, but
+// the attenuation distance D does not.
 TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
     const glm::dvec3 color(0.5, 0.25, 1);
     for (const double thickness : {0.1, 0.4})
@@ -51,7 +52,7 @@ TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
             }
 }
 
-// A pixel on a volume shows the background at the point where the refracted ray leaves the volume.
+// A surface with volume shows the background at the point where the refracted ray leaves the volume.
 TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     Material material = clear();
     material.ior = 1.5f;

@@ -44,8 +44,9 @@ void writeForPeople(const std::string& name, const Image& reference, const Image
     writeImage(path / (name + "-difference.png"), differenceImage(reference, image, 16));
 }
 
-// Expects the difference from the ray tracer at equal lens points to have no structure: no shift, no scale and no
-// change of the blur's width. The bounds are far below the noise of 256 samples against an independent sequence.
+// Expects the difference from the ray tracer at equal lens points to have no structure: the images are not shifted,
+// scaled or blurred by different widths. The bounds are far below the noise of 256 samples against an independent
+// sequence.
 void expectNoStructure(const std::string& name, const TruthScene& baked, const Image& image,
                        const RenderSettings& settings) {
     const Image planned = traced(baked.world, baked.view, settings, EmbreeSampling::planned);
@@ -60,10 +61,10 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // fraction of the blur's width
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // as a fraction of the blur's width
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // px over the image's width
+    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change of size over the image's width, px
 }
 
 void expectTruth(const std::string& name, Scene scene) {
@@ -80,7 +81,7 @@ void expectTruth(const std::string& name, Scene scene) {
     // The bounds allow for two differences at 256 samples: the noise of the ray tracer's own points, and an offset of
     // the plan's mean lens point of up to 0.006.
     const BlockDifference blocks = blockDifference(reference, image);
-    EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of an 8-bit step
+    EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of an 8-bit value
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;
     expectNoStructure(name, *baked, image, settings);
 }

@@ -1,13 +1,13 @@
-// Tests of penumbrae of lamps on the GPU against the ray tracer.
+// Tests of penumbrae of lamps, rendered on the GPU, against the ray tracer.
 
 #include "render/ball_shadows.h"
 
 namespace defocus::engine {
 namespace {
 
-// Lamps cast the same penumbrae as in the ray tracer. The ray tracer's lamp disks face each lit point, the rasterizer's
-// face the middle of the scene, so only the means of their points agree. A lamp without a cone has wider shadow-map
-// texels, and its bound is lower.
+// Lamps cast the same penumbrae as in the ray tracer. The ray tracer's lamp disks face each lit point, and the
+// rasterizer's disks face the middle of the scene. Therefore only the means of the disks' points agree. A lamp without
+// a cone has wider shadow-map texels, and its bound is lower.
 TEST_F(TruthOfShadows, lampsThrowTheSamePenumbrae) {
     for (const LightType type : {LightType::point, LightType::spot}) {
         const auto small = ballBeforeAWall();

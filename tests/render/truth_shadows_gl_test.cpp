@@ -5,9 +5,9 @@
 namespace defocus::engine {
 namespace {
 
-// With the same points on lens and sun, both renderers give the same penumbrae, up to shadow-map texels. In each
-// sample, a map rounds a shadow's edge to different texels. Maps also lift lookups by part of a texel, which shows
-// where light grazes the ball.
+// With the same points on lens and sun, both renderers give the same penumbrae, up to the size of shadow-map texels. In
+// each sample, a shadow map rounds a shadow's edge to different texels. A bias also moves shadow-map lookups by part of
+// a texel, which is visible where light grazes the ball.
 TEST_F(TruthOfShadows, rasteriserAndRayTracerSeeTheSamePenumbrae) {
     expectTheSameShadows(*ballBeforeAWall(), 64, 37);
 }

@@ -1,4 +1,4 @@
-// Tests of blur from vertex attributes, by each method that draws it, against closed forms and finer meshes.
+// Tests of blur from vertex attributes, by each method that supports it, against closed forms and finer meshes.
 
 #include <cmath>
 #include <functional>
@@ -43,7 +43,7 @@ TEST_F(VertexBlurs, addsToTheLenss) {
 }
 
 // The blur C(t) of a vertex is linear between the opening and the closing of the shutter (Munkberg et al. 2012), so the
-// mean squared diameter is (c₀² + c₀c₁ + c₁²)/3.
+// mean squared diameter is (c₀² + c₀c₁ + c₁²)/3 for diameters c₀ and c₁ at the two ends.
 TEST_F(VertexBlurs, changesWhileTheShutterIsOpen) {
     SKIP_ON_SECOND_DRIVER();
     const double opening = 2, closing = -10;

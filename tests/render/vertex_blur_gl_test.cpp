@@ -1,4 +1,4 @@
-// Tests of blur from vertex attributes against closed forms: a small square spreads as the disk of its blur.
+// Tests of blur from vertex attributes against closed forms: the image of a small square is the disk of its blur.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Blur from vertices can cancel the blur of the lens.
+// Blur from vertex attributes can cancel the blur of the lens.
 TEST_F(VertexBlurs, canBringIntoFocus) {
     const auto small = blurredSquare(5, {1, 0, 0});
     const double ofLens = blurDiameter(small->view, 5) / perMillimetre(*small);
@@ -35,7 +35,7 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
-// Post-process methods draw sharp edges without a vertex blur. With a vertex blur, edges are as wide as under the same
+// Without vertex blur, post-process methods draw sharp edges. With vertex blur, edges are as wide as under the same
 // blur of the lens.
 TEST_F(VertexBlurs, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens,max-coc=unlimited", "layered"}) {
@@ -59,7 +59,7 @@ TEST_F(VertexBlurs, postProcessMethodsFollow) {
     }
 }
 
-// The AOV shows the vertices' blur, interpolated over the surface.
+// The CoC AOV shows the vertices' blur, interpolated over the surface.
 TEST_F(VertexBlurs, aovIsTheFunctionOfThePlan) {
     const auto small = slantedFloor(1, [](double far) {
         return VertexBlur{static_cast<float>(0.5 + far), static_cast<float>(3 - 9 * far),

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for surfaces with blur from vertex attributes, with the closed form of a small square's image.
+// Fixture for surfaces with blur from vertex attributes, with a closed form for the image of a small square.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ protected:
     // blur's disk.
     static double varianceOf(double squared) { return squared / 16 + blurredSide * blurredSide / 12 + 1.0 / 12; }
 
-    // Variance in px² of the sharp square, whose edges lie between pixels.
+    // Variance in px² of the sharp square. The square's edges lie on pixel borders.
     static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
     // Expects the energy, centre and variance of the blurred square, for methods that rasterize points or lines.

@@ -43,7 +43,7 @@ protected:
         return renderer->image();
     }
 
-    // Returns the plan without culling, so that all of its triangles are drawn.
+    // Returns the plan without culling, so that all triangles of its levels are drawn.
     static FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
         plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
         for (ObjectPlan& object : plan.objects) {
@@ -75,7 +75,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Fixture for models of scanned and modelled surfaces with needles, folds and holes.
+// Parameterized fixture for models of scanned and modelled surfaces, with needle-shaped triangles, folds and holes.
 class VisibilityOf : public Visibility, public testing::WithParamInterface<const char*> {};
 
 }  // namespace defocus::engine

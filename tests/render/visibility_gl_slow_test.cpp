@@ -1,4 +1,4 @@
-// Tests that culling of clusters does not change a bit of the images of large models.
+// Tests that culling of clusters leaves images of large models bit-identical.
 
 #include "render/visibility.h"
 

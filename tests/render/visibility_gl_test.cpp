@@ -1,4 +1,4 @@
-// Tests that culling of clusters does not change a bit of the image.
+// Tests that culling of clusters leaves the image bit-identical.
 
 #include "models.h"
 #include "render/visibility.h"
@@ -32,7 +32,7 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// If C is curved or differs between vertices, clusters are culled by their corners (visibility.h).
+// If the focus surface is curved or blur differs between vertices, clusters are culled by their corners (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;

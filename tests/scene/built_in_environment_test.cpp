@@ -15,8 +15,8 @@ protected:
     const Image map = builtInEnvironment(std::string(GetParam()));
 };
 
-// Each map lights a level white surface to white: ∫ L cos θ dω over the upper hemisphere is π. The integral of cos θ
-// sin θ over a row is half the difference of sin² θ at the row's edges.
+// Under each map, a horizontal white surface has a radiance of 1: ∫ L cos θ dω over the upper hemisphere is π. The
+// integral of cos θ sin θ over a row of the map is half the difference of sin² θ at the row's edges.
 TEST_P(BuiltInEnvironment, lightsALevelWhiteSurfaceToWhite) {
     double illuminance = 0;
     for (int y = 0; y < map.height / 2; ++y) {
@@ -46,13 +46,13 @@ TEST_P(BuiltInEnvironment, hasNoSeam) {
 
 TEST_P(BuiltInEnvironment, turnsByWholeColumnsAndBack) {
     const Image quarter = turnedEnvironment(map, std::numbers::pi / 2);
-    // The centre column, in direction −z, moves to direction −x: a quarter of the map's width to the left.
+    // A quarter turn moves the centre column from direction −z to −x: a quarter of the map's width to the left.
     for (int y = 0; y < map.height; y += 17)
         EXPECT_EQ(quarter.at(map.width / 4, y)[0], map.at(map.width / 2, y)[0]) << y;
     EXPECT_EQ(turnedEnvironment(quarter, -std::numbers::pi / 2).pixels, map.pixels);
     EXPECT_EQ(turnedEnvironment(map, 0).pixels, map.pixels);
 
-    // Rotation by a fraction of a column preserves the light.
+    // Rotation by a fraction of a column preserves the sum of all texels.
     const Image between = turnedEnvironment(map, 0.3 * 2 * std::numbers::pi / map.width);
     double before = 0;
     double after = 0;

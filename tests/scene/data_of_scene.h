@@ -51,7 +51,7 @@ private:
         return result;
     }
 
-    // Decodes the bytes of a texture to linear floats. The content is `color` if a material uses the texture as base
+    // Decodes the bytes of a texture to linear floats. The texture's content is `color` if a material uses it as base
     // colour or emission, else `data`.
     void addTexture(int index) {
         const Texture& texture = scene_.textures[static_cast<std::size_t>(index)];

@@ -1,4 +1,5 @@
-// Checks the framing camera by projection, and the default light by integration over a grey ball.
+// Checks the automatic camera by projection of the scene's bounds, and the default lighting by integration over a grey
+// ball.
 
 #include "scene/defaults.h"
 
@@ -53,7 +54,7 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
 }
 INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0.5));
 
-// The box fits for every focal length, with the angle of view of that focal length.
+// The camera frames the box for every focal length, with the angle of view of that focal length.
 TEST_P(Framing, boxFitsForTheAngleOfView) {
     const double aspect = GetParam();
     const Scene scene = boxScene({7, -2, 3}, {8, 0, 3.5});
@@ -197,14 +198,15 @@ TEST(DefaultLights, greyBallLooksMidGrey) {
     EXPECT_LT(std::abs(mean.r - mean.b), 0.02) << "neutral";
 }
 
-// A smooth metal shows nothing but its surroundings; without contrast in them it looks like glass.
+// A smooth metal shows only reflections of its surroundings. If the surroundings have no contrast, the metal looks like
+// glass.
 TEST(DefaultSky, hasContrastForMetalsToReflect) {
     const Environment sky = environmentOrDefault(Scene{});
     EXPECT_GT(sky.horizon.g, 4 * sky.zenith.g);
     EXPECT_GT(sky.horizon.g, 10 * sky.nadir.g);
 }
 
-// skyScale balances the sky with a sun of any illuminance: the sky gives a seventh.
+// skyScale() balances the sky with a sun of any illuminance: the sky has a seventh of the sun's illuminance.
 TEST(DefaultSky, givesASeventhOfTheSun) {
     Pose pose;
     PlacedLight sun;

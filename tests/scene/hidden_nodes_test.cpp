@@ -41,7 +41,8 @@ TEST(HiddenNodes, takeWithThemWhatIsBelow) {
     EXPECT_EQ(shownNodes(scene, {"table"}), (std::vector{2, 3}));
     EXPECT_EQ(shownNodes(scene, {"cup"}), (std::vector{0, 2, 3}));
     EXPECT_EQ(shownNodes(scene, {"3", "cup"}), (std::vector{0, 2}));
-    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));  // the first node with that name
+    // the name hides only the first of the nodes "lamp"
+    EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));
 }
 
 TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
@@ -50,7 +51,7 @@ TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
     EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 41);
     hideNodes(scene, std::vector<std::string>{"3"}, pose);
     EXPECT_DOUBLE_EQ(pose.bounds.minimum.x, 10);
-    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup and the first lamp begin at 30 m
+    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the bounds of the cup and the first lamp are [30, 31] m
 }
 
 TEST(HiddenNodes, callingsAreReadBackAsTheirNodes) {

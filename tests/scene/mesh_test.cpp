@@ -1,4 +1,4 @@
-// Vertex normals and tangents of meshes.
+// Tests of vertex normals and tangents of meshes.
 
 #include "scene/mesh.h"
 
@@ -25,8 +25,9 @@ TEST(Mesh, boundsAreOfWhatTrianglesUse) {
 }
 
 TEST(SmoothNormals, weighByAreaAcrossEqualPositions) {
-    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each has its own vertices on the edge, and
-    // one of these has −0. One triangle of area 1 faces y; the other, of area 2, faces x.
+    // Two triangles at a right angle share the edge from (0,0,0) to (0,0,1). Each triangle has its own vertices on the
+    // edge, and one of these vertices has a coordinate of −0. One triangle of area 1 faces y; the other, of area 2,
+    // faces x.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {-0.0f, 0, 0}, {0, 4, 0}, {0, 0, 1}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
     const std::vector<glm::vec3> normals = smoothNormals(positions, indices);
@@ -106,14 +107,14 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::vec4& tangent = made.vertices.tangents[indices[i]];
-        // Chords of the outermost circle deviate from the tangent by π/64. A vertex at a seam has a chord on one side
+        // Chords of the outermost circle deviate from the tangent by π/64. At a seam, a vertex has a chord on one side
         // only.
         ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
         ASSERT_EQ(tangent.w, 1) << i;
     }
 }
 
-// Tangents agree with those in a model's file, which another implementation computed.
+// Tangents agree with those stored in a model's file, which another program computed.
 TEST(Tangents, agreeWithThoseOfARealModel) {
     DEFOCUS_MODEL_OR_SKIP(path, "WaterBottle.glb");
     const Mesh mesh = loadGltf(path).meshes.at(0);

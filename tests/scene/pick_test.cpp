@@ -1,4 +1,4 @@
-// Casts rays at a few triangles with known answers.
+// Casts rays at a few triangles for which the hits are known.
 
 #include "scene/pick.h"
 
@@ -73,8 +73,8 @@ TEST(Pick, flattenedObjectsAreSeen) {
     EXPECT_NEAR(hit->distance, 4, 1e-12);
 }
 
-// Rays hit a cube where the slab formula hits its bounding box, for random rays. A matrix applied to both the cube and
-// the rays preserves the answer.
+// For random rays, the hits on a cube agree with the slab test on its bounding box. A matrix that is applied to both
+// the cube and the rays does not change the result.
 TEST(Pick, agreesWithTheBoxItself) {
     const glm::dmat4 crooked(glm::dmat3(0.5, 2, 0, -0.3, 0.1, 1, 7, 0.2, 0.4));
     for (const glm::dmat4& place : {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(40, -3, 9)) * crooked}) {

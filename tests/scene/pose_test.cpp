@@ -55,8 +55,8 @@ TEST(Pose, childrenFollowTheirParents) {
     expectNear(nodeCentre(scene, pose, 0), {10, 0, 0});
 }
 
-// Poses are in metres. For a scene in centimetres, all lengths shrink to a hundredth, including those of the camera and
-// of the lights. The illuminance on surfaces stays the same.
+// Poses are in metres. For a scene in centimetres, all lengths are multiplied by 0.01, including the lengths of cameras
+// and lights. The illuminance on surfaces stays the same.
 TEST(Pose, isInMetres) {
     Scene scene = parentAndChild();
     scene.metresPerUnit = 0.01;
@@ -76,7 +76,7 @@ TEST(Pose, isInMetres) {
     EXPECT_EQ(pose.cameras[0].lens.at("fStop"), 2);
     expectNear(pose.lights[0].position, {0.10, 0.02, 0});
     EXPECT_NEAR(pose.lights[0].light.range, 3, 1e-6);
-    // Illuminance at a distance of 7 units, in both scales.
+    // Illuminance at a distance of 7 units, for a scene in centimetres and in metres.
     EXPECT_NEAR(pose.lights[0].light.intensity / (0.07 * 0.07), 5.0 / (7 * 7), 1e-6);
 }
 
@@ -86,7 +86,8 @@ TEST(Pose, nodesOutsideTheSceneDrawNothing) {
     const Pose pose = poseAt(scene, 0);
     EXPECT_TRUE(pose.objects.empty());
     EXPECT_TRUE(pose.bounds.empty());
-    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});  // joints may need the matrix
+    // the node has a matrix, since joints of the scene may need it
+    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});
 }
 
 TEST(Pose, matricesReplaceTheThreeParts) {
@@ -193,7 +194,7 @@ TEST(Animation, cubicRotationsAreNormalised) {
         channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
                   {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
-    // Half-way, both keys have the same weight, which gives a quarter turn about x.
+    // Half-way between the keys, both have the same weight, which gives a quarter turn about x.
     expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);
 }
 

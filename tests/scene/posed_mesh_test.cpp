@@ -21,7 +21,7 @@ void expectNearInFloat(const glm::dvec3& a, const glm::dvec3& b) {
 
 constexpr double quarter = std::numbers::pi / 2;
 
-// Returns a triangle whose vertices all follow joint 0; tests change the weights.
+// Returns a triangle whose vertices all follow joint 0 until a test changes the weights.
 Mesh skinnedTriangle() {
     Mesh mesh;
     mesh.vertices.positions = {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
@@ -45,7 +45,7 @@ TEST(PosedMesh, jointsMoveByTheirWeights) {
     mesh.vertices.weights = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0.25f, 0.75f, 0, 0}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
     expectNearInFloat(positions[0], {11, 0, 0});
-    expectNearInFloat(positions[1], {0, 2, 0});  // (2, 0, 0), rotated by a quarter turn
+    expectNearInFloat(positions[1], {0, 2, 0});  // the vertex (2, 0, 0), rotated by a quarter turn
     expectNearInFloat(positions[2], 0.25 * glm::dvec3(10, 1, 0) + 0.75 * glm::dvec3(-1, 0, 0));
 }
 
@@ -69,9 +69,9 @@ TEST(PosedMesh, weightsThatAreNoneAndJointsThatAreMissing) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     mesh.vertices.weights = {{nan, 0.5f, -1, 0}, {0, 0, 0, 0}, {0, 0, 0, 3}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
-    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 has a weight, which counts as 1
-    expectNearInFloat(positions[1], {12, 0, 0});  // without weights: the first joint
-    expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 does not exist: the first joint
+    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 has a weight; the weight is normalized to 1
+    expectNearInFloat(positions[1], {12, 0, 0});  // without weights, the vertex follows the first joint
+    expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 does not exist, so the vertex follows the first joint
 }
 
 TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
@@ -81,7 +81,8 @@ TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
     Object object = twoJoints();
     object.morphWeights = {0.5, -1, 7};
     expectNearInFloat(posedPositions(mesh, object)[0], {0, 1.5, -2});
-    object.morphWeights = {std::numeric_limits<double>::quiet_NaN(), 0};  // NaN, and fewer weights than targets
+    // the first weight is NaN, and there are fewer weights than targets
+    object.morphWeights = {std::numeric_limits<double>::quiet_NaN(), 0};
     expectNearInFloat(posedPositions(mesh, object)[0], {0, 1, 0});
 }
 

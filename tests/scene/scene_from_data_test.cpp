@@ -1,4 +1,5 @@
-// A scene built from memory has the contents of a glTF file with the same data, and invalid data is refused.
+// Tests that a scene built from memory equals the scene of a glTF file with the same data, and that invalid data is
+// rejected.
 
 #include "scene/scene_from_data.h"
 
@@ -19,7 +20,8 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Data of a square in the plane z = 0 with all parts of a scene. Each test changes one part.
+// Data of a scene with a square in the plane z = 0 and every other kind of content. Each test changes one part of the
+// data.
 struct Square {
     std::vector<std::array<float, 3>> positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::vector<std::array<float, 3>> normals;
@@ -175,7 +177,7 @@ TEST(SceneFromData, texturesAreEncodedAsFilesStoreThem) {
     grey.pixels = {1};
     EXPECT_EQ(textureImage({.image = grey, .content = TextureContent::data}, "texture 0").rgba,
               (std::vector<std::uint8_t>{255, 255, 255, 255}));
-    // Rounding errors around [0, 1] are clamped.
+    // Values slightly outside [0, 1] are rounding errors and are clamped.
     grey.pixels = {1.001f};
     EXPECT_EQ(textureImage({.image = grey}, "texture 0").rgba[0], 255);
 

@@ -1,4 +1,4 @@
-// Points and lines become quads that are one pixel wide in the view's projection.
+// Tests that points and lines become quads that are one pixel wide in the view's projection.
 
 #include "scene/strokes.h"
 
@@ -104,7 +104,7 @@ TEST(Strokes, areUnlitWithoutNormals) {
     EXPECT_FALSE(lit.materials.at(static_cast<std::size_t>(lit.meshes[0].primitives[0].material)).unlit);
 }
 
-// Each node has its own distance, so that its lines have their own width in object space.
+// Each node is at its own distance, so the lines of each node have their own width in object space.
 TEST(Strokes, eachNodeHasItsOwnMesh) {
     GltfBuilder builder = strokesOf(linesMode);
     builder.add("nodes", {{"mesh", 0}, {"translation", {0, 0, -10}}});

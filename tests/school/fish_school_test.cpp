@@ -1,5 +1,5 @@
-// The built-in school of fish is a fair benchmark, and its fish are clean input for a simplifier. The tests have their
-// own copy of the lens formulas.
+// Tests that the built-in school of fish is a fair benchmark, and that its fish are valid input for a simplifier. The
+// tests have their own copy of the lens formulas.
 
 #include "school/fish_school.h"
 
@@ -102,7 +102,7 @@ void expectClosed(const Mesh& mesh) {
     }
     std::sort(edges.begin(), edges.end());
     std::sort(opposites.begin(), opposites.end());
-    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << mesh.name << ": an edge twice";
+    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << mesh.name << ": an edge occurs twice";
     EXPECT_TRUE(edges == opposites) << mesh.name << ": an open edge";
 }
 
@@ -118,7 +118,7 @@ double signedVolume(const Mesh& mesh, const Primitive& primitive) {
 }
 
 struct Shape {
-    std::size_t slivers = 0;  // triangles whose smallest angle is below 12°
+    std::size_t slivers = 0;  // number of triangles whose smallest angle is below 12°
     std::size_t degenerate = 0;
     std::size_t againstNormals = 0;
     std::vector<double> edges;
@@ -137,7 +137,7 @@ Shape triangleShapes(const Mesh& mesh) {
             std::array<double, 3> lengths;
             for (std::size_t k = 0; k < 3; ++k) lengths[k] = glm::distance(p[k], p[(k + 1) % 3]);
             std::sort(lengths.begin(), lengths.end());
-            const double sine = area2 / (lengths[1] * lengths[2]);  // sine of the smallest angle
+            const double sine = area2 / (lengths[1] * lengths[2]);  // sine of the triangle's smallest angle
             if (!(area2 > 0)) ++shape.degenerate;
             if (!(sine > std::sin(0.2094))) ++shape.slivers;
             glm::dvec3 mean(0);
@@ -187,7 +187,7 @@ TEST(FishSchool, trianglesAreEvenAndAgreeWithTheirNormals) {
         EXPECT_EQ(shape.degenerate, 0u) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.slivers) / count, 0.02) << mesh.name;
         EXPECT_LT(static_cast<double>(shape.againstNormals) / count, 0.002) << mesh.name;
-        // The lengths of 19 of 20 edges lie within a factor of two of the median.
+        // The lengths of 95 % of the edges lie within a factor of two of the median.
         std::sort(shape.edges.begin(), shape.edges.end());
         const auto at = [&](double share) {
             return shape.edges[static_cast<std::size_t>(share * (shape.edges.size() - 1.0))];
@@ -219,7 +219,7 @@ TEST(FishSchool, coversAtLeastThreeTenthsOfTheImage) {
     const auto count = std::count(covered.begin(), covered.end(), true);
     RecordProperty("coveredPercent", static_cast<int>(100 * count / (imageWidth * imageHeight)));
     EXPECT_GT(static_cast<double>(count), 0.30 * imageWidth * imageHeight);
-    EXPECT_LT(static_cast<double>(count), 0.60 * imageWidth * imageHeight) << "the water should show";
+    EXPECT_LT(static_cast<double>(count), 0.60 * imageWidth * imageHeight) << "the water must remain visible";
 }
 
 TEST(FishSchool, someFishAreSharpAndNoneTooBlurred) {

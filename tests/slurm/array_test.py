@@ -60,7 +60,7 @@ class Cluster:
 
     def start(self):
         self.start_munge()
-        self.ports = reserved_ports(3)  # reserved for the lifetime of the cluster
+        self.ports = reserved_ports(3)  # the ports are reserved for the lifetime of the cluster
         controller, *nodes = [each.getsockname()[1] for each in self.ports]
         host = socket.gethostname().split(".")[0]
         cores = os.cpu_count() or 1
@@ -175,7 +175,7 @@ def share_film(cluster, program, batch, folder, samples):
     wait_until("task 1 has no frame", lambda: (frames / "0001.exr").exists())
     try:
         os.kill(task_process(cluster, job, 1), signal.SIGKILL)
-    except (TypeError, ProcessLookupError):  # the process has ended
+    except (TypeError, ProcessLookupError):  # the process has already ended
         cluster.wait_for_all()
         return False
     done = len(frame_bytes(frames))
@@ -197,7 +197,7 @@ def share_film(cluster, program, batch, folder, samples):
     wait_until("task 1 didn't run again", ran_again)
     cluster.wait_for_all()
 
-    # The array's files are exactly those of the single run.
+    # The array's files are byte-identical to the files of the single run.
     single, array = frame_bytes(full), frame_bytes(frames)
     assert len(single) == FRAMES
     assert array.keys() == single.keys(), f"missing: {sorted(single.keys() - array.keys())}"

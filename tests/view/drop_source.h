@@ -1,6 +1,6 @@
 #pragma once
-// Drops files on a window of an X server like a file manager: the source side of XDND version 5 (freedesktop.org,
-// Drag-and-Drop Protocol for the X Window System).
+// Drops files on a window of an X server as a file manager does. It is the source side of XDND version 5
+// (freedesktop.org, Drag-and-Drop Protocol for the X Window System).
 
 #include <xcb/xcb.h>
 
@@ -26,9 +26,9 @@ public:
         xcb_flush(connection_.get());
     }
 
-    // Drops files at the screen position (x, y), which must lie over the only window that accepts drops. `uris`:
-    // file:// URIs, one per line, each ending with CR LF. Returns false without such a window, or if the window does
-    // not accept the drop within `seconds`.
+    // Drops files at the screen position (x, y), which must lie over the only window that accepts drops. `uris`
+    // contains file:// URIs, one per line, each ending with CR LF. Returns false without such a window, or if the
+    // window does not accept the drop within `seconds`.
     bool drop(const std::string& uris, int x, int y, double seconds = 120) {
         uris_ = uris;
         target_ = windowThatTakesDrops();

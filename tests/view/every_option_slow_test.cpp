@@ -1,5 +1,5 @@
-// Every option of `defocus view` affects the window's initial state: its own options, the settings of the table, and
-// those of the methods.
+// Tests that every option of `defocus view` affects the window's initial state: its own options, the settings of the
+// table, and those of the methods.
 
 #include <map>
 #include <set>
@@ -19,7 +19,7 @@ protected:
     void SetUp() override {
         ViewProgram::SetUp();
         if (IsSkipped()) return;
-        // Write the images in a child process: image writers start threads, and start() cannot fork a process with
+        // Writes the images in a child process: image writers start threads, and start() cannot fork a process with
         // threads.
         const pid_t writer = ::fork();
         if (writer == 0) {
@@ -38,8 +38,8 @@ protected:
         return state();
     }
 
-    // Returns one text with the window's command for rendering its picture (with all non-default settings), the wave
-    // size, and the cache folders that exist.
+    // Returns a text with three results: the viewer's command for rendering its picture (with all non-default
+    // settings), the wave size, and the cache folders that exist.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;
@@ -53,7 +53,7 @@ protected:
     }
 
     void expectActs(const std::string& name, OptionCase tried) {
-        if (name == "size") tried.words = {"--size", "300x200"};  // a window has a min size
+        if (name == "size") tried.words = {"--size", "300x200"};  // larger than the min size of a window
         for (Words* words : {&tried.words, &tried.with})
             std::ranges::replace(*words, "10,16,24,18,26,8,30,20", "100,90,120,90,120,60,130,100");
         const CommandLine view = {.name = "view", .command = {}, .size = "240x180", .rest = {"--frames", "1"}};
@@ -66,7 +66,8 @@ private:
 };
 
 TEST_F(OptionsOfView, haveACase) {
-    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // tested at the end of this file
+    // options with their own test at the end of this file
+    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};
     for (const CLI::Option* option : optionsOffered("view"))
         if (const Setting* setting = settingOf(*option))
             EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
@@ -76,7 +77,8 @@ TEST_F(OptionsOfView, haveACase) {
             EXPECT_TRUE(own.contains(nameOf(*option))) << nameOf(*option);
 }
 
-// Number of settings per test; the test parameter is the index of the first. Small enough that a test takes seconds.
+// Number of settings per test, small enough that a test takes seconds. The test parameter is the index of the first
+// setting.
 constexpr std::size_t settingsATest = 6;
 
 std::vector<std::string> allOffered() {
@@ -113,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(From, MethodSettingsOfView,
                              return name;
                          });
 
-// --frames, --screenshot and --stats have their effects. start() always passes --stats.
+// --frames, --screenshot and --stats have their documented effects. start() always passes --stats.
 TEST_F(OptionsOfView, framesScreenshotAndState) {
     const Words scene = {"ball.glb", "--size", "240x180"};
     const json three = stateAfter(joined(scene, {"--frames", "3"}));

@@ -1,4 +1,4 @@
-// The render command that a window shows for its view, when parsed, gives the same view.
+// Tests that the render command that the viewer shows for its view gives the same view when it is parsed.
 
 #include "frame/report/render_command_text.h"
 
@@ -129,7 +129,7 @@ TEST(RenderCommandText, aCameraThatLooksStraightDownStaysSo) {
     expectSameView(placedBy(shot.command()).view, shot.view);
 }
 
-// The command overrides lens switches of a camera's extras, both on and off.
+// The command overrides boolean lens settings in a camera's extras, both from on to off and from off to on.
 TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     ShotRequest shot;
     shot.frame.cameraLens.dofEnabled = false;
@@ -142,7 +142,7 @@ TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     EXPECT_FALSE(lens.focusBreathing);
 }
 
-// For a camera that moves while the shutter is open, the command names the file's camera instead of a position.
+// If the camera moves while the shutter is open, the command names the file's camera instead of a camera position.
 TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     ShotRequest shot;
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
@@ -174,7 +174,7 @@ void expectSameOptions(const Request& a, const Request& b) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
             setting.group == SettingGroup::display)
             continue;
-        if (setting.kind == SettingKind::path)  // the path -x is written as ./-x
+        if (setting.kind == SettingKind::path)  // the command writes the path -x as ./-x
             EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
                       setting.text(b).value_or(""));
         else
@@ -210,7 +210,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         Lens lens = frame.cameraLens;
         EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request)).empty());
         EXPECT_DOUBLE_EQ(unmeteredExposure(read.request, lens), write.exposure);
-        if (!(view.lens.exposureTime > 0)) {  // an exposure time replaces the exposure value
+        if (!(view.lens.exposureTime > 0)) {  // with an exposure time, the exposure value does not apply
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }
@@ -249,7 +249,7 @@ TEST(CaptureCommand, saysWhatNoShotFileSays) {
     Request options;
     options.lens.apertureImage = "my star.png";
     options.nodeBlur = {{"Fish 3", 0}};
-    options.samples = 9;  // the shot contains the number
+    options.samples = 9;  // not in the command, because the shot contains the number of samples
     EXPECT_EQ(captureCommand("-a shot.json", options),
               "defocus capture './-a shot.json' --aperture-image 'my star.png' --node-blur 'Fish 3=0'");
     EXPECT_EQ(captureCommand("shot.json", {}), "defocus capture shot.json");

@@ -17,8 +17,8 @@ using nlohmann::json;
 
 using View = SessionWindow;
 
-// Three Ctrl-clicks tilt the focus plane through the three points on the squares: in view space, all lie on the plane w
-// + tan(swing)·X + tan(tilt)·Y = focus distance.
+// Three Ctrl-clicks tilt the focus plane so that it contains the three points on the squares. In view space, (X, Y) at
+// depth w lies on the plane if w + tan(swing)·X + tan(tilt)·Y = focus distance.
 TEST_F(View, threePointsTiltTheFocusPlane) {
     openTwoQuads({"--focus-distance", "4"});
     const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};  // x, y, depth
@@ -41,7 +41,7 @@ TEST_F(View, dragOrbitsAndTheWheelZooms) {
     inTurn({"mousemove 100 200", "mousedown 1", "mousemove 140 210", "mousemove 180 220", "mouseup 1"});
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != before; })) << state();
     const json after = state().at("cameraPosition");
-    EXPECT_EQ(state().at("selected"), "");  // a drag is not a click
+    EXPECT_EQ(state().at("selected"), "");  // a drag does not select objects as a click does
     inTurn({"mousemove 100 200", "click 4 click 4"});
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != after; })) << state();
 }
@@ -61,8 +61,8 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     inTurn({"mousemove 201 200", "mousedown 1", "mousemove 250 200", "mousemove 300 200", "mouseup 1"});
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
-    key("x");  // compares with the nearest level
-    key("x");  // compares with the reference, which has other samples
+    key("x");  // switches to a comparison with the nearest level
+    key("x");  // switches to a comparison with the reference, whose samples differ
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();
@@ -104,14 +104,14 @@ TEST_F(View, keysSwitchWhatTheyName) {
     for (const char* overlay : {"c", "l", "z", "p", "o", "m"}) key(overlay);
     key("ctrl+q");
     EXPECT_EQ(ended(), 0);
-    start({"quads.gltf"});  // the window remembers the light theme
+    start({"quads.gltf"});  // the viewer remembers the light theme between runs
     ASSERT_TRUE(showsScene("quads.gltf"));
     EXPECT_EQ(state().at("dark"), false);
 }
 
 TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     openTwoQuads();
-    // Repeats the sizes, so that frames also fall between two queries to the display.
+    // Three rounds over the sizes, so that frames also fall between two queries to the display.
     for (int turn = 0; turn < 3; ++turn)
         for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
             act(std::string("search --onlyvisible --name defocus windowsize ") + size);
@@ -125,12 +125,12 @@ TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     std::filesystem::remove(folder() / "state.json");
     start({"--fish", "3", "--fish-triangles", "40000"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("loading") == true || s.at("samples") > 0; })) << state();
-    key("ctrl+q");  // while a scene is being opened
+    key("ctrl+q");  // quits while a scene is being opened
     EXPECT_EQ(ended(), 0);
 }
 
-// Coarse shapes appear before the pyramids are finished, and edits made meanwhile are kept. Larger fish are tried until
-// the input arrives before the pyramids are finished, even on a fast machine.
+// Coarse shapes appear before the pyramids are finished, and edits made during that time are kept. The test uses larger
+// and larger fish until the input arrives before the pyramids are finished, even on a fast machine.
 TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
     double before = 0;
     const auto changesTheStopOfCoarseShapes = [&](int triangles) {

@@ -45,7 +45,7 @@ TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
 
 TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
     openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
-    EXPECT_EQ(state().at("workSamples"), 0);  // measured only on request
+    EXPECT_EQ(state().at("workSamples"), 0);  // the number of triangles per pixel is counted only on request
     key("n");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("overlay") == 3 && s.at("workSamples") == 64; })) << state();
     const double changes = number("changes");
@@ -82,7 +82,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
     const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
     ASSERT_TRUE(hand.drop(uri + "\r\n", 120, 100));
     EXPECT_TRUE(showsScene("two words.gltf")) << state();
-    // Dropping a file that is not a scene shows an error, and the old scene stays.
+    // If a dropped file is not a scene, the viewer shows an error and keeps the old scene.
     std::ofstream(folder() / "notes.txt") << "no glTF";
     ASSERT_TRUE(hand.drop("file://" + (folder() / "notes.txt").string() + "\r\n", 120, 100));
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
@@ -91,7 +91,7 @@ TEST_F(View, droppedFileReplacesTheScene) {
 }
 #endif
 
-// Panel, fonts and window scale with the screen's resolution in dpi.
+// Panel, fonts and window scale with the screen's resolution in dots per inch.
 TEST_F(View, interfaceFollowsTheScreensResolution) {
     if (std::system("command -v xrdb >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "xrdb is needed (Debian: x11-xserver-utils)";

@@ -1,4 +1,5 @@
-// A window that opens scene after scene does not accumulate memory or open files. scripts/soak opens more scenes.
+// Tests that a viewer that opens scene after scene does not accumulate memory or open files. scripts/soak opens more
+// scenes.
 
 #include <fmt/format.h>
 
@@ -33,12 +34,12 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
-    // Allocators settle after some tens of scenes. A short run finds leaks of one window-sized image per scene; a long
-    // run finds any leak.
+    // The allocators' memory stops growing after some tens of scenes. A short run finds leaks of one window-sized image
+    // per scene; a long run finds any leak.
     const double settled = 0.02 * before.megabytes;
     const double imagesKept = (scenes - early) * 320 * 240 * 4e-6;
     EXPECT_LE(after.megabytes - before.megabytes, scenes < 500 ? imagesKept : settled);
-    // the file of one scene may still be open; a leak per scene would add some tens of handles
+    // the file of one scene may still be open; a leak per scene would add some tens of file descriptors
     EXPECT_LT(after.handles, before.handles + 5);
 }
 

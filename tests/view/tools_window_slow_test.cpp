@@ -1,4 +1,4 @@
-// Tools around the picture that take several steps: undo, dialogs, the scene tree, saved views.
+// Tests of tools beside the picture that take several steps: undo, dialogs, the scene tree, saved views.
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ TEST_F(ViewTools, aDragIsUndoneAndRedoneAsOneStep) {
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after && s.at("redoSteps") == 1; }))
         << state();
     ASSERT_TRUE(clicks("Reset all", [&](const json& s) { return s.at("cameraPosition") == before; })) << state();
-    key("ctrl+z");  // a reset is an undo step
+    key("ctrl+z");  // undoes the reset, which is a step of its own
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after; })) << state();
 }
 
@@ -86,7 +86,7 @@ TEST_F(ViewTools, whatTheTreeHidesIsMissingInPictureStillAndCommand) {
     EXPECT_EQ(state().at("hidden"), json{"Near"});
     EXPECT_NE(state().at("command").get<std::string>().find("--hide Near"), std::string::npos);
     const std::uint64_t clicks = state().at("marker").at("number");
-    click(200, 67);  // a hidden object cannot be clicked
+    click(200, 67);  // a click at a hidden object does not select it
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("marker").at("number") > clicks; })) << state();
     EXPECT_EQ(reached().at("marker").at("name"), "");
 

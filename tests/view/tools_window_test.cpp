@@ -1,4 +1,4 @@
-// Tools around the picture: undo, dialogs, the scene tree, saved views, full screen.
+// Tests of tools beside the picture: undo, dialogs, the scene tree, saved views, full screen.
 
 #include <fmt/format.h>
 
@@ -123,7 +123,8 @@ TEST_F(ViewTools, extensionsThatAreIgnoredAreListed) {
     EXPECT_TRUE(reaches([](const json& s) { return s.at("places").contains("ignored"); })) << state();
 }
 
-// No input is lost if it comes faster than frames are drawn. Here all input arrives within one frame of a slow machine.
+// No input is lost if it arrives faster than frames are drawn. In the test, all input arrives within one frame of a
+// slow machine.
 TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     openTwoQuads();
     writeTwoQuads(folder() / "other.gltf");

@@ -1,5 +1,5 @@
 #pragma once
-// Fixtures of a window with two squares, and user actions on it.
+// Fixtures that open two squares in the viewer, and functions that act as the user.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ protected:
     }
 };
 
-// Fixture of a window that finds no desktop programs, such as file dialogs, on PATH.
+// Fixture of a viewer whose PATH contains no desktop programs, such as file dialogs.
 class ViewTools : public ViewProgram {
 protected:
     // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
@@ -79,7 +79,7 @@ protected:
         };
         ASSERT_TRUE(reaches(shown)) << textOf("stderr");
     }
-    // Starts the window with a PATH that contains only the desktop programs that the test creates.
+    // Starts the viewer with a PATH that contains only the desktop programs that the test creates.
     void startWithPath(const std::string& path, const std::vector<std::string>& arguments) {
         const std::string before = std::getenv("PATH");
         ::setenv("PATH", path.c_str(), 1);
@@ -96,11 +96,11 @@ protected:
         };
         return insists(hand, condition);
     }
-    // Opens a section of the panel. `inside`: a widget in this section.
+    // Opens a section of the panel. `inside` names a widget in this section.
     [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
         return clicks(section, [&](const nlohmann::json& s) { return s.at("places").contains(inside); });
     }
-    // Collapses the focus and lens sections to make room for those below.
+    // Collapses the focus and lens sections to make room for the sections below.
     [[nodiscard]] bool foldsFocusAndLens() const {
         return clicks("Focus", [](const nlohmann::json& s) { return s.at("places").contains("aperture ring"); }) &&
                clicks("Lens", [](const nlohmann::json& s) { return s.at("places").contains("Image"); });

@@ -31,7 +31,7 @@ protected:
     static void SetUpTestSuite() { beginServer({"-screen", "0", "1280x800x24"}); }
     static void TearDownTestSuite() { endServer(); }
 
-    // Starts Xvfb. `words`: its command-line arguments for the screen.
+    // Starts Xvfb with the command-line arguments `words` for the screen.
     static void beginServer(std::vector<std::string> words) {
         if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) return;
         int ends[2];
@@ -41,7 +41,7 @@ protected:
             endWithTheTest();
             ::dup2(ends[1], 3);
             silence();
-            // -r: no key repeats, however long the machine takes between key press and release.
+            // -r turns key repeat off, since the machine may take long between key press and release.
             const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-r", "-nolisten", "tcp"};
             words.insert(words.begin(), "Xvfb");
             words.insert(words.end(), others.begin(), others.end());
@@ -52,7 +52,7 @@ protected:
             ::_exit(97);
         }
         ::close(ends[1]);
-        std::string number;  // display number and line end, which may arrive separately
+        std::string number;  // the display number and a line end, which may arrive in separate reads
         for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
         ::close(ends[0]);
         if (!number.empty()) display_ = ":" + number;
@@ -79,13 +79,13 @@ protected:
         if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
     }
 
-    // Starts the program; `arguments` follow `view`. Relative file names refer to folder(). A fork of this process runs
-    // the program and so skips the loading of hundreds of shared libraries. Forks do not copy threads: a test that has
-    // started threads starts a fresh process instead.
+    // Starts the program; `arguments` follow `view`. Relative file names refer to folder(). The program runs in a fork
+    // of this process, which skips the loading of hundreds of shared libraries. Forks do not copy threads, so a test
+    // that has started threads starts a new process instead.
     void start(std::vector<std::string> arguments, bool hasDisplay = true) {
         arguments.insert(arguments.begin(), {DEFOCUS_PROGRAM, "view", "--stats", "state.json"});
         const bool copy = threadCount() == threadsAtStart;
-        std::fflush(nullptr);  // otherwise the child writes the buffered output again
+        std::fflush(nullptr);  // otherwise the child would write the buffered output again
         program_ = ::fork();
         if (program_ != 0) return;
         endWithTheTest();
@@ -111,7 +111,8 @@ protected:
         ::_exit(95);
     }
 
-    // Waits up to `seconds` for the program to end and returns its exit code. Then stops the program and returns −1.
+    // Waits up to `seconds` for the program to end and returns its exit code. If the program is still running then,
+    // stops it and returns −1.
     int ended(double seconds = 180) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int status = 0;
@@ -138,7 +139,8 @@ protected:
     bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr double maxSeconds = 180;
         for (double waited = 0; waited < maxSeconds; waited += 0.05) {
-            const bool ending = !alive();  // the last state is still read
+            // read before the state, so that the state of a program that just ended is still checked
+            const bool ending = !alive();
             nlohmann::json now = state();
             if (!now.empty() && condition(now)) {
                 reached_ = std::move(now);
@@ -150,7 +152,8 @@ protected:
         return false;
     }
     [[nodiscard]] const nlohmann::json& reached() const { return reached_; }
-    // Calls `hand` until `condition` holds, at most ten times, and waits for a hundred frames after each call.
+    // Calls `hand`, which acts as the user, until `condition` holds, at most ten times. Waits for a hundred frames
+    // after each call.
     bool insists(const std::function<void()>& hand, const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr std::uint64_t patience = 100;
         for (int i = 0; i < 10 && alive(); ++i) {
@@ -172,9 +175,9 @@ protected:
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // Runs an xdotool command line and returns once the program has drawn its effect. The first new state may belong to
-    // a frame that began before the events. The next frame handles the events, and the interface may respond two frames
-    // later.
+    // Runs an xdotool command line and returns once the program has drawn the effect of the events. The first new state
+    // may belong to a frame that began before the events. The next frame handles the events, and the interface may
+    // respond two frames later.
     void act(const std::string& commands) const {
         send(commands);
         for (const std::uint64_t more : {1u, 3u}) {
@@ -215,8 +218,8 @@ private:
         return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
                info.si_pid == 0;
     }
-    // Must be called in a child: ends the child if the test is killed. Otherwise the child would keep the test's output
-    // open.
+    // Must be called in a child process: ends the child if the test is killed. Otherwise the child would keep the
+    // test's output open.
     static void endWithTheTest() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
     static void silence() {
         const int null = ::open("/dev/null", O_WRONLY);
@@ -238,7 +241,7 @@ private:
         return static_cast<std::size_t>(std::distance(Files("/proc/self/task"), Files()));
     }
 
-    // libraries start threads when they are loaded
+    // number of threads that libraries start when they are loaded
     static inline const std::size_t threadsAtStart = threadCount();
     static inline pid_t server_ = -1;
     static inline std::string display_;

@@ -1,4 +1,4 @@
-// Screens with unusual colour depths instead of 24 bits, and screens without OpenGL.
+// Tests of screens with unusual colour depths instead of 24 bits, and of screens without OpenGL.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace {
 
 class Visuals : public ViewProgram {
 protected:
-    static void SetUpTestSuite() {}  // each test has its own screen
+    static void SetUpTestSuite() {}  // no common screen, since each test starts its own
     void SetUp() override {
         beginServer(screen());
         ViewProgram::SetUp();
@@ -32,7 +32,7 @@ TEST_P(Depth, picturesAreShown) {
     EXPECT_TRUE(reaches([](const nlohmann::json& s) { return s.at("samples") > 0; })) << textOf("stderr");
 }
 
-INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // 30: ten bits for each channel
+INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // a depth of 30 has ten bits for each channel
 
 class WithoutGlx : public Visuals {
     [[nodiscard]] std::vector<std::string> screen() const override {

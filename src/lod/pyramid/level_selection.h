@@ -45,6 +45,11 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
 // one converge at this rate on rendered scenes (bench/results/llvmpipe-sequences.txt).
 double expectedSampleError(std::uint32_t sampleCount);
 
+// Level of an object whose circle of confusion is as large as its projected bounding box, for the metric `proportional`.
+// Jeong, Kim and Lee 2011 print no value. This one is the largest of 10 · 2ⁿ for which the levels raise the RMSE of the
+// built-in school at 32 samples by at most a tenth (bench/results/llvmpipe-proportional.txt).
+inline constexpr double proportionalLevels = 10;
+
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
 //
 // Metrics `size` and `error`: the defaults are (64/N)^(2/3) times the thresholds at N = 64. `blur` is at most twice its
@@ -62,7 +67,6 @@ double expectedSampleError(std::uint32_t sampleCount);
 // deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. The
 // levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
 // spots more than the outlines and fine ghosts caused by sampling.
-inline constexpr double proportionalLevels = 10;
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 // Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the radiance

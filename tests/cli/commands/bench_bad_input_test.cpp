@@ -1,4 +1,4 @@
-// Errors in the command line of `defocus bench` yield one line on stderr.
+// Tests that errors in the command line of `defocus bench` print one line on stderr.
 
 #include "cli/commands/bench_commands.h"
 #include "cli/program.h"
@@ -42,7 +42,7 @@ TEST_F(Bench, convergenceRefusesListsThatAreNone) {
     expectOf("x", "--methods", "accumulation:x=1");
     expectOf("lit", "--shading", "dim");
     expectFault(2, "--method",
-                // bench convergence has no --method: it iterates over --methods
+                // bench convergence has the option --methods, not --method
                 {"convergence", "quads.gltf", "--method", "accumulation"});
 }
 
@@ -67,10 +67,11 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
         EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
     }
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
-    // without an output folder, the table goes only to the terminal
+    // Without an output folder, the table is only printed to the terminal.
     EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));
     EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
-    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // the program was not built from a checkout
+    // an empty commit: the program was not built from a Git checkout
+    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The report of several benches in one folder.
+// Tests the report page of several benches in one folder.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The report is one page for all benches whose results are in the folder: two benches that run here, and two committed
-// results.
+// One report page contains all benches whose results are in the folder: two benches that run here, and two with
+// committed results.
 TEST_F(BenchConvergence, reportHasASectionForEachBench) {
     fs::create_directory(folder() / "page");
     for (const char* name : {"scaling", "stability"})

@@ -1,4 +1,4 @@
-// defocus bench convergence, end to end: its files, resuming after a kill, and the report.
+// End-to-end tests of `defocus bench convergence`: its files, resuming after a kill, and the report.
 
 #include <nlohmann/json.hpp>
 
@@ -14,8 +14,9 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
-    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // three configurations, two sample counts
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each
+    // one row for each of three configurations and two sample counts
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);  // two runs of each configuration and sample count
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
     EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());
@@ -52,7 +53,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
 }
 
 TEST_F(BenchConvergence, resumesNothingButTheSame) {
-    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // bench() already gives --runs
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // bench() already passes --runs
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const std::string journal = textOf(folder() / "out/runs.csv");
     const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
@@ -82,9 +83,10 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
     expectRefused("has results of another scene", {"--focus-distance", "3"});
     expectRefused("has results of another scene", {"--resume", "--focus-distance", "3"});
-    expectRefused("has results of another scene", {"--resume", "--seed", "7"});  // the reference image is the same
+    // refused although the reference image is the same
+    expectRefused("has results of another scene", {"--resume", "--seed", "7"});
 
-    // A reference image without measured runs, as a bench leaves it if it is killed before its first run.
+    // The folder has a reference image but no measured runs, as after a bench that was killed before its first run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");
     const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
@@ -113,7 +115,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
 
-    // strips.json adds pictures for side-by-side comparison to the report.
+    // strips.json adds images for side-by-side comparison to the report.
     std::ofstream(folder() / "page/strips.json")
         << R"([{"title": "A leak", "text": "of <colour>", "images": [{"label": "one", "file": "one.png"}]}])";
     fs::copy(folder() / "out/images/reference.png", folder() / "page/one.png");
@@ -143,7 +145,7 @@ protected:
 };
 
 // With --preset, the bench measures the published algorithm first, then the same command without the preset. Further
-// options override the preset: here they switch off its levels.
+// options override the preset; here they turn its levels of detail off.
 TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});
     ASSERT_EQ(plain.size(), 3u);
@@ -158,7 +160,8 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
             EXPECT_EQ(both[3 + i][same], plain[i][same]) << same;
     }
     EXPECT_LT(both[5]["triangles"], both[3]["triangles"]);
-    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton against Sobol points
+    // the preset uses Halton points, the default Sobol points
+    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);
     EXPECT_EQ(both[6]["method"], "scheuermann");
 }
 

@@ -1,4 +1,4 @@
-// The cache on the command line: --cache-dir, --no-cache, defocus cache list and clear.
+// Tests of the cache on the command line: --cache-dir, --no-cache, `defocus cache list` and `defocus cache clear`.
 
 #include <regex>
 

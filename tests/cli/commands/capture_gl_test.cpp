@@ -1,4 +1,4 @@
-// defocus capture, end to end: frames, their order, resuming, sharing, and errors.
+// End-to-end tests of `defocus capture`: frames, their order, resuming, sharing between machines, and errors.
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
         EXPECT_FALSE(metadata.contains("defocus:seconds"));
-        // The f-number follows a smooth step in stops, from f/1.4 to f/2.8 (two stops).
+        // The f-number changes from f/1.4 to f/2.8, which is two stops, by a smoothstep function in stops.
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
         if (frame == 0) {
@@ -47,8 +47,8 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
-// A frame has the same bits when it is rendered alone, in the sequence, by another shard, with a second output format,
-// or with another wave size.
+// A frame is bit-identical if it is rendered alone, in the sequence, by another shard, with a second output format, or
+// with another wave size.
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
@@ -108,10 +108,10 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     EXPECT_EQ(rendered({"--samples", "9", "--overwrite"}), 0);
     EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--overwrite"}), 2);
     EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--fstop", "2", "--overwrite"}), 2);
-    expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // --overwrite leaves nothing to resume
+    expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // --overwrite requires --resume
 }
 
-// --resume never replaces a picture of other origin that has a frame's name.
+// --resume never replaces an image of another origin that has the name of a frame.
 TEST_F(Capture, resumeKeepsForeignPictures) {
     writeImage(folder() / "a0.png", Image(4, 4, 3));
     expectOneLine(run({"capture", "shot.json", "--range", "0", "--resume", "-o", "a#.png"}), 1);
@@ -131,8 +131,8 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
-// Focus on a pixel or on the middle of the image is measured at each frame's own time, independent of the other frames
-// in the run. The camera moves 0.6 m towards the square in the middle.
+// The focus distance at a pixel or at the middle of the image is measured at each frame's own time, independent of the
+// other frames in the run. The camera moves 0.6 m towards the square in the middle.
 TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     json dolly = shot();
     dolly.erase("focus");
@@ -278,7 +278,7 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
 }
 
-// With SOURCE_DATE_EPOCH, two runs leave files with the same bytes.
+// With SOURCE_DATE_EPOCH, two runs produce byte-identical files.
 TEST_F(Capture, filmsAndPicturesAreReproducible) {
     if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
@@ -298,15 +298,16 @@ TEST_F(Capture, filmsAndPicturesAreReproducible) {
             runs.push_back(textOf(folder() / name));
             if (i == 0)
                 std::this_thread::sleep_for(
-                    std::chrono::milliseconds(1100));  // so that dates, in whole seconds, would differ
+                    // dates in the files have whole seconds, so they would differ without SOURCE_DATE_EPOCH
+                    std::chrono::milliseconds(1100));
         }
         EXPECT_TRUE(runs[0] == runs[1]) << name;
     }
     ::unsetenv("SOURCE_DATE_EPOCH");
 }
 
-// Colours of films follow ITU-R BT.709 and say so. The column and row that fill odd sides have
-// the same colour as all others.
+// Colours of videos follow ITU-R BT.709, and the files are tagged accordingly. The column and row that pad odd sizes
+// have the same colour as the rest of the frame.
 TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     const auto outputOf = [&](const std::string& command) {
@@ -322,7 +323,7 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     const std::array<std::array<double, 3>, 3> colours = {{{0, 255, 0}, {255, 0, 0}, {20, 60, 200}}};
     const std::array<const char*, 3> films = {"film.mp4", "film.mkv", "film.webm"};
     for (std::size_t i = 0; i < films.size(); ++i) {
-        // Each film shows a uniform background of one colour, which PNG stores without loss.
+        // Each video shows a uniform background of one colour, which PNG stores without loss.
         std::string background;
         for (const double value : colours[i])
             background += (background.empty() ? "" : ",") + std::to_string(srgbDecode(static_cast<float>(value / 255)));
@@ -352,8 +353,8 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     }
 }
 
-// A target error gives each frame the number of samples that its own error requires: the same number when the frame is
-// rendered alone, in the sequence, or in another shard.
+// With a target error, each frame gets the number of samples that its own error requires. The number is the same when
+// the frame is rendered alone, in the sequence, or in another shard.
 TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     const std::vector<std::string> asked = {"--target-error", "0.01", "--samples", "1024"};
     const auto with = [&](std::vector<std::string> more) {
@@ -378,8 +379,8 @@ TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     expectOneLine(capture({"--target-error", "0.01", "--sample-range", "0:64", "-o", "a/####.exr"}), 2);
 }
 
-// --time-limit limits the run, not the frame. The run renders at least one frame, ends between frames, and keeps all
-// finished frames.
+// --time-limit limits the duration of the run, not of a frame. The run renders at least one frame, ends between frames,
+// and keeps all finished frames.
 TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
     ASSERT_EQ(capture({"-o", "whole/####.exr"}).exitCode, 0);
     for (int run = 0; run < 7; ++run) {
@@ -393,7 +394,8 @@ TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
         EXPECT_TRUE(bytesOf(name(frame)) == bytesOf("whole/000" + std::to_string(frame) + ".exr")) << frame;
 }
 
-// Puts a shell script named ffmpeg first on PATH, for the lifetime of this object.
+// Puts a folder with a shell script named ffmpeg first in the environment variable PATH, for the lifetime of this
+// object.
 class FakeFfmpeg {
 public:
     FakeFfmpeg(const fs::path& folder, const std::string& script) : path_(std::getenv("PATH")) {
@@ -410,7 +412,7 @@ private:
     std::string path_;
 };
 
-// Names of videos may contain a colon, although ffmpeg reads the text before a colon as a protocol.
+// File names of videos may contain a colon, although ffmpeg reads the text before a colon as a protocol.
 TEST_F(Capture, filmsMayHaveAnyName) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     for (const char* name : {"12:30.mp4", "pipe:1.mp4"}) {
@@ -420,7 +422,8 @@ TEST_F(Capture, filmsMayHaveAnyName) {
     }
 }
 
-// A truncated video never replaces a complete one. On a full disk, ffmpeg truncates the video but exits with success.
+// A truncated video never replaces a complete one. Like ffmpeg on a full disk, the script truncates the video but exits
+// with success.
 TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     const FakeFfmpeg cut(folder() / "bin",

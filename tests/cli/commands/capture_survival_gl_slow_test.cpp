@@ -1,5 +1,5 @@
-// A capture that is killed at any moment leaves only complete frames under their final names. Resuming yields the bits
-// of an undisturbed run.
+// Tests that a capture that is killed at any time leaves only complete frames under their final names, and that
+// resuming gives bit-identical frames to an undisturbed run.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -20,7 +20,7 @@ constexpr int frames = 24;
 
 class Survival : public Capture {
 protected:
-    // Replaces a forked process by the capture.
+    // Replaces a forked process with the capture command.
     void become() const {
         const int nothing = ::open("/dev/null", O_WRONLY);
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
@@ -55,7 +55,7 @@ protected:
         return there;
     }
 
-    // Returns when at least `count` frames are finished or the child has ended.
+    // Waits until at least `count` frames are finished or the child process has ended.
     void waitForFrames(int count, pid_t child) const {
         siginfo_t ended{};
         while (framesThere() < count && ended.si_pid == 0)
@@ -72,7 +72,7 @@ protected:
     if (!(child).traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)"
 
 // A capture that is killed 50 times loses no finished frame and can be resumed. Each kill comes before a random write
-// into a frame or before the renaming of a frame.
+// to a frame's file or before the file is renamed.
 TEST_F(Survival, killedFiftyTimesAndResumed) {
     const Outcome full = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(full.exitCode, 0) << full.err;
@@ -86,8 +86,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half of the frames are missing here, so the capture makes more than a third of the calls of the
-        // undisturbed run.
+        // More than half of the frames are still missing, so the capture makes more than a third of the undisturbed
+        // run's calls.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
@@ -107,9 +107,9 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     expectNothingHalf();
 }
 
-// Several captures can render the same frames at once: each has its own temporary files, ignores those of the others,
-// and renames complete frames with the same bits. The captures start together, or each starts after the previous one
-// has finished some frames.
+// Several captures can render the same frames at once. Each has its own temporary files, ignores those of the others,
+// and renames its complete frames, which are bit-identical. The captures start together, or each starts after the
+// previous one has finished some frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {
@@ -126,8 +126,8 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     }
 }
 
-// An interrupted capture ends between frames and prints how to resume. The signal arrives while the capture writes its
-// first frame.
+// An interrupted capture ends between two frames and prints how to resume. The signal arrives while the capture writes
+// its first frame.
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     TracedChild child = startTraced();
     DEFOCUS_TRACED_OR_SKIP(child);

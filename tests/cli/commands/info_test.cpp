@@ -1,4 +1,4 @@
-// Runs `defocus info` in the test process.
+// Tests of `defocus info`, which runs in the test process.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ std::string info(const std::string& arguments) {
     return testing::internal::GetCapturedStdout();
 }
 
-// `info --json` prints the contents of a file: here a square that three nodes draw, a triangle, and an unknown optional
+// `info --json` lists the contents of a file: here a square that three nodes use, a triangle, and an unknown optional
 // extension.
 TEST(Info, jsonHoldsWhatTheFileHolds) {
     GltfBuilder builder;
@@ -68,7 +68,7 @@ TEST(Info, jsonOfARealFile) {
 }
 
 // `info` counts the faces that are repaired before simplification: here a duplicate triangle, a degenerate triangle,
-// and a fin on the diagonal of a square.
+// and a third triangle at the diagonal of a square.
 TEST(Info, countsWhatIsRepairedBeforeSimplification) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1})}}},
@@ -125,8 +125,9 @@ TEST(Info, builtInSchoolWithoutAFile) {
     EXPECT_GE(json["meshes"].size(), 3u);
 }
 
-// `info --camera` prints hyperfocal distance, depth of field, angles of view, exposure and blur. For 50 mm at f/2 on 36
-// × 27 mm, focused at s = 2 m: H = 2500/(2·0.03) mm = 41.667 m, and the near and far limits are H·s/(H ± s).
+// `info --camera` prints hyperfocal distance, depth of field, angles of view, exposure and blur. The lens is 50 mm at
+// f/2 on 36 × 27 mm, focused at s = 2 m. The hyperfocal distance is H = 2500/(2·0.03) mm = 41.667 m, and the near and
+// far limits are H·s/(H ± s).
 TEST(Info, cameraAnswersWhatPhotographersAsk) {
     const nlohmann::json json = nlohmann::json::parse(
         info("--camera --fish 1 --fish-triangles 200 --focal-length 50 --fstop 2 --focus-distance 2 --size 1000x750 "

@@ -1,4 +1,5 @@
-// Merging the parts of a frame's samples gives the bits of a single run; parts that do not belong together are refused.
+// Tests that merged parts of a frame's samples are bit-identical to a single run, and that parts of different frames
+// are rejected.
 
 #include <algorithm>
 
@@ -55,14 +56,14 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     ASSERT_EQ(
         run({"merge", "--quiet", "f2.part00000-00064.exr", "f2.part00064-00128.exr", "-o", "merged.exr"}).exitCode, 0);
     EXPECT_TRUE(bytesOf("merged.exr") == full);
-    // `capture --resume` counts the merged file as a finished frame and keeps it.
+    // `capture --resume` treats the merged file as a finished frame and keeps it.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});
     EXPECT_NE(resumed.err.find("1 of them from earlier runs"), std::string::npos) << resumed.err;
 }
 
-// Merged parts of a frame with motion blur equal the single run, since the time of a sample does not depend on its
-// part. The camera turns while the shutter is open.
+// Merged parts of a frame with motion blur equal a single run, since the time of a sample does not depend on the part
+// that contains it. The camera turns while the shutter is open.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;

@@ -1,4 +1,4 @@
-// `defocus new-shot` writes a shot that `capture` accepts, with the shot's schema beside it.
+// Tests that `defocus new-shot` writes a shot that `capture` accepts, with the schema for shots beside it.
 
 #include <nlohmann/json.hpp>
 

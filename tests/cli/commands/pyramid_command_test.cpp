@@ -1,4 +1,4 @@
-// Runs `defocus pyramid` in the test process.
+// Tests of `defocus pyramid`, which runs in the test process.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string pyramid(std::vector<std::string> arguments) {
     global.quiet = true;
     addPyramidCommand(program, global);
     arguments.insert(arguments.begin(), "pyramid");
-    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects reversed arguments
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects the arguments in reverse order
     testing::internal::CaptureStdout();
     try {
         program.parse(arguments);
@@ -97,7 +97,7 @@ TEST(PyramidCommand, ExportedLevelsReadBackAsTheyAre) {
     }
 }
 
-// Exported files stay in the given folder for any name of a mesh, such as ../../evil.
+// Exported files stay in the given folder even if the mesh has a name such as ../../evil.
 TEST(PyramidCommand, NoNameLeavesTheFolder) {
     const ScratchFolder folder;
     for (const char* name : {"../../evil", "/etc/evil", "..", ".hidden", "a\nb", "\xc3\xa9t\xc3\xa9"}) {
@@ -121,7 +121,7 @@ TEST(PyramidCommand, TextHasALineALevel) {
     EXPECT_NE(text.find(std::to_string(expected.levels.back().triangleCount)), std::string::npos) << text;
 }
 
-// With --cache-dir, pyramids are built once; then the command loads them and prints the same levels.
+// With --cache-dir, pyramids are built only once. A second run loads them and prints the same levels.
 TEST(PyramidCommand, KeepsLevelsInTheFolderThatItIsGiven) {
     const ScratchFolder folder;
     const std::string cache = (folder / "cache").string();

@@ -1,4 +1,4 @@
-// defocus render, end to end: files, metadata, statistics, and a full disk.
+// End-to-end tests of `defocus render`: files, metadata, statistics, and a full disk.
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ TEST_F(Render, theSummaryTellsOfSamplesLeftOut) {
     EXPECT_NE(run(all).err.find("100 samples in"), std::string::npos);
 }
 
-// The public API and the program render the same bits, for each of these sets of options.
+// The public API and the program render bit-identical images for each of these sets of options.
 TEST_F(Render, isWhatTheLibraryRenders) {
     const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
         std::vector<std::string> arguments = {"render", "--no-cache", "-o", "a.exr"};
@@ -85,7 +85,7 @@ TEST_F(Render, isWhatTheLibraryRenders) {
     expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
 }
 
-// With --target-error, the printed line, the metadata and --stats give the number of samples, the remaining error and
+// With --target-error, the printed line, the metadata and --stats report the number of samples, the remaining error and
 // the reason for stopping.
 TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
     const auto rendered = [&](std::vector<std::string> arguments) {
@@ -144,7 +144,7 @@ TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
 }
 
-// Exposure time and ISO give an exposure. For f/2, 1/8 s and ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4
+// --exposure-time and --iso set the exposure. For f/2, 1/8 s and ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4
 // cd/m².
 TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     const std::vector<std::string> photographic = {"--fstop", "2", "--exposure-time", "1/8", "--iso", "200"};
@@ -159,7 +159,7 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
     EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
 
-    // The exposure stored in the file applies unless --exposure overrides it.
+    // The exposure stored in the scene file applies unless --exposure overrides it.
     json scene = json::parse(textOf(folder() / "quads.gltf"));
     scene["cameras"][0]["extras"] = {{"fStop", 2}, {"exposureTime", 0.125}, {"iso", 200}};
     std::ofstream(folder() / "own.gltf") << scene.dump();
@@ -173,8 +173,8 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     EXPECT_NE(own({"--exposure", "0"}), readImage(folder() / "a.png").pixels);
 }
 
-// The path of a camera's aperture image is relative to the scene file, and the image acts like --aperture-image. An
-// unreadable image is ignored with a warning.
+// The path of a camera's aperture image is relative to the scene file, and the image has the same effect as
+// --aperture-image. An unreadable image is ignored with a warning.
 TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
     Image image(8, 8, 1);
     *image.at(6, 3) = 1;
@@ -209,14 +209,14 @@ TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
     EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
 }
 
-// The EXR matrices map a point to the pixel that shows it. In OpenEXR, camera space is left-handed and looks along +z;
-// (0, 0) in NDC is the upper left corner of the image.
+// The matrices in EXR metadata map a point to the pixel that shows it. In OpenEXR, camera space is left-handed and
+// looks along +z; (0, 0) in NDC is the upper left corner of the image.
 TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);
     Metadata metadata;
     readImage(folder() / "a.exr", metadata);
     const Image depth = readImage(folder() / "a.depth.exr");
-    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // just inside and outside Near's left edge
+    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // points just inside and outside the left edge of the square Near
     const glm::vec4 outside = {-0.22f, 0.3f, -2, 1};
     const glm::vec4 camera = std::get<glm::mat4>(metadata.at("worldToCamera")) * inside;
     EXPECT_NEAR(camera.z, 2, 1e-5);
@@ -235,7 +235,7 @@ TEST_F(Render, aDashIsStandardOutput) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
 }
 
-// With `-o -`, standard output gets the same image as a file; only times in the metadata differ.
+// With `-o -`, standard output receives the same image as a file; only times in the metadata differ.
 TEST_F(Render, aDashIsStandardOutputForImages) {
     ASSERT_EQ(render({"-o", "a.png", "-o", "a.exr"}).exitCode, 0);
     const auto pixels = [&](const char* name) { return readImage(folder() / name).pixels; };
@@ -253,7 +253,7 @@ TEST_F(Render, aDashIsStandardOutputForImages) {
     expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
 }
 
-// Without --samples, the blur determines the number of samples: few for small blur, more for large blur, and the same
+// Without --samples, the blur determines the number of samples: few for small blur, more for strong blur, and the same
 // number in each run.
 TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
@@ -276,7 +276,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     static_cast<void>(readImage(folder() / "much.exr", metadata));
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
 
-    // The library and the program have the same default.
+    // Library and program have the same default number of samples.
     Request request;
     request.scene = folder() / "quads.gltf";
     request.size.width = 128;
@@ -306,7 +306,7 @@ TEST_F(Render, statsHaveTheStatedKeys) {
     EXPECT_TRUE(std::regex_match(stats.at("date").get<std::string>(), std::regex("20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z")));
     EXPECT_EQ(stats.at("samples"), 4);
     EXPECT_EQ(stats.at("wave"), 2);
-    EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles, four samples
+    EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles each, drawn in four samples
     EXPECT_GT(stats.at("peakBytes").get<double>(), 1e6);
 }
 
@@ -316,7 +316,9 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
         EXPECT_TRUE(fs::exists(folder() / name)) << name;
     const Image coc = readImage(folder() / "a.coc.exr");
     const Image level = readImage(folder() / "a.level.exr");
-    // CoC = A·(1/s − 1/z)·W/(2 tan(θx/2)) with A = 50/2.8 mm and s = 4 m: negative at z = 2 m, positive at z = 8 m.
+    // CoC = A·(1/s − 1/z)·W/(2 tan(θx/2)), with the aperture diameter A = 50/2.8 mm, the focus distance s = 4 m, the
+    // depth z, the image width W in px and the horizontal field of view θx. The CoC is negative at z = 2 m and positive
+    // at z = 8 m.
     const double aperture = 0.05 / 2.8;
     EXPECT_NEAR(*coc.at(63, 21), aperture * (1 / 4.0 - 1 / 2.0) * 128 / 0.72, 1e-4);
     EXPECT_NEAR(*coc.at(126, 48), aperture * (1 / 4.0 - 1 / 8.0) * 128 / 0.72, 1e-4);
@@ -335,7 +337,7 @@ TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     }
     EXPECT_EQ(images[0].channels, 1);
     EXPECT_EQ(images[0].pixels, images[1].pixels);
-    EXPECT_EQ(*images[0].at(63, 21), 4);  // a triangle of Near, in each of four samples
+    EXPECT_EQ(*images[0].at(63, 21), 4);  // one triangle of the square Near, in each of four samples
     EXPECT_EQ(*images[0].at(10, 80), 0);
 }
 
@@ -345,7 +347,7 @@ TEST_F(Render, sweptWorkIsOfBoundsOverTheLens) {
     EXPECT_NE(outcome.err.find("swept work: "), std::string::npos) << outcome.err;
     EXPECT_TRUE(fs::exists(folder() / "a.swept-work.png"));
     const Image work = readImage(folder() / "a.swept-work.exr");
-    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of Near have its bounding box
+    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of the square Near have the square's bounding box
     EXPECT_EQ(*work.at(10, 80), 0);
 }
 

@@ -1,4 +1,4 @@
-// The pages in docs/ match those generated from the table of settings.
+// Tests that the pages in docs/ equal the pages generated from the table of settings.
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// defocus pyramid --turntable: each cell shows the level that its label names.
+// Tests that each cell of `defocus pyramid --turntable` shows the level that its label names.
 
 #include <array>
 #include <cmath>
@@ -44,8 +44,8 @@ struct ShrinkingSphere {
     Object object;
 };
 
-// Returns the number of pixels that the object covers in the cell. The object has the value 1; the cell's corner shows
-// the background.
+// Returns the number of pixels that the object covers in the cell. Pixels of the object have the value 1; the cell's
+// corner has the background's value.
 double coverage(const Image& image, const TurntableCell& cell) {
     const double paper = image.at(cell.x, cell.y)[0];
     double sum = 0;
@@ -65,7 +65,8 @@ TEST(Turntable, CellsShowTheLevelsAsLargeAsTheyAre) {
     const View view = turntableView(subject.scene.meshes[0], subject.object).view;
     const TurntableSheet sheet = turntableSheet(subject.world, subject.object, "sphere");
     ASSERT_EQ(sheet.cells.size(), radii.size());
-    // A sphere of radius r at distance d projects to a disk whose half angle has the tangent r / √(d² − r²).
+    // A sphere of radius r at distance d projects to a disk. The tangent of the disk's angular radius is r / √(d² −
+    // r²).
     const double distance = glm::length(glm::dvec3(view.worldFromCamera[3]));
     const double pixels = view.width / (2 * tanHalfHorizontalFov(view.lens));
     for (std::size_t l = 0; l < radii.size(); ++l)
@@ -77,8 +78,8 @@ TEST(Turntable, CellsShowTheLevelsAsLargeAsTheyAre) {
         }
 }
 
-// The turntable frames an object from every side without cutting it. Seen from 60° aside, the width of a square board
-// shrinks by the cosine.
+// The turntable shows an object from every side without cropping it. Seen from 60° off its normal, the width of a
+// square board shrinks by the cosine.
 TEST(TurntableView, FramesTheObjectFromEverySide) {
     Mesh mesh = flatGrid(4);
     for (glm::vec3& position : mesh.vertices.positions) position = 7.0f * position + glm::vec3(1e4f, -20, 3);

@@ -1,4 +1,5 @@
-// Completions and the manual page contain every command and option of --help; the shells and groff accept them.
+// Tests that completions and the manual page contain every command and option of --help, and that the shells and groff
+// accept them.
 
 #include <fmt/ranges.h>
 
@@ -74,7 +75,7 @@ TEST_F(Pages, zshCompletesCommandsOptionsAndValues) {
     if (!isInstalled("zsh")) GTEST_SKIP() << "zsh isn't installed";
     EXPECT_EQ(said("zsh -n zsh"), "");
     std::ofstream(folder() / "scene.glb") << "";
-    // Types each argument and a tab into an interactive shell. The key ^T then prints the completed line.
+    // Types each argument and the tab key into an interactive shell. The key ^T then prints the completed line.
     std::ofstream(folder() / "type") << R"(zmodload zsh/zpty
 zpty shell zsh -f -i
 zpty -w shell 'autoload -U compinit; compinit -D -u; source ./zsh

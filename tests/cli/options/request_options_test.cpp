@@ -1,4 +1,4 @@
-// Options that set the camera and the lens, on the command line: defocus plan --json.
+// Tests of the options that set the camera and the lens, with `defocus plan --json`.
 
 #include "cli/options/request_options.h"
 
@@ -35,7 +35,8 @@ protected:
 };
 
 TEST_F(SceneOptionsTest, camerasFieldOfViewGivesTheFocalLength) {
-    // tan(θx/2) is the aspect ratio times 0.27, and f = 36 mm / (2·tan(θx/2)).
+    // The horizontal field of view is θx, with tan(θx/2) = 0.27 times the aspect ratio. The focal length is 36 mm /
+    // (2·tan(θx/2)).
     EXPECT_NEAR(lens("focalLength", {"--size", "1024x768"}), 50, 1e-6);
     EXPECT_NEAR(lens("focalLength", {"--size", "300x300"}), 36 / (2 * 0.27), 1e-6);
     EXPECT_NEAR(lens("focalLength", {"--horizontal-aperture", "24"}), 24 / (2 * 0.36), 1e-6);
@@ -46,7 +47,7 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
     EXPECT_EQ(lens("fStop", {}), 2.8);
     EXPECT_EQ(lens("horizontalAperture", {}), 36);
     EXPECT_EQ(lens("fStop", {"--fstop", "1.4"}), 1.4);
-    // The aperture of 50 mm at f/2 is 25 mm wide.
+    // At f/2, a lens of 50 mm has an aperture of 25 mm diameter.
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2"}), 0.025, 1e-9);
     EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2", "--blur-scale", "3"}), 0.075, 1e-9);
     EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
@@ -83,7 +84,7 @@ TEST_F(SceneOptionsTest, booleanSettingsTakeAValueOrANegation) {
 }
 
 TEST_F(SceneOptionsTest, focusDefaultsToWhatTheMiddleShows) {
-    EXPECT_NEAR(lens("focusDistance", {}), 2, 1e-6);  // the nearer of the two quads, not the middle between them
+    EXPECT_NEAR(lens("focusDistance", {}), 2, 1e-6);  // depth of the nearer quad, not the mean of both quads' depths
 }
 
 TEST_F(SceneOptionsTest, focusOnANode) {
@@ -92,11 +93,11 @@ TEST_F(SceneOptionsTest, focusOnANode) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
-    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. Far's centre is at column (1 + 3/(8·0.36))/2 · 1024 =
-    // 1045, so that its left part is in the image.
+    // The centre of the quad Near is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. The centre of the quad Far is at column
+    // (1 + 3/(8·0.36))/2 · 1024 = 1045, so that the left part of Far is in the image.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
-    // Near's upper edge lies at y = 0.5, row 28.4; its left edge at x = −0.2, column 369.8.
+    // The upper edge of Near is at y = 0.5, row 28.4; its left edge is at x = −0.2, column 369.8.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,29"}), 2, 1e-6);
     EXPECT_EQ(run({"plan", "two quads ❤.gltf", "--focus-pixel", "511,27"}).exitCode, 1);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "370,170"}), 2, 1e-6);
@@ -104,8 +105,8 @@ TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
-    // Focus breathing scales tan(θx/2) by 1 − f/s. At 2 m, Near's left edge therefore moves out to column 512 −
-    // 142.2/(1 − 0.025) = 366.1.
+    // Focus breathing scales tan(θx/2) by 1 − f/s, with the focal length f and the focus distance s. At 2 m, the left
+    // edge of the quad Near therefore moves outwards to column 512 − 142.2/(1 − 0.025) = 366.1.
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// Tests of bench convergence on a small world: what it measures, checks, skips and resumes.
+// Tests of `bench convergence` on a small world: its measurements, its checks, and which runs it skips or resumes.
 
 #include <gtest/gtest.h>
 
@@ -101,7 +101,8 @@ protected:
 
 TEST_F(Convergence, moreLensSamplesComeCloser) {
     options_.lods = {LodMode::off};
-    options_.plan.keepAll = true;  // otherwise the set of culled clusters depends on the sample count
+    // otherwise culled clusters, and thus triangle counts, would depend on the sample count
+    options_.plan.keepAll = true;
     const std::vector<ConvergenceRun> runs = measure();
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_LT(runs[1].error.mse, runs[0].error.mse);
@@ -114,14 +115,14 @@ TEST_F(Convergence, moreLensSamplesComeCloser) {
         EXPECT_EQ(run.samples, run.asked);
         EXPECT_GT(run.milliseconds, 0);
         EXPECT_GT(run.setupMilliseconds, 0);
-        EXPECT_EQ(run.pyramidMilliseconds, 0);  // full detail needs no simplified meshes
+        EXPECT_EQ(run.pyramidMilliseconds, 0);  // no pyramids are built, since full detail needs no simplified meshes
         EXPECT_FALSE(run.bias);
     }
     EXPECT_EQ(runs[1].triangles, 4 * runs[0].triangles);
 }
 
-// RMSE obeys the triangle inequality: |d(levels, full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) +
-// d(full, reference).
+// The RMSE d obeys the triangle inequality for the images with levels, at full detail and of the reference: |d(levels,
+// full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) + d(full, reference).
 TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     options_.sampleCounts = {16};
     options_.thresholdFactors = {4, 0};
@@ -156,7 +157,7 @@ TEST_F(Convergence, runsTakeTurnsAndGiveTheSameImage) {
     EXPECT_EQ(runs[1].error.mse, runs[3].error.mse);
     ASSERT_TRUE(runs[3].bias);
     EXPECT_EQ(runs[1].bias->mse, runs[3].bias->mse);
-    EXPECT_EQ(images_, 2);  // one image per setting, from its first run
+    EXPECT_EQ(images_, 2);  // one image for each setting, from its first run
 }
 
 TEST_F(Convergence, takesUpWhatIsThere) {
@@ -231,7 +232,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
         EXPECT_EQ(measured + leftOut_.size(), 3u);
         return names;
     };
-    EXPECT_EQ(namesLeftOut(), "unshaded ");  // the spheres are lit
+    EXPECT_EQ(namesLeftOut(), "unshaded ");  // unshaded methods are left out, since the spheres are lit
 
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;
@@ -240,7 +241,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
 
     for (Material& material : small_->scene.materials) material.unlit = true;
     EXPECT_EQ(namesLeftOut(), "frozen ");
-    small_->world.shutter.poses = {small_->world.pose, small_->world.pose};  // the shutter is open, but nothing moves
+    small_->world.shutter.poses = {small_->world.pose, small_->world.pose};  // the shutter is open, but no object moves
     EXPECT_EQ(namesLeftOut(), "");
     small_->scene.materials[0].alphaMode = AlphaMode::mask;
     EXPECT_EQ(namesLeftOut(), "unshaded ");

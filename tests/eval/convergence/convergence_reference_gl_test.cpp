@@ -1,4 +1,4 @@
-// Tests of the reference image: the mean that it stores, the accuracy of its error estimate, and its reuse.
+// Tests of the reference image: the stored mean, the accuracy of its error estimate, and its reuse.
 
 #include <gtest/gtest.h>
 
@@ -56,15 +56,16 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
         ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));
 }
 
-// The reference estimates its own error as half the difference between its two halves, which is right for independent
-// errors. The halves fill each other's gaps, so the true error may be smaller.
+// The reference's error estimate is half the difference between the means of its two halves, which is right for
+// independent errors. Points of one half fill gaps of the other, so the true error may be smaller.
 TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const ReferenceImage coarse = reference(16);
     const ReferenceImage fine = reference(512);
     const double error = compareImages(fine.image, coarse.image).rmse;
     EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
     EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
-    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // random samples would gain only √32
+    // random samples would reduce the error only by √32
+    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));
     EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
 }
 
@@ -105,7 +106,7 @@ TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
     writeFile(folder_ / "reference-half.exr", "");
     EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file may be replaced";
-    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // another image under the reference's name
+    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // another image under the file name of the reference
     EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
 }
 

@@ -54,7 +54,7 @@ ConvergenceRow rowOf(const std::string& method, const std::string& setting, doub
     return row;
 }
 
-// The time to reach an error is exact, also between measured times, if the error is a power of the time.
+// The interpolated time to reach an error is exact if the error is a power of the time.
 TEST(EqualError, isExactForPowersOfTheTime) {
     std::vector<ConvergenceRow> rows;
     for (const double ms : {3.0, 48.0, 768.0}) {
@@ -62,7 +62,8 @@ TEST(EqualError, isExactForPowersOfTheTime) {
         rows.push_back(rowOf("accumulation", "lod=off", ms, 0.3 / ms));
         rows.push_back(rowOf("accumulation", "lod=fractional", ms / 4, 0.3 / ms));
         rows.back().bias.emplace();
-        rows.push_back(rowOf("accumulation", "lod=fractional", ms, 0.4 / ms));  // dominated, so it is ignored
+        // this row is dominated by another one, so it is ignored
+        rows.push_back(rowOf("accumulation", "lod=fractional", ms, 0.4 / ms));
         rows.back().bias.emplace();
     }
     const std::vector<double> errors = {0.05, 0.01};
@@ -76,7 +77,7 @@ TEST(EqualError, isExactForPowersOfTheTime) {
         EXPECT_NEAR(*competitors[1].times[i].milliseconds, std::pow(0.2 / errors[i], 2), 1e-9);
         EXPECT_NEAR(*competitors[2].times[i].milliseconds, 0.3 / errors[i], 1e-9);
     }
-    EXPECT_NE(equalErrorTable(competitors).find("10.67x"), std::string::npos);  // 16 ms over 1.5 ms
+    EXPECT_NE(equalErrorTable(competitors).find("10.67x"), std::string::npos);  // speed-up of 16 ms over 1.5 ms
 }
 
 TEST(EqualError, saysWhatLiesBeyondTheRows) {
@@ -131,10 +132,11 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 10, 0.5), runOf("a", "x", 16, 0, 20, 0.25),
                                         runOf("b", "x", 8, 0, 15, 0.2), runOf("b", "x", 16, 0, 1, 0.001)};
     runs[3].fault = "NaN or infinite pixels";
-    runs[1].error.flip = 0.01;  // FLIP may rank images differently from the MSE
+    runs[1].error.flip = 0.01;  // FLIP may rank images differently than the mean squared error
     const std::vector<ConvergenceRow> rows = convergenceRows(runs);
     EXPECT_TRUE(rows[0].front);
-    EXPECT_FALSE(rows[1].front);  // b with 8 samples is faster and more accurate
+    // b with 8 samples is faster and more accurate, so this row is not on the Pareto front
+    EXPECT_FALSE(rows[1].front);
     EXPECT_TRUE(rows[1].frontOfMethod);
     EXPECT_TRUE(rows[1].frontByFlip);
     EXPECT_TRUE(rows[2].front);
@@ -142,7 +144,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_NE(convergenceLine(rows[3]).find("NaN or infinite"), std::string::npos);
 }
 
-// Rows mark errors below the reference's own error, here an RMSE of 0.1 and a FLIP of 0.02.
+// Rows mark errors below the reference's own error, which is an RMSE of 0.1 and a FLIP of 0.02 here.
 TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     std::vector<ConvergenceRun> runs;
     for (const auto& [mse, flip] : {std::pair{0.02, 0.03}, {0.009, 0.03}, {0.02, 0.01}, {0.009, 0.01}}) {
@@ -255,7 +257,7 @@ TEST(ConvergenceFiles, csvAndJsonHoldEveryRow) {
 
     const nlohmann::json json = nlohmann::json::parse(convergenceJson(rows, {}, {}));
     ASSERT_EQ(json["rows"].size(), 3u);
-    EXPECT_TRUE(json["rows"][1]["psnr"].is_null());  // null, since the images are equal
+    EXPECT_TRUE(json["rows"][1]["psnr"].is_null());  // the PSNR is null, since the images are equal
     EXPECT_DOUBLE_EQ(json["rows"][1]["bias"]["mse"].get<double>(), 1.0 / 7);
     EXPECT_EQ(json["rows"][2]["samples"], 4);
     EXPECT_EQ(json["biasFloors"].size(), 1u);
@@ -294,7 +296,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "rays standard 16", "embree standard 16"}));
 
     // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
-    // method but the automatic one, which equals one of the others.
+    // method except `auto`, which equals another method.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};
@@ -308,7 +310,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
 }
 
 // A method with standard settings has a row for each of its forms: published, best and standard. A method with custom
-// settings has a single row.
+// settings has only one row.
 TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",
                     .description = "",
@@ -386,7 +388,8 @@ TEST(ConvergenceCrops, areWhereTheSumIsLargest) {
     EXPECT_EQ(second->x, 0);
     EXPECT_EQ(second->y, 1);
     EXPECT_FALSE(largestSquare(values, 4));
-    EXPECT_FALSE(largestSquare(values, 3, Crop{"", 2, 1, 1, 1}));  // every square contains the middle column
+    // no second square exists, since every square contains the middle column
+    EXPECT_FALSE(largestSquare(values, 3, Crop{"", 2, 1, 1, 1}));
 }
 
 TEST(ConvergenceCrops, mayTouch) {

@@ -46,9 +46,10 @@ TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
     measure();
     ASSERT_EQ(frames_.size(), 3u * 2 * poppingModes.size());
     for (const PoppingFrame& frame : frames_) {
-        EXPECT_LT(frame.change.image.rmse, 1e-7);  // rounding of sums in float
+        EXPECT_LT(frame.change.image.rmse, 1e-7);  // tolerance for rounding of sums in single precision
         EXPECT_EQ(frame.step.image.rmse, 0);
-        EXPECT_LT(frame.change.image.flip, 1e-6);  // rounding of the conversion to display values and back
+        // tolerance for rounding in the conversion to display values and back
+        EXPECT_LT(frame.change.image.flip, 1e-6);
         EXPECT_EQ(frame.speed, 0);
     }
     EXPECT_TRUE(steps_.empty());
@@ -72,9 +73,9 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     EXPECT_GT(worst, 0);
 }
 
-// One sample's change of level is a small part of the pop when all N samples change. By the triangle inequality, the
-// mean step is at least 1/N of the pop. Steps add up at most like random ones, so the mean step is at most about 1/√N
-// of the pop.
+// A pop is the change of the image when all N samples change their level at once. The change by one sample is a small
+// part of the pop. By the triangle inequality, the mean change is at least 1/N of the pop. Changes add up at most like
+// random ones, so the mean change is at most about 1/√N of the pop.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -32,8 +32,10 @@ TEST(PoppingPaths, aWholeFocusPullGoesEvenlyInDioptresFromNearToFar) {
         EXPECT_NEAR(1 / frames[i].view.lens.focusDistance - 1 / frames[i - 1].view.lens.focusDistance, step, 1e-12);
         EXPECT_EQ(frames[i].view.worldFromCamera, small->view.worldFromCamera);
     }
-    EXPECT_NEAR(frames.front().view.lens.focusDistance, 1.2 - 0.15, 0.01);  // near side of the nearest sphere
-    EXPECT_NEAR(frames.back().view.lens.focusDistance, 9 + 1, 0.05);        // far side of the farthest sphere
+    // distance to the near side of the nearest sphere
+    EXPECT_NEAR(frames.front().view.lens.focusDistance, 1.2 - 0.15, 0.01);
+    // distance to the far side of the farthest sphere
+    EXPECT_NEAR(frames.back().view.lens.focusDistance, 9 + 1, 0.05);
 }
 
 TEST(PoppingPaths, aDollyKeepsTheFocusOnItsPlane) {
@@ -61,7 +63,7 @@ TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
                 1e-9);
 }
 
-// A clip plays once while the camera stands still. In this clip of 2 s, the first sphere climbs at 1 m/s.
+// The camera stands still while a clip plays once. In this clip of 2 s, the first sphere rises at 1 m/s.
 TEST(PoppingPaths, aClipPlaysOnceBeforeACameraThatStandsStill) {
     const auto small = spheres();
     Node climber;
@@ -92,7 +94,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
     EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "the camera sees no object";
 }
 
-// The busiest stretch has the max number of level changes in mode `nearest` among all stretches of its length.
+// The busiest stretch has the largest number of level changes in mode `nearest` among all stretches of the same length.
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
     const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
@@ -145,8 +147,8 @@ TEST(PoppingPixels, growByHalfTheBlur) {
 
 // ---- summaries ------------------------------------------------------------------------------------------------------
 
-// Returns 101 changes with steps of 0 … 100 in mode `nearest` and half of that in mode `fractional`. The 99th
-// percentile is the second largest step.
+// Returns 101 frames whose change is 0 … 100 in mode `nearest` and half as large in mode `fractional`. The 99th
+// percentile is the second largest change.
 std::vector<PoppingFrame> ramp() {
     std::vector<PoppingFrame> frames;
     for (int i = 0; i <= 100; ++i)

@@ -1,4 +1,4 @@
-// Tests that the errors that pyramids predict for their levels agree with those of rendered images.
+// Tests that the errors that pyramids predict for their levels agree with the errors of rendered images.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the predicted and the rendered errors of the levels of a plaster ball with bumps and stripes. The pyramid's
-// model covers the appearance of such a ball completely.
+// Returns the predicted and the rendered errors of the levels of a plaster ball with bumps and stripes. The error model
+// of pyramids covers all properties of plaster.
 std::vector<PredictionRow> rowsOfABall() {
     Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)
@@ -43,7 +43,7 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
         if (!row.used) continue;
         ++used;
         EXPECT_LE(row.rendered, 2 * row.predicted) << predictionLine(row);
-        // Full detail is excluded: predictions assume edges, while samples on smooth parts err less.
+        // Full detail is excluded: the prediction assumes edges, and samples of smooth surfaces have smaller errors.
         if (row.level > 0) {
             EXPECT_LE(row.predicted, 2 * row.rendered) << predictionLine(row);
         }

@@ -28,7 +28,8 @@ TEST(ScalingFit, ofAPowerIsItsExponent) {
     }
 }
 
-// The exponent is fitted to the upper half of the values on a logarithmic scale: for 1 to 1000, from √1000 on.
+// The exponent is fitted to the upper half of the values on a logarithmic scale: for values from 1 to 1000, from √1000
+// on.
 TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     const std::optional<PowerLaw> law = fittedPowerLaw(Points{{1000, 50}, {1, 900}, {100, 5}, {10, 900}});
     ASSERT_TRUE(law);
@@ -36,8 +37,8 @@ TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     EXPECT_NEAR(law->exponent, 1, 1e-12);
 }
 
-// The residual is the RMS residual of the fit. For ln y = 0, 3, 0 at ln x = 0, 1, 2, the fit is the horizontal line at
-// 1, with residuals of −1, 2 and −1.
+// The residual of the fit is an RMS. For ln y = 0, 3, 0 at ln x = 0, 1, 2, the fit is the horizontal line at 1, with
+// residuals of −1, 2 and −1.
 TEST(ScalingFit, leavesTheResidualOfLeastSquares) {
     const double e = std::exp(1);
     const std::optional<PowerLaw> law =
@@ -74,7 +75,8 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "overlapping parts leave no time for fill";
 }
 
-// `fill` is the time that layers and vertices do not explain. Its spread is computed from the runs: 5, 7 and 6 ms.
+// `fill` is the part of the frame time that layers and vertices do not explain. Its spread is computed from its values
+// in the three runs: 5, 7 and 6 ms.
 TEST(ScalingParts, spreadAsTheirRunsDo) {
     ScalingRow row;
     setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
@@ -93,7 +95,8 @@ TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
               (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
 
-    // Fill takes about 40 ms and layers 30 ms. At first, fill is larger in all runs; then the runs overlap.
+    // Fill takes about 40 ms and layers 30 ms. In the first measurement, fill is larger in all runs; in the second, the
+    // runs overlap.
     ScalingRow row;
     setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
     EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});

@@ -25,7 +25,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     std::vector<SpeedupRow> rows;
     measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
 
-    ASSERT_EQ(rows.size(), 9u);  // 3 settings × 3 modes
+    ASSERT_EQ(rows.size(), 9u);  // 3 combinations of lens and sample count × 3 level modes
     const std::uint32_t samples[3] = {4, 9, 5};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SpeedupRow& row = rows[i];
@@ -47,7 +47,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
         EXPECT_GT(row.referenceRemaining.rmse, 0);
-        // Two runs use two seeds. Their errors differ, and the reported errors average both.
+        // Two runs use two seeds. The errors of the seeds differ, and the reported error averages both.
         ASSERT_EQ(row.ofSeeds.size(), 2u);
         const double first = row.ofSeeds[0].rmse, second = row.ofSeeds[1].rmse;
         EXPECT_NE(first, second);
@@ -55,12 +55,13 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_NEAR(row.fromReference->flip, (row.ofSeeds[0].flip + row.ofSeeds[1].flip) / 2, 1e-12);
     }
     EXPECT_LT(rows[1].triangles, rows[0].triangles);
-    // Culled clusters depend on the samples' lens positions, so triangles are not quite proportional to samples.
+    // The set of culled clusters depends on the lens samples, so the number of triangles is not quite proportional to
+    // the number of samples.
     const double ofOneSample = static_cast<double>(rows[0].triangles) / 4;
     EXPECT_NEAR(static_cast<double>(rows[3].triangles) / 9, ofOneSample, 0.01 * ofOneSample);
 
-    // Errors are smaller than half the difference between the two lenses' images, so each row is compared with its own
-    // lens.
+    // Errors are smaller than half the difference between the images of the two lenses. Therefore, each row must have
+    // been compared with a reference of its own lens.
     View wide = small->view;
     View narrow = small->view;
     narrow.lens.fStop *= 8;
@@ -98,8 +99,8 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     });
 }
 
-// With the threshold of size or of blur alone, a frame draws at least as many triangles as with both thresholds, and
-// exactly as many as a plan with that threshold alone.
+// With only the size threshold or only the blur threshold, a frame draws at least as many triangles as with both. It
+// draws exactly as many as a plan with only that threshold.
 TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -107,7 +108,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     options.sampleCounts = {8};
     options.runs = 1;
     options.referenceSamples = 0;
-    // Spheres in focus are simplified by size, the others by blur.
+    // Spheres in focus are simplified by size, and the other spheres by blur.
     RenderSettings plan;
     plan.thresholds = {2, 3};
     const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
@@ -140,8 +141,8 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// Each form is compared with full detail at the same samples. The forms `published` and standard use different sample
-// sequences.
+// Each form of a method is compared with full detail at the same samples. The form `published` and the standard form
+// use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -171,8 +172,9 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
-    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field
-    EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole image has no blur that could hide levels
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field, so it has no comma
+    // off, since a pinhole image has no blur that could hide levels
+    EXPECT_EQ(rows[6].mode, LodMode::off);
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);
     EXPECT_NE(speedupLine(rows[0]).find("published"), std::string::npos);

@@ -1,4 +1,4 @@
-// The public API without a GPU: scenes, settings, plans, and invalid requests.
+// Tests of the public API without a GPU: scenes, settings, plans, and invalid requests.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST_F(Library, sceneInfoNamesWhatARequestMayName) {
     EXPECT_EQ(info.cameras, std::vector<std::string>{"Main"});
     EXPECT_EQ(info.nodes, (std::vector<std::string>{"Near", "Far", "Tripod"}));
     EXPECT_TRUE(info.clips.empty());
-    EXPECT_EQ(info.triangles, 2u);  // one mesh, drawn twice
+    EXPECT_EQ(info.triangles, 2u);  // the mesh of two triangles counts once, although it is drawn twice
     EXPECT_TRUE(info.ignored.empty());
     EXPECT_EQ(defocus::Scene::schoolOfFish(3, 400).info().cameras.size(), 1u);
 }
@@ -161,8 +161,7 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// A request with a value that no text could set, so that only the API can pass it. The error message begins with
-// `name`.
+// A request with a value that only the API can pass, since no text gives it. The error message begins with `name`.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;
@@ -220,7 +219,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
     }
 }
 
-// A request with random values gives either an Error or a plan with finite numbers.
+// A request with random values either throws an Error or gives a plan with finite numbers.
 TEST_F(Library, anyRequestIsPlannedOrRefused) {
     std::mt19937 generator(3);
     const std::vector<double> numbers = {nan,  infinity, -infinity, 0, -0.0, -1,  1e-300,

@@ -1,4 +1,4 @@
-// Images of scenes that are created from memory.
+// Tests of images of scenes that are created from memory.
 
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ TEST_P(SceneOfFile, rendersWithTheSameBitsFromMemory) {
     const auto loaded = std::make_unique<engine::Scene>(loadGltf(path));
     auto memory = std::make_unique<DataOfScene>(*loaded);
     const defocus::Scene scene = defocus::Scene::create(memory->data());
-    memory.reset();  // the scene has copied the data
+    memory.reset();  // frees the caller's data, which the scene has copied
     const Image wanted = SceneRenderer(defocus::Scene::load(path), memoryRequest()).render();
     const Image image = SceneRenderer(scene, memoryRequest()).render();
     EXPECT_EQ(image.pixels, wanted.pixels);
     EXPECT_GT(std::set<float>(image.pixels.begin(), image.pixels.end()).size(), 10u);  // the image is not empty
 }
 
-// The files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
+// Together, the files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
 INSTANTIATE_TEST_SUITE_P(, SceneOfFile,
                          testing::Values("Unicode❤♻Test.glb", "NegativeScaleTest.glb", "meshes/bokeh.gltf",
                                          "meshes/fish.glb", "khronos/NormalTangentTest.glb"),

@@ -1,4 +1,4 @@
-// SceneRenderer renders a frame that exceeds the memory limit in tiles.
+// Tests that SceneRenderer renders a frame that exceeds the memory limit in tiles.
 
 #include <algorithm>
 #include <string>
@@ -12,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// A frame that needs tiles to stay within the memory limit has the same bits as without tiles. Tiles are drawn from the
-// top row on.
+// A frame that needs tiles to stay within the memory limit is bit-identical to a frame without tiles. Tiles are drawn
+// from top to bottom.
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU keeps the pixels in its own memory";
     Request request = smallRequest();
@@ -21,9 +21,10 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.size.height = 1200;
     request.wave.reset();
     request.samples = 4;
-    request.method = "accumulation";  // method auto draws tiles by accumulation, but may draw one piece by multirate
+    // method auto draws tiles by accumulation, but might choose multirate without tiles
+    request.method = "accumulation";
     (void)render(smallRequest());
-    const std::uint64_t held = residentMemory();  // measured before the driver keeps memory of large images
+    const std::uint64_t held = residentMemory();  // measured before the driver allocates memory for large images
     Image full;
     std::vector<std::string> warnings;
     {
@@ -34,7 +35,8 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
 
     // Without tiles, the pixels alone take 370 MiB.
     constexpr std::uint64_t little = std::uint64_t{300} << 20;
-    request.memory = std::min(held, residentMemory()) + little;  // the driver may have freed memory in between
+    // the driver may have freed memory since the measurement
+    request.memory = std::min(held, residentMemory()) + little;
     SceneRenderer other(request);
     other.start();
     EXPECT_EQ(other.sampleTotal(), 4u);
@@ -55,13 +57,13 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     other.write(folder_ / "image.exr", other.image());
     EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == full.pixels);
 
-    // Another frame of the same size is drawn in tiles too.
+    // Another frame of the same size also needs tiles.
     Request moved = request;
     moved.cameraPosition = movedRequest().cameraPosition;
     const Image movedImage = other.render(moved);
     moved.memory.reset();
     EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
-    // A small frame fits, even beside the memory that the large frame occupied.
+    // A small frame needs no tiles, even with the memory that the large frame still occupies.
     Request small = request;
     small.size.width = 96;
     small.size.height = 72;

@@ -1,4 +1,4 @@
-// SceneRenderer renders frames of a scene in its own OpenGL context.
+// Tests that SceneRenderer renders frames of a scene in its own OpenGL context.
 
 #include <epoxy/egl.h>
 
@@ -43,7 +43,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     EXPECT_FALSE(statistics.device.empty());
 }
 
-// Each frame of one renderer equals the image of a fresh renderer.
+// Each frame of one renderer equals the image of a new renderer.
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
@@ -54,7 +54,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    // Request 8 needs other pyramids; request 9 needs the earlier pyramids again.
+    // Request 8 needs another kind of pyramids, and request 9 needs the earlier kind again.
     requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
@@ -117,7 +117,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     EXPECT_EQ(renderer.render().pixels, full.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
-    // Cancelling while levels are built for the first time leaves the renderer usable too.
+    // Cancelling the first build of levels leaves the renderer usable too.
     Request sharp = smallRequest();
     sharp.lod = LodMode::off;
     SceneRenderer late(sharp);
@@ -148,11 +148,11 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     EXPECT_THROW(static_cast<void>(renderer.aovs()), Error);
     EXPECT_THROW(static_cast<void>(renderer.plan()), Error);
     renderer.start();
-    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample has been rendered
+    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // throws, since no sample has been rendered
     const Image full = renderer.render();
 
     std::vector<Request> bad(5, smallRequest());
-    bad[0].fishCount = 3;  // a different scene
+    bad[0].fishCount = 3;  // the renderer belongs to another scene
     bad[1].camera = NamedCamera{"none such"};
     bad[2].samples = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
@@ -186,14 +186,14 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // enough blur that the lens is not skipped
+    request.lens.fStop = 0.2;  // enough blur that the plan does not omit the lens
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();
     const Aovs aovs = renderer.aovs();
     EXPECT_EQ(aovs.depth.width, 64);
     EXPECT_EQ(aovs.depth.channels, 1);
-    // "Near" covers the middle column above the axis: 0.3 m at 2 m is 13 px above the centre row.
+    // The square "Near" covers the middle column above the axis: 0.3 m at a depth of 2 m is 13 px above the centre row.
     EXPECT_NEAR(*aovs.depth.at(32, 11), 2, 1e-4);
     EXPECT_EQ(*aovs.depth.at(2, 45), std::numeric_limits<float>::infinity());
     EXPECT_EQ(*aovs.level.at(2, 45), -1);
@@ -218,7 +218,7 @@ TEST_F(SceneRendererTest, theCallersContextIsCurrentAfterEachCall) {
     ASSERT_NE(own, EGL_NO_CONTEXT);
     const auto check = [&](const char* call) { EXPECT_EQ(eglGetCurrentContext(), own) << call; };
     {
-        // A worker without an OpenGL context may report progress.
+        // A worker thread without an OpenGL context may report progress.
         const std::thread::id caller = std::this_thread::get_id();
         SceneRenderer renderer(smallRequest(), [&](auto...) {
             if (std::this_thread::get_id() == caller) check("progress of the constructor");

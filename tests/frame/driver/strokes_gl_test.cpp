@@ -1,4 +1,4 @@
-// Lines of a file in rendered images.
+// Tests of rendered lines of a file.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr int segments = 24;
 constexpr double yfov = 0.7;
 constexpr double distance = 4;
 
-// A white regular polygon with circumradius 1 around the view axis.
+// Returns a file with a white regular polygon of circumradius 1 around the view axis, drawn as lines.
 GltfBuilder polygon() {
     GltfBuilder builder;
     std::vector<float> places;
@@ -33,7 +33,7 @@ GltfBuilder polygon() {
     return builder;
 }
 
-// In focus and blurred, the lines' light is their length times one pixel.
+// Both in focus and blurred, the total light of the lines is their length times one pixel.
 TEST_F(StrokesImage, linesHaveTheLightOfOnePixelTimesTheirLength) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "polygon.glb", polygon().glb());

@@ -53,7 +53,8 @@ TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
     small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
     RenderSettings settings;
     const double blur = planFrame(small->world, small->view, settings).largestBlur;
-    EXPECT_GT(blur, 0.02 * small->view.width / 1.7);  // the warning rounds to 1, 2 or 5
+    // the warning rounds its suggestion to 1, 2 or 5 times a power of ten
+    EXPECT_GT(blur, 0.02 * small->view.width / 1.7);
     EXPECT_LT(blur, 0.02 * small->view.width * 1.7);
     EXPECT_TRUE(warningsOf(*small).empty());
 }
@@ -159,7 +160,7 @@ TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
     EXPECT_EQ(lines.back(), "1,000 more kinds of content are ignored");
 }
 
-// Three nodes share a name; the request names them by --focus-node.
+// Three nodes share a name, and the request refers to them by --focus-node.
 TEST(RequestWarnings, listNodesThatShareTheRequestedName) {
     Request request;
     request.focus = FocusNode{"Cube"};

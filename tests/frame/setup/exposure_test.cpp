@@ -22,10 +22,11 @@ Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
 }
 
 TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
-    // The log average is 2 · 0.18, so the exposure is −1 EV. The brightest value lies between 40 % and white.
+    // The log average is 2 · 0.18, so the exposure is −1 EV. At this exposure, the brightest value lies between 40 %
+    // and white.
     const Image image = stripes({0.09f, 0.36f, 1.44f});
     EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
-    // Scaling the light shifts the exposure by the same number of stops.
+    // Scaling the radiance by a power of two shifts the exposure by the same number of stops.
     EXPECT_NEAR(meteredExposure(stripes({0.09f * 1024, 0.36f * 1024, 1.44f * 1024})), -11, 1e-6);
 }
 
@@ -47,7 +48,8 @@ TEST(Meter, aSingleFireflyCountsForNothing) {
 }
 
 TEST(Meter, darkObjectBeforeALightBackgroundStaysDark) {
-    // On its own, the object of 2 % would become middle grey. The background of 80 % then would be far above white.
+    // Alone, the object, with a grey of 2 %, would be exposed to middle grey. The background, with 80 %, would then be
+    // far above white.
     EXPECT_NEAR(meteredExposure(stripes({0.8f, 0.8f, 0.02f, 0.02f}, 2)), std::log2(0.5 / 0.8), 1e-6);
     EXPECT_NEAR(meteredExposure(stripes({0.1f, 1, 0.09f, 0.36f, 1.44f}, 2)), -1, 1e-6) << "a dark background";
 }

@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// From three points on the plane w + tan(swing)·X + tan(tilt)·Y = s, focusThrough finds swing, tilt and distance s.
+// From three points, focusThrough() finds the plane w + tan(swing)·X + tan(tilt)·Y = s that contains them: its swing,
+// its tilt and the focus distance s. (X, Y) is the view-space position and w the depth.
 TEST(FocusThrough, findsThePlaneOfThreePoints) {
     std::mt19937 generator(1);
     const auto random = [&](double min, double max) {
@@ -40,9 +41,9 @@ TEST(FocusThrough, findsThePlaneOfThreePoints) {
 TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     const Lens before;
     const std::array<std::array<glm::dvec3, 3>, 3> impossible = {{
-        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // points on a line
-        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // a plane that contains the view axis
-        {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // behind the camera
+        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // three points on a line
+        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // three points in a plane that contains the view axis
+        {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // three points behind the camera
     }};
     for (const std::array<glm::dvec3, 3>& points : impossible) {
         Lens lens;
@@ -53,8 +54,8 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
     }
 }
 
-// From four or more points on a curved and tilted focus surface, focusThrough finds the surface. Its depth at the image
-// position n is s/(1 + κ·|n|² + t·n), with the focus distance s, the curvature κ and the tilts t of the lens.
+// From four or more points on a curved and tilted focus surface, focusThrough() finds the surface. Its depth at the
+// image position n is s/(1 + κ·|n|² + t·n), with the focus distance s, the curvature κ and the tilts t of the lens.
 TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     std::mt19937 generator(2);
     const auto random = [&](double min, double max) {
@@ -117,7 +118,7 @@ TEST(FocusThrough, leavesTheMinBlur) {
         }
 }
 
-// Points on the vertical middle line of the view do not determine the swing, so it is 0.
+// Points on the vertical centre line of the view do not determine the swing, so focusThrough() chooses 0.
 TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     const std::vector<glm::dvec3> points = {{0, -0.5, -2}, {0, 0, -2.2}, {0, 0.6, -2.5}, {0, 0.9, -3}};
     Lens lens;

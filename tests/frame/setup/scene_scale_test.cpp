@@ -1,4 +1,4 @@
-// Length of a scene unit: given by the request, given by the file, or guessed from the size.
+// Tests of the length of a scene unit, which the request or the file sets, or which is guessed from the scene's size.
 
 #include "frame/setup/scene_scale.h"
 
@@ -53,8 +53,8 @@ TEST(GuessedUnits, bringEverythingBetweenAHandAndAPerson) {
     EXPECT_EQ(guessedMetresPerUnit(1.8), 1);
     EXPECT_EQ(guessedMetresPerUnit(0.05), 1);
     EXPECT_EQ(guessedMetresPerUnit(30), 1);
-    EXPECT_EQ(guessedMetresPerUnit(154), 0.01);   // a fox in centimetres
-    EXPECT_EQ(guessedMetresPerUnit(555), 0.001);  // a box in millimetres
+    EXPECT_EQ(guessedMetresPerUnit(154), 0.01);   // the size of a fox in centimetres
+    EXPECT_EQ(guessedMetresPerUnit(555), 0.001);  // the size of a box in millimetres
     EXPECT_EQ(guessedMetresPerUnit(0), 1);
     EXPECT_EQ(guessedMetresPerUnit(std::nan("")), 1);
     EXPECT_EQ(guessedMetresPerUnit(INFINITY), 1);
@@ -112,7 +112,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     EXPECT_EQ(scaleOf(request()), 1);
 }
 
-// An object has the same blur in a file in metres and in a file in centimetres. A wrong unit changes the blur.
+// An object has the same blur whether its file is in metres or in centimetres. A wrong unit changes the blur.
 TEST_F(SceneScale, blurIsThatOfTheThing) {
     save(squareOf(2));
     const double inMetres = blurOf(request());

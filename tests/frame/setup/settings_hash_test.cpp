@@ -1,4 +1,4 @@
-// The hash that identifies finished frames changes with the settings that change the picture, and with no others.
+// Tests that the hash that identifies finished frames changes exactly with the settings that change the image.
 
 #include "frame/setup/settings_hash.h"
 

@@ -42,9 +42,9 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// A level 1 + ε times as bright errs, in each patch, by ε times the patch's mean light. Lens samples err by the
-// deviations of the light from that mean. The squares of the mean and of the deviations add up to the light's mean
-// square.
+// The error of a level that is 1 + ε times as bright as level 0 is, in each patch, ε times the patch's mean radiance.
+// The error of lens samples is the deviation of the radiance from that mean. The squares of mean and deviations add up
+// to the mean square of the radiance.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -56,7 +56,7 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // The ball covers at most 38 % of a patch as wide as the diagonal of the ball's bounding box, 2√3.
+    // A patch as wide as the diagonal of the ball's bounding box, 2√3, is covered by the ball to at most 38 %.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 
@@ -67,8 +67,8 @@ TEST(BlurredError, halfTheErrorIsHalfTheTable) {
         EXPECT_NEAR(squaredError(full, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
 }
 
-// A blur hides a lost pattern but not a lost shift of the colour: half-waves 0.1 wide vanish under patches five times
-// as wide, while the shift remains under all patches.
+// A blur hides a lost pattern but not a lost colour offset. Half-waves 0.1 wide vanish under patches five times as
+// wide, while the offset remains under patches of any size.
 TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     const auto wave = [](const glm::vec3& p) { return 0.2f * std::sin(31.4f * p.x) * std::sin(31.4f * p.z); };
     const auto grey = [](const glm::vec3&) { return glm::vec4(0.5f, 0.5f, 0.5f, 1); };
@@ -86,7 +86,8 @@ TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     EXPECT_GT(left(shift, 0.5), 0.75);
 }
 
-// Returns an unlit white pyramid of two levels without height: `both` is in both levels, `lost` only in level 0.
+// Returns a flat, unlit, white pyramid of two levels. Level 0 consists of the triangles `both` and `lost`, level 1 only
+// of `both`.
 Pyramid flatWithout(const std::vector<glm::vec3>& both, const std::vector<glm::vec3>& lost) {
     Mesh mesh;
     mesh.vertices.positions = both;
@@ -114,9 +115,10 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
     return {a, b, c, a, c, d};
 }
 
-// Strips of width w and length l beside a plate err by their share of the area at each point. Under patches of side s
-// that are wider than a strip, its light spreads, so that the sum of squares is (w/s)² · l · s. Foreshortening along
-// each direction changes w and l. The strips are thinner than a cell of the pictures.
+// A level lacks strips of width w and length l beside a plate. Without blur, the error is the share of the area that
+// the strips cover. Patches of side s that are wider than a strip spread its light, so the sum of squares is (w/s)² · l
+// · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the images from
+// which errors are measured.
 TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     constexpr double width = 0.004, plate = 0.5;
     constexpr int count = 12;
@@ -141,7 +143,7 @@ TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
         }
     }
     EXPECT_NEAR(squaredError(pyramid, 1, 0) * covered / points, 1, 0.1);
-    for (int i = 0; i < 2; ++i) {  // larger patches contain two wires
+    for (int i = 0; i < 2; ++i) {  // only the two smallest patches, since larger patches contain two wires
         const double side = sideOf(pyramid, i);
         const double truth = lines / (side * covered);
         EXPECT_GT(squaredError(pyramid, 1, side), 0.5 * truth) << "side " << side;
@@ -149,7 +151,7 @@ TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     }
 }
 
-// A disk of 60 corners that becomes a hexagon loses a share of its area, and errs by that share.
+// If a disk of 60 corners becomes a hexagon, the squared error is the share of the area that it loses.
 TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
     std::vector<glm::vec3> hexagon, rest;
     const auto corner = [](int i) {
@@ -165,7 +167,8 @@ TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
     EXPECT_NEAR(squaredError(pyramid, 1, 0), (full - 3 * std::sin(std::numbers::pi / 3)) / full, 0.01);
 }
 
-// Grey of the mean light hides a plate of even light: its outline has contrast before black only.
+// In front of a grey background with the plate's mean radiance, a plate of uniform radiance has no contrast. In front
+// of black, its outline has contrast.
 TEST(BlurredError, greyHidesAnEvenPlate) {
     const Pyramid pyramid = flatWithout(rectangle({0, 0}, {1, 1}), rectangle({1, 0}, {1.1, 1}));
     for (const double side : {0.05, 0.5}) {
@@ -175,7 +178,7 @@ TEST(BlurredError, greyHidesAnEvenPlate) {
     }
 }
 
-// Shrinking the ball by ε loses a rim of area 2πε, and the mean squared error is proportional to that area.
+// Shrinking a ball of radius 1 by ε removes a rim of area 2πε, and the mean squared error is proportional to that area.
 TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     const auto white = [](const glm::vec3&) { return glm::vec4(1); };
     const auto shrunk = [&](float factor) {
@@ -187,7 +190,7 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The rim's light and the mean light each lie between 0.2 and 1.
+    // The rim's radiance and the mean radiance both lie between 0.2 and 1.
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -204,7 +207,8 @@ TEST(BlurredError, normalsCountByTheLight) {
     EXPECT_NEAR(squaredError(turned(0.1f), 1, 0) / squaredError(turned(0.05f), 1, 0), 4, 0.4);
 }
 
-// Under patches far larger than the mesh, the error falls as the inverse width of the blur, as for a single spot.
+// Under patches far larger than the mesh, the error is inversely proportional to the width of the blur, as for a single
+// point of light.
 TEST(BlurredError, fallsAsASpotBeyondTheMesh) {
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
     EXPECT_NEAR(squaredError(pyramid, 1, 100) / squaredError(pyramid, 1, 1000), 100, 1e-6);
@@ -236,7 +240,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    // Error in units of the contrast, before the background that shows it more.
+    // Ratio of error to contrast, in front of the background for which this ratio is larger.
     const auto error = [&](std::size_t l) {
         double worst = 0;
         for (const Surround surround : surrounds)
@@ -266,7 +270,8 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     EXPECT_EQ(levelOfBlurredError(pyramid, sides, 100, 0), 0);
 }
 
-// A level's error limit is inversely proportional to its edge length, but at most 0.3 of the lens samples' error.
+// A level's error limit is inversely proportional to its edge length, but at most 0.3 of the lens samples' expected
+// error.
 TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     for (const std::uint32_t samples : {16u, 64u, 1024u}) {
         const double light = defaultThresholds(LodMetric::measured, samples).light;

@@ -1,4 +1,4 @@
-// Tests that a pyramid loaded from the cache equals a built one bit for bit, even after damage to a file.
+// Tests that a pyramid loaded from the cache equals a built pyramid bit for bit, even after damage to a file.
 
 #include "lod/pyramid/cache.h"
 
@@ -110,7 +110,7 @@ void seal(Bytes& bytes) {
     std::memcpy(bytes.data() + offsetof(PyramidFileHeader, checksum), &checksum, sizeof checksum);
 }
 
-// Returns the first byte of each section as the file format defines it, and the end of the file.
+// Returns the offset of the first byte of each section of the file format, and the size of the file.
 std::vector<std::size_t> sectionBorders(const Encoded& file) {
     const Pyramid& pyramid = file.pyramid;
     std::vector<std::size_t> borders = {0};
@@ -134,7 +134,7 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     return borders;
 }
 
-// Expects the pyramid to be safe to draw: all indices lie inside the pyramid's own arrays and the mesh's.
+// Expects the pyramid to be safe to draw: all indices are within the arrays of the pyramid and of the mesh.
 void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     ASSERT_FALSE(pyramid.levels.empty());
     ASSERT_EQ(pyramid.source.size(), pyramid.vertices.count());
@@ -245,7 +245,7 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     EXPECT_FALSE(decodedWith({file.key.mesh + 1, {}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.minTriangles = 65}}));
     EXPECT_FALSE(decodedWith({file.key.mesh, {.maxLevels = 23}}));
-    // A hash collision: another mesh has the same key.
+    // Simulates a hash collision: the file is decoded for another mesh with the same key.
     EXPECT_FALSE(decodePyramid(file.bytes, torus(24, 16), file.key));
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
 }
@@ -300,7 +300,7 @@ TEST(PyramidFile, aShorterOrLongerFileIsAMiss) {
     EXPECT_FALSE(file.decode(longer));
 }
 
-// Decodes the file with a wrong value at `offset` and a matching checksum, as a faulty writer would leave it.
+// Decodes the file after storing a wrong value at `offset` and a matching checksum, as a faulty writer would.
 template <typename T>
 std::optional<Pyramid> decodeWith(const Encoded& file, std::size_t offset, T value) {
     Bytes bytes = file.bytes;
@@ -347,7 +347,7 @@ TEST(PyramidFile, wrongCountsUnderARightChecksumAreMisses) {
             }
 }
 
-// All ranges fit, but a triangle would be drawn with the material of the wrong primitive.
+// All ranges are valid, but a triangle would be drawn with the material of the wrong primitive.
 TEST(PyramidFile, aTriangleThatChangedPrimitivesIsAMiss) {
     const Encoded file(decoratedTorus());
     const std::size_t ranges = sectionBorders(file)[2];
@@ -414,7 +414,7 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
         ++sound;
         expectSound(*decoded, file.mesh);
     }
-    EXPECT_GT(sound, 100u);  // most words are coordinates, which may have any value
+    EXPECT_GT(sound, 100u);  // sound, since most words are coordinates, which may have any value
 }
 
 // ---- folder ------------------------------------------------------------------------------------
@@ -444,7 +444,7 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
     expectBuilt(first, meshes);
     EXPECT_EQ(first.loaded, 0u);
     EXPECT_EQ(first.failure, "");
-    EXPECT_EQ(fileCount(folder), 3u);  // no file for the empty mesh and for the mesh of 8 triangles
+    EXPECT_EQ(fileCount(folder), 3u);  // no file exists for the empty mesh and for the mesh of 8 triangles
 
     std::uint64_t left = 1;
     const CachedPyramids second = cachedPyramids(
@@ -469,7 +469,7 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     }
 }
 
-// A file belongs to one LevelVertices option and is rejected under the other option, even if renamed.
+// A file is valid for one LevelVertices option only and is rejected under the other option, even if it is renamed.
 TEST(PyramidCache, aFileIsOfItsOwnVertices) {
     const Mesh mesh = sphere(24, 16);
     const PyramidOptions surviving{.vertices = LevelVertices::surviving};
@@ -497,8 +497,8 @@ TEST(PyramidCache, damageIsReplaced) {
     EXPECT_TRUE(loadPyramid(meshes[0], scratch.path()));
 }
 
-// An entry that leads elsewhere is a miss and is replaced; the file behind a link keeps its bytes. A linked folder is
-// used.
+// A cache entry that is a link or a pipe is a miss and is replaced; the file behind a link keeps its bytes. A cache
+// folder may be a link.
 TEST(PyramidCache, entriesAreNeverLinksOrPipes) {
     const ScratchFolder scratch, elsewhere;
     fs::create_directory_symlink(scratch.path(), elsewhere / "cache");
@@ -543,7 +543,7 @@ TEST(PyramidCache, aFolderThatCannotBeMadeIsOneFailureAndNoFault) {
     EXPECT_EQ(cached.failure.find('\n'), std::string::npos);
 }
 
-// A full disk leaves no incomplete file in the cache. It is simulated by a limit on the file size.
+// A full disk, simulated by a limit on the file size, leaves no incomplete file in the cache.
 TEST(PyramidCache, aFullDiskLeavesNoFile) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(48, 32)};
@@ -579,7 +579,7 @@ TEST(PyramidCache, processesMayShareAFolder) {
                 const auto loaded = loadPyramid(meshes[i], scratch.path());
                 good = !loaded || sameBits(loaded->indices, built[i].indices);
                 storePyramid(built[i], meshes[i], scratch.path());
-                // From now on, the file is complete at all times.
+                // After the first store, the cache always holds a complete file.
                 good = good && loadPyramid(meshes[i], scratch.path()).has_value();
             }
         ::_exit(good ? 0 : 1);
@@ -602,8 +602,8 @@ TEST(PyramidCache, listsAndClearsItsOwnFilesOnly) {
     const Bytes bytes = readFile(own);
     const std::string stem = own.stem().string();
 
-    // A temporary file that a killed process left behind belongs to the cache. Files with foreign names or foreign
-    // content do not.
+    // A temporary file that a killed process left behind counts as a file of the cache. Files with foreign names or
+    // foreign content do not.
     writeFile(scratch / ("." + stem + ".123-0.pyramid"), bytes);
     std::vector<std::string> foreign = {"notes.txt", "0123456789abcdef.pyramid", ".0123456789abcdef.1-0.pyramid"};
     for (const std::string& name : foreign) writeFile(scratch / name, std::string_view("somebody's"));

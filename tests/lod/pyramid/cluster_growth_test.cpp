@@ -88,8 +88,8 @@ TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
 }
 
 TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
-    // The soup has edges of any number of faces, coincident corners, a vertex of very many triangles, and NaN and huge
-    // coordinates.
+    // The soup has edges with any number of faces, coincident corners, a vertex with very many triangles, and NaN and
+    // huge coordinates.
     std::mt19937 random(1);
     Soup soup;
     for (int v = 0; v < 300; ++v) soup.positions.emplace_back(random() % 100, random() % 100, random() % 100);
@@ -109,7 +109,7 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
     const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
-    // 32 unit squares, or 64 triangles, fill a disk of radius 3.2.
+    // A cluster's 64 triangles are 32 unit squares; as a disk, they would have a radius of 3.2.
     const double fewest = static_cast<double>(grown.triangles.size()) / max;
     EXPECT_LT(static_cast<double>(grown.sizes.size()), 1.1 * fewest);
     std::size_t begin = 0;

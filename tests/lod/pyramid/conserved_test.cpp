@@ -1,4 +1,4 @@
-// Tests that levels of the project's own models look like level 0 under a wide blur.
+// Tests that levels of the project's own models look like level 0 under a wide blur (conserved_levels.h).
 
 #include <gtest/gtest.h>
 

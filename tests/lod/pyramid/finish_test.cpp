@@ -1,4 +1,4 @@
-// Tests of how materials affect the pictures from which a level's error is measured.
+// Tests of the influence of materials on the images from which a level's error is measured.
 
 #include "lod/pyramid/finish.h"
 

@@ -1,4 +1,5 @@
-// Tests that the length of a coarse level's normals equals their mean cosine to the fine normals that they replace.
+// Tests that the length of a coarse level's normals equals their mean cosine to the normals of the fine surface that
+// they replace.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,9 @@
 namespace defocus::engine {
 namespace {
 
-// Means over every fifth vertex of a ball. `cosine` is between the vertex normal and the level's normal, and `length`
-// is the length of the level's normal, both where the radial ray through the vertex meets the level.
+// Means over every fifth vertex of a ball. The radial ray through the vertex meets the level at a point. `cosine` is
+// between the vertex normal and the level's normal at this point, and `length` is the length of the level's normal
+// there.
 struct Agreement {
     double cosine = 0;
     double length = 0;
@@ -60,7 +62,8 @@ TEST(LevelNormals, ofASmoothBallStayWhole) {
     }
 }
 
-// Levels that lose the bumps of a ball have shorter normals, whose length equals the mean cosine to the ball's normals.
+// Levels that lose the bumps of a ball have normals shorter than 1. Their length equals the mean cosine to the ball's
+// normals.
 TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
     const Mesh ball = sphere(96, 48, 0.04);
     const Pyramid pyramid = buildPyramid(ball);

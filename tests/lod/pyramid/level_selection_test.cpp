@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a pyramid with edges 1, √2, 2, 2√2, 4 and errors 0, 0.01, 0.02, 0.04, 0.08.
+// Returns a pyramid of five levels with the mean edges 1, √2, 2, 2√2 and 4 and the errors 0, 0.01, 0.02, 0.04 and 0.08.
 Pyramid uniformPyramid() {
     Pyramid pyramid;
     for (int l = 0; l < 5; ++l) {
@@ -55,8 +55,8 @@ TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     EXPECT_EQ(lambda({1, 75, 40}, 10), 0);
 }
 
-// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as those of level 0, for a blur
-// of c px and edges of level 0 that project to d px.
+// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as the edges of level 0. The
+// blur is c px wide, and edges of level 0 project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -87,7 +87,7 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // Two intervals have the min allowed growth.
+    // The edges of levels 1 and 2, and the errors of levels 2 and 3, have the min allowed growth.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
@@ -95,8 +95,8 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
 
 // Between levels l and l + 1 with the edge lengths or errors e[l] and e[l+1], λ has the slope 1/ln(e[l+1]/e[l]) over
 // the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target for errors. Blur, threshold and distance
-// all change the same quotient, target over projected size, so a step in any of them changes λ by the integral of that
-// slope.
+// all change the same quotient: target over projected size. Therefore a step in any of them changes λ by the integral
+// of that slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -182,8 +182,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// The coarse samples and the boundary sample's share add up to f·N for every λ. N is the number of samples, and f the
-// fractional part of λ.
+// For every λ, the number of coarse samples plus the split sample's coarse share is f·N. N is the number of samples,
+// and f the fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -1,4 +1,4 @@
-// Tests that real models with all kinds of surfaces become valid pyramids.
+// Tests that real models with all kinds of surfaces yield valid pyramids.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ std::vector<fs::path> publicModels() {
 
 struct BuiltModel {
     std::vector<Mesh> meshes;
-    std::vector<Pyramid> pyramids;  // one per mesh
+    std::vector<Pyramid> pyramids;  // one pyramid for each mesh
 };
 
 // Returns a model with its pyramids, which are built once per process.
@@ -71,7 +71,8 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// Stored errors are at least 0.9 of the result of a far denser measurement, and the median ratio is below 1.3.
+// Compares stored errors with the result of a far denser measurement: each is at least 0.9 of that result, and the
+// median ratio is below 1.3.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();
@@ -142,7 +143,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // The outline shrinks at each end by no more than the stored error.
+    // Each end of the outline recedes by at most the stored error.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

@@ -1,4 +1,4 @@
-// Tests of where a pyramid ends, and of the reason that it states.
+// Tests of the coarsest level of a pyramid, and of the stated reason why no coarser level follows.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests of levels of thin sheets of many resolutions.
+// Tests of the levels of thin sheets at many resolutions.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
                 const glm::vec3& a = level.positions[indices[i]];
                 const glm::vec3 cross =
                     glm::cross(level.positions[indices[i + 1]] - a, level.positions[indices[i + 2]] - a);
-                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // skips the rim
+                // skips triangles of the rim
+                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;
                 glm::vec3 mean(0);
                 for (std::size_t k = 0; k < 3; ++k) mean += level.normals[indices[i + k]] / 3.0f;
                 EXPECT_GT(glm::dot(mean, glm::normalize(cross)), 0.6f) << cells << " cells, level " << l;

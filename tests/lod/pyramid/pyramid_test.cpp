@@ -13,7 +13,8 @@
 namespace defocus::engine {
 namespace {
 
-// Adds every attribute to the mesh, so that a test can compare all attributes of a level's vertices with the mesh's.
+// Adds every attribute to the mesh, so that a test can compare all attributes of a level's vertices with the mesh's
+// attributes.
 Mesh decorated(Mesh mesh) {
     const std::size_t count = mesh.vertices.count();
     for (std::size_t v = 0; v < count; ++v) {
@@ -42,7 +43,7 @@ TEST(Pyramid, SingleTriangleStaysAlone) {
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
     ASSERT_EQ(pyramid.levels.size(), 1u);
-    EXPECT_DOUBLE_EQ(pyramid.levels[0].meanEdge, 4);  // the mean of 3, 4 and 5
+    EXPECT_DOUBLE_EQ(pyramid.levels[0].meanEdge, 4);  // the mean of the edge lengths 3, 4 and 5
     EXPECT_EQ(pyramid.bounds.maximum, glm::dvec3(3, 4, 0));
 }
 
@@ -111,7 +112,7 @@ TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
 }
 
 TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
-    // A triangle with corners at both ends of the seam would span nearly the entire texture.
+    // A triangle with corners on both sides of the UV seam would span nearly the entire texture.
     const Mesh mesh = torus(96, 48);
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 0; l + 2 < pyramid.levels.size(); ++l) {
@@ -126,7 +127,7 @@ TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
 }
 
 TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
-    // A sphere whose southern and northern halves belong to two primitives with separate vertices.
+    // The sphere's southern and northern halves belong to two primitives with separate vertices.
     Mesh mesh = sphere(48, 24);
     const Mesh full = mesh;
     const auto count = static_cast<std::uint32_t>(mesh.vertices.count());
@@ -137,7 +138,7 @@ TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     appendAgain(mesh.vertices.positions);
     appendAgain(mesh.vertices.normals);
     appendAgain(mesh.vertices.uv0);
-    // Different texture coordinates prevent the simplifier from joining the copies.
+    // Different texture coordinates prevent the simplifier from joining the duplicate vertices.
     for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;
     mesh.primitives = {{0, {}}, {1, {}}};
     for (std::size_t i = 0; i < full.primitives[0].indices.size(); i += 3) {
@@ -185,7 +186,8 @@ TEST(Pyramid, FlatSquareGetsEvenTriangles) {
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A fitted face cuts the unit sphere: a corner p lies | |p| − 1 | outside, and the face's middle lies inside.
+    // A fitted face intersects the unit sphere: a corner p lies | |p| − 1 | outside, and the middle of the face lies
+    // inside.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;
@@ -214,7 +216,7 @@ TEST(Pyramid, NormalsOfASphereStayRadial) {
 }
 
 TEST(Pyramid, CubeWithHardEdgesStaysACube) {
-    // Six grids of 12 × 12 cells share positions but not normals along the cube's edges.
+    // The mesh is a cube of six grids of 12 × 12 cells, which share positions but not normals along the cube's edges.
     Mesh mesh;
     mesh.primitives.resize(1);
     for (int face = 0; face < 6; ++face) {
@@ -260,14 +262,14 @@ TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
     const Mesh mesh = singlePrimitive(vertices, indices);
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
-    // Only complete triangles can be removed, and half of the 100 would be below the min count of 64.
+    // Only complete triangles can be removed, and half of the 100 triangles would be fewer than the min count of 64.
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
 }
 
 TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
-    // A sphere with a fin on an edge, a repeated face, a degenerate face, a reversed copy of every face (a two-sided
-    // sheet), and a NaN corner.
+    // The mesh is a sphere with a fin on an edge, a repeated face, a degenerate face, a reversed copy of every face (a
+    // two-sided sheet), and a NaN corner.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     const std::vector<std::uint32_t> clean = indices;
@@ -299,7 +301,8 @@ TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
 }
 
 TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
-    // Every third triangle is wound the other way. At every level, triangles still meet edge to edge.
+    // The winding of every third triangle is reversed. At every level, adjacent triangles must still share complete
+    // edges.
     Mesh mesh = sphere(32, 16);
     std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
     for (std::size_t i = 0; i < indices.size(); i += 9) std::swap(indices[i], indices[i + 1]);
@@ -314,7 +317,7 @@ TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
 TEST(Pyramid, ScaleAndPlaceOfTheUnitDoNotMatter) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid pyramid = buildPyramid(mesh);
-    for (const int exponent : {-20, 20}) {  // scales of about 1e-6 and 1e6; powers of two are exact
+    for (const int exponent : {-20, 20}) {  // scales the mesh by about 1e-6 and 1e6; powers of two are exact
         Mesh scaled = mesh;
         for (glm::vec3& p : scaled.vertices.positions) p *= std::ldexp(1.0f, exponent);
         const Pyramid other = buildPyramid(scaled);
@@ -333,7 +336,7 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)});
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    // The mesh is also built alone, the second time with several threads for its levels.
+    // The mesh is also built alone; the second of these builds uses several threads for its levels.
     many.push_back(std::move(buildPyramids({mesh}).front()));
     many.push_back(buildPyramid(mesh, {}, 3));
     for (const std::size_t i : {1u, 3u, 5u, 6u}) {
@@ -385,8 +388,8 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
 }
 
-// Levels are the same for a mesh with duplicate vertices, whether these are many or so few that the simplifier does not
-// join them.
+// The levels of a mesh with duplicate vertices are the same whether the duplicates are many or so few that the
+// simplifier does not join them.
 TEST(Pyramid, CopiesOfVerticesChangeNothing) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid without = buildPyramid(mesh);
@@ -416,7 +419,7 @@ TEST(Pyramid, VerticesThatDifferOnlyInAMorphTargetStayApart) {
     mesh.vertices.uv0.clear();
     mesh.vertices.positions.push_back(mesh.vertices.positions[0]);
     mesh.vertices.normals.push_back(mesh.vertices.normals[0]);
-    mesh.primitives[0].indices[0] = 4;  // the first corner at vertex 0 moves to a duplicate, vertex 4
+    mesh.primitives[0].indices[0] = 4;  // the first corner at vertex 0 now uses the duplicate, vertex 4
     mesh.morphTargets.push_back({std::vector<glm::vec3>(5, {0, 0, 0}), {}, {}});
     EXPECT_EQ(buildPyramid(mesh).vertices.count(), 4u);
     mesh.morphTargets[0].positions[4] = {0, 0, 1};

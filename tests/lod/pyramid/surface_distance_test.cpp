@@ -32,7 +32,7 @@ void expectAll(const Distances& distances, double expected, double tolerance) {
 }
 
 TEST(SurfaceDistance, ParallelSquaresAreTheirOffsetApartEverywhere) {
-    // The result does not depend on the triangulation of either square.
+    // The result does not depend on how the two squares are triangulated.
     const SurfaceDistance d = surfaceDistance(surfaceOf(flatGrid(7)), surfaceOf(flatGrid(16), {0, 0, 0.125}), 1000);
     expectAll(d.forward, 0.125, 1e-12);
     expectAll(d.backward, 0.125, 1e-12);
@@ -40,8 +40,8 @@ TEST(SurfaceDistance, ParallelSquaresAreTheirOffsetApartEverywhere) {
 }
 
 TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
-    // [0, 1]² lies inside [0, 2] × [0, 1], so the forward distance is 0. The backward distance is uniform in [0, 1] on
-    // the half of the area beyond x = 1: its mean is 1/4 and its 99th percentile 0.98.
+    // The square [0, 1]² lies inside the rectangle [0, 2] × [0, 1], so the forward distance is 0. The backward distance
+    // is uniform in [0, 1] on the half of the area beyond x = 1: its mean is 1/4 and its 99th percentile 0.98.
     Mesh wide = flatGrid(9);
     for (glm::vec3& p : wide.vertices.positions) p.x *= 2;
     const SurfaceDistance d = surfaceDistance(surfaceOf(flatGrid(12)), surfaceOf(wide), 4096);
@@ -69,7 +69,7 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // 99 of 100 points have a distance of at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
+        // At 99 of 100 points, the distance is at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
@@ -97,7 +97,7 @@ TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
 TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
     const Surface bumpy = surfaceOf(sphere(48, 24, 0.1));
     expectAll(surfaceDistance(bumpy, bumpy, 5000).both, 0, 1e-9);
-    Mesh cube;  // 2 triangles per side, no shared vertices
+    Mesh cube;  // a cube with 2 triangles per side, without shared vertices
     cube.primitives.resize(1);
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {0.0f, 1.0f})
@@ -118,16 +118,16 @@ TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
 }
 
 TEST(SurfaceDistance, ShiftedTriangle) {
-    // The first triangle is shifted by 2 along its normal, the second by (−1, 0) in its plane. After the second shift,
-    // points right of x = 0 stay inside.
+    // The first triangle is a copy shifted by 2 along the normal, the second a copy shifted by (−1, 0) in the plane.
+    // After the second shift, points right of x = 0 stay inside the triangle.
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);
     // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt over the area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
-    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The line x + y = 3 is nearer only
-    // beyond its end.
+    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The closest point of the line x + y = 3
+    // would be nearer but lies beyond the end of the edge.
     EXPECT_LE(d.backward.maximum, 1);
     EXPECT_NEAR(d.backward.maximum, 1, 0.06);
 }
@@ -156,7 +156,7 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
 }
 
 TEST(SurfaceDistance, PointsAreSpreadByArea) {
-    // One triangle of area 3 at distance 1, and 300 triangles with a total area of 1 at distance 5.
+    // The surface has one triangle of area 3 at distance 1, and 300 triangles with a total area of 1 at distance 5.
     std::vector<glm::vec3> positions = {{0, 0, 1}, {3, 0, 1}, {0, 2, 1}};
     for (int i = 0; i < 300; ++i) {
         const float x = 0.005f * static_cast<float>(i);

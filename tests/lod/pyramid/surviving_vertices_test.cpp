@@ -1,4 +1,4 @@
-// Tests of levels as in Jeong, Kim and Lee 2011, whose vertices survive with their own attribute values.
+// Tests of levels as in Jeong, Kim and Lee 2011: their vertices are vertices of the mesh, with unchanged attributes.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ Mesh coloured(Mesh mesh) {
     return mesh;
 }
 
-// Number of vertices of the coarser levels that have the mesh's own value, per attribute, and number of all vertices.
+// For each attribute, the number of vertices of the coarser levels that keep the value of their source vertex in the
+// mesh. `all` is the number of all these vertices.
 struct OwnValues {
     std::size_t positions = 0, normals = 0, colors = 0, uv0 = 0, uv1 = 0;
     std::size_t all = 0;
@@ -58,8 +59,8 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// In levels with fitted vertices, fewer than half of the values are the mesh's own. Counts of own values therefore
-// distinguish fitted from surviving vertices.
+// In levels with fitted vertices, fewer than half of the values are the source vertices' values. The count therefore
+// distinguishes fitted from surviving vertices.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));
     const OwnValues own = ownValues(mesh, buildPyramid(mesh));
@@ -68,7 +69,7 @@ TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     EXPECT_LT(own.colors, own.all / 2);
 }
 
-// Collapses keep the same vertices in both kinds of levels, with fitted and with surviving values.
+// Levels with fitted values and levels with surviving values keep the same vertices.
 TEST(SurvivingVertices, areThoseThatFittedLevelsHave) {
     const Mesh mesh = coloured(torus(64, 40));
     const Pyramid published = buildPyramid(mesh, asPublished);
@@ -95,8 +96,8 @@ std::size_t placesOf(const Pyramid& pyramid, const PyramidLevel& level) {
     return places.size();
 }
 
-// `quarters` makes three levels, of all, three quarters and half of the positions, on closed and open surfaces, with
-// and without seams.
+// The option `quarters` makes three levels, of all, three quarters and half of the vertex positions. This holds for
+// closed and open surfaces, with and without seams.
 TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     for (const Mesh& mesh : {coloured(sphere(64, 32, 0.1)), coloured(torus(64, 40)), coloured(flatGrid(48))}) {
         const Pyramid pyramid = buildPyramid(mesh, {.vertices = LevelVertices::quarters});
@@ -111,7 +112,7 @@ TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     }
 }
 
-// Each level has half the triangles of the previous one, to within 1.5: a collapse inside a surface removes two
+// Each level has half the triangles of the previous level, to within 1.5, since a collapse inside a surface removes two
 // triangles.
 TEST(SurvivingVertices, makeLevelsOfHalfTheTriangles) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48), asPublished);

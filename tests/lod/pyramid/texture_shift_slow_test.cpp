@@ -1,4 +1,4 @@
-// Tests that a level's texture stays where level 0 shows it, to within the blur at which the level is drawn.
+// Tests that a level shows each texel where level 0 shows it, to within the blur at which the level is drawn.
 
 #include <gtest/gtest.h>
 
@@ -50,13 +50,14 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 }
 
 struct Shift {
-    double mean = 0;       // object units
-    double elsewhere = 0;  // share of cells whose distance belongs to another chart or another part of the surface
+    double mean = 0;  // object units
+    // fraction of pixels whose distance is too large for a shift, as they show different charts or parts of the surface
+    double elsewhere = 0;
 };
 
-// Returns the distance between a level's texture and level 0's, where both are visible in the views of the blurred
-// errors. A triangle shifts the texture by at most its longest edge. Larger distances come from another part of the
-// surface, for example beside a strap that became thinner.
+// Returns the distance between the positions of a level's texture and of level 0's texture. It is measured where both
+// are visible in the views of the blurred errors. A triangle shifts the texture by at most its longest edge. Larger
+// distances come from another part of the surface, for example beside a strap that became thinner.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -84,9 +85,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the side, in object units, of the smallest patch for which a blur over the patch selects the level in at
-// least half of `samples` samples; nullopt if no patch does. The patch is one pixel wide: with more pixels per patch,
-// edges are longer on screen and the selected level is finer.
+// Returns the side, in object units, of the smallest patch for which the level is selected in at least half of
+// `samples` samples under a blur over the patch. Returns nullopt if there is no such patch. The patch is one pixel
+// wide: with more pixels per patch, edges are longer on screen and the selected level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
@@ -108,7 +109,8 @@ TEST(TextureShift, isMeasured) {
     EXPECT_NEAR(unitsPerCoordinate(pyramid), 2, 1e-4);
     EXPECT_LT(shiftOf(pyramid, 1).mean, 1e-6);
     for (glm::vec2& uv : pyramid.levels[1].uv0) uv.x += 0.01f;
-    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);  // the ramp has 256 texels
+    // the colour ramp has 256 texels, hence the factor 256/255
+    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);
     EXPECT_EQ(shiftOf(pyramid, 1).elsewhere, 0);
 }
 

@@ -1,4 +1,4 @@
-// Tests that levels of thin wires cover the exact area of the wires.
+// Tests that the projected area of levels of thin wires equals the wires' area.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Mesh slantedWires() {
     return mesh;
 }
 
-// Seen along z, each wire covers its width 2r times its height 1, however it is slanted.
+// Seen along z, each wire covers its width 2r times its height 1 for any slant.
 TEST(ThinWires, aLevelCoversTheirArea) {
     const Pyramid pyramid = buildPyramid(slantedWires(), {.maxLevels = 2});
     ASSERT_EQ(pyramid.levels.size(), 2u);

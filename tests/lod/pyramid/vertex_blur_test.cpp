@@ -1,4 +1,4 @@
-// Tests that levels carry the blur of vertices.
+// Tests that levels keep the blur attribute of vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -12,7 +12,7 @@ VertexHandle vertex(int number) {
     return VertexHandle(number);
 }
 
-// Empties the queue and returns the vertex indices in the order of the queue.
+// Empties the queue and returns the vertex indices in the order in which they leave the queue.
 std::vector<int> emptied(CollapseQueue& queue) {
     std::vector<int> order;
     while (!queue.empty()) order.push_back(queue.takeBest().idx());
@@ -60,10 +60,10 @@ TEST(CollapseQueue, aVertexWaitsOnceWithItsLastCost) {
     queue.put(vertex(0), 1, false);
     queue.put(vertex(1), 2, false);
     queue.put(vertex(2), 3, false);
-    queue.put(vertex(2), 0.5f, false);  // now the cheapest instead of the most expensive
+    queue.put(vertex(2), 0.5f, false);  // the vertex is now the cheapest instead of the most expensive
     EXPECT_EQ(queue.best(), vertex(2));
-    queue.put(vertex(2), 1.5f, false);  // back to the middle
-    queue.put(vertex(0), 1, true);      // the cheapest, but marked as bad
+    queue.put(vertex(2), 1.5f, false);  // the vertex is in the middle again
+    queue.put(vertex(0), 1, true);      // the vertex is the cheapest, but marked as bad
     EXPECT_EQ(emptied(queue), (std::vector<int>{2, 1, 0}));
 }
 
@@ -82,7 +82,7 @@ TEST(CollapseQueue, whatIsTakenWaitsNoMore) {
     EXPECT_TRUE(queue.empty());
 }
 
-// After thousands of random steps, the queue still agrees with a sorted set of the waiting vertices.
+// After thousands of random steps, the queue equals a sorted set of the waiting vertices.
 TEST(CollapseQueue, agreesWithASortedSet) {
     constexpr std::uint32_t count = 300;
     using Entry = std::tuple<bool, float, int>;

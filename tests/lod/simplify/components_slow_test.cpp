@@ -1,4 +1,4 @@
-// Tests the simplification of a ball beside small parts with many handles.
+// Tests of the simplification of a ball beside small parts that have many handles (tunnels).
 
 #include <gtest/gtest.h>
 

@@ -44,7 +44,7 @@ Mesh leaves(std::uint32_t count, float size) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Returns the parts that a level contains; each part of the mesh has `cornersEach` vertices.
+// Returns the indices of the parts that a level contains; each part of the mesh has `cornersEach` vertices.
 std::set<std::uint32_t> partsOf(const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     std::set<std::uint32_t> parts;
     for (const std::uint32_t v : levelIndices(pyramid, level)) parts.insert(pyramid.source[v] / cornersEach);
@@ -124,7 +124,7 @@ TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
 }
 
 TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
-    // Each quarter of the unit square keeps a quarter of the parts, which are of equal size.
+    // Each quarter of the unit square keeps a quarter of the parts, since all parts have the same size.
     const Mesh mesh = tetrahedra(2048, [](std::uint32_t) { return 0.004f; });
     const Pyramid pyramid = buildPyramid(mesh);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

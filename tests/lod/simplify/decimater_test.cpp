@@ -1,4 +1,4 @@
-// Tests that the collapse modules implement OpenMesh's interface: OpenMesh's decimater runs with them, and their
+// Tests that the collapse modules implement OpenMesh's interface: OpenMesh's decimater can use them, and their
 // guarantees hold.
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(Decimater, bringsASphereDownWithOurModules) {
     EXPECT_GE(livingFaces(mesh), 298u);
     expectWedgesInPlace(surface, mesh);
 
-    // The surface is still closed: each edge has one face on either side, and faces look outwards.
+    // The surface is still closed: each edge has one face on either side, and faces point outwards.
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
     forEachFace(mesh, [&](FaceHandle face) {
@@ -120,8 +120,8 @@ TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     EXPECT_GT(buildPyramid(fan(800)).levels.size(), 1u);
 }
 
-// The border between two materials stays, since no wedge may take a vertex of another material. Here, a square of one
-// material lies inside another.
+// The border between two materials stays in place, since no wedge may take a vertex of another material. In the test, a
+// square of one material lies inside another material.
 TEST(Decimater, leavesMaterialBordersToTheModules) {
     const Mesh grid = flatGrid(8);
     std::vector<std::vector<std::uint32_t>> primitives(2);

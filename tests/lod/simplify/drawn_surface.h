@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 using Face = std::array<int, 3>;
 
-// A mesh with its Simplifier; cannot be moved.
+// A mesh with its Simplifier. Objects cannot be moved.
 struct DrawnSurface {
     Vertices vertices;
     TriangleSet<MeshVertexNumber> triangles;
@@ -36,8 +36,8 @@ struct DrawnSurface {
     [[nodiscard]] SurfaceMesh& mesh() { return *simplifier.mesh; }
     [[nodiscard]] CollapseModules& modules() { return *simplifier.modules; }
 
-    // Return the surface's vertex for a mesh vertex, and the half-edge between two mesh vertices. Both are valid until
-    // the next compact().
+    // These two functions return the surface's vertex for a mesh vertex, and the half-edge between two mesh vertices.
+    // The handles are valid until the next compact().
     [[nodiscard]] VertexHandle vertex(std::uint32_t v) const {
         return simplifier.current[simplifier.origin->firstVertex[{v}]];
     }

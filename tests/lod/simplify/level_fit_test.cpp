@@ -22,8 +22,8 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
-// A level of one triangle, the vertices 0, 1 and 2, that replaces these and all inner vertices. Each vertex is anchored
-// to the triangle at barycentric coordinates.
+// The vertices of a level 0, and their anchors in a coarse level of one triangle with the corners 0, 1 and 2. An anchor
+// has barycentric coordinates in that triangle.
 struct OneTriangle {
     Vertices vertices;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -51,12 +51,13 @@ OneTriangle oneTriangle() {
     return result;
 }
 
-// Fits a level that consists of the triangle and of the additional vertices in `indices`.
+// Fits a level that consists of the triangles in `indices`.
 defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
-    source.areas.assign(t.anchors.size(), 1);  // there are no triangles of level 0, so all areas are equal
+    // all vertices get the same area, since there are no triangles of level 0
+    source.areas.assign(t.anchors.size(), 1);
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
     level.triangles = numberedTriangles<LevelVertexNumber>({indices});
@@ -72,8 +73,8 @@ TEST(LevelFit, flatTriangleStaysWhereItIs) {
         EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
 
-// A fitted triangle rises to the bulge that it replaces. All vertices but its corners lie 0.3 above it, and least
-// squares raise it almost as far.
+// A fitted triangle rises to the bulge that it replaces. All vertices except its corners lie 0.3 above it, and least
+// squares raise it by almost 0.3.
 TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
@@ -160,7 +161,7 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
     EXPECT_NEAR(fit.colors[{0}].r - fit.colors[{1}].r, 1, 1e-6) << "all are shifted alike";
 }
 
-// A linear fit of u = x², v = y over a triangle keeps the texture in place on average.
+// A linear fit of the texture coordinates u = x², v = y over a triangle leaves the mean texture position unchanged.
 TEST(LevelFit, textureLiesWhereItDid) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -195,7 +196,7 @@ TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
 }
 
-// Vertices of another chart do not affect the fit of this chart's texture.
+// Vertices of another UV chart do not affect the fit of this chart's texture coordinates.
 TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);
@@ -204,7 +205,7 @@ TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_LT(glm::distance(fitted.uv0[{v}], t.vertices.uv0[v]), 1e-5f);
 }
 
-// A surviving vertex on a dark spot does not darken the entire triangle.
+// A surviving vertex at a small dark spot does not darken the entire triangle.
 TEST(LevelFit, colourOfOneSpotIsOutvoted) {
     OneTriangle t = oneTriangle();
     for (auto& color : t.vertices.colors) color.r = 0.8f;
@@ -239,7 +240,7 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// A twin, a second level vertex with the same position and normal, gets a normal that depends only on its own anchors.
+// A twin is a second level vertex with the same position and normal. Its fitted normal depends only on its own anchors.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

@@ -43,7 +43,8 @@ TEST(MeanCosine, overAllLightsIsAQuarter) {
     }
 }
 
-// The mean cosine agrees with an integral over normals with a von Mises-Fisher distribution, whose mean is known.
+// The mean cosine agrees with an integral over normals with a von Mises-Fisher distribution, whose mean normal is
+// known.
 TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     constexpr int count = 400;
     for (const double narrowness : {4.0, 10.0, 40.0, 200.0}) {
@@ -105,7 +106,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// Normals that already fit are not changed, bit for bit.
+// Normals that already reflect the right amount of light are not changed, bit for bit.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());
@@ -116,7 +117,7 @@ TEST(FitLight, leavesWhatFits) {
     EXPECT_EQ(normals, grid.vertices.normals);
 }
 
-// Normals stay as they are if colours are NaN, infinite or huge, as in a damaged file.
+// The fit does not change normals if colours are NaN, infinite or huge, as in a damaged file.
 TEST(FitLight, leavesWhatHasNoNumbers) {
     const Mesh grid = flatGrid(2);
     std::vector<std::uint32_t> groups(grid.vertices.count());

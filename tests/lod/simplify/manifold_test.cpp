@@ -57,8 +57,8 @@ TEST(Manifold, SquareHasOneInnerEdge) {
 }
 
 TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
-    // In a strip of three faces, the middle face is reversed: the corners are 0 1 2, then 1 2 3 with the wrong winding,
-    // then 2 3 4.
+    // In a strip of three faces, the middle face is reversed: the first face is 0 1 2, the second is 1 2 3 with the
+    // wrong winding, and the third is 2 3 4.
     const Points strip = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}};
     const Manifold manifold = manifoldOf(strip, {0, 2, 1, 1, 3, 2, 2, 4, 3});
     expectConsistent(manifold);
@@ -81,13 +81,13 @@ TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
 }
 
 TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
-    // A flat square 0 1 2 3 has the diagonal 0–2, and a fin 0 2 4 stands on the diagonal.
+    // A flat square 0 1 2 3 has the diagonal 0–2, and a third face 0 2 4 stands on the diagonal.
     Points points = square;
     points.push_back({0.5, 0.5, 1});
     const Manifold manifold = manifoldOf(points, {0, 1, 2, 0, 2, 4, 0, 2, 3});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 2);
-    EXPECT_EQ(manifold.twins[{2}], SurfaceCorner{6});  // edge 2→0 of the first face, 0→2 of the last
+    EXPECT_EQ(manifold.twins[{2}], SurfaceCorner{6});  // edge 2→0 of the first face, and edge 0→2 of the last face
     EXPECT_EQ(manifold.positions.size(), 7u);
     EXPECT_EQ(manifold.repairs.faces, 1u);
     EXPECT_EQ(manifold.repairs.cut, 1u);

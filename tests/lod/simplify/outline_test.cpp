@@ -58,8 +58,8 @@ TEST(EdgeFill, coversWhatTheTrianglesOfItsEdgesDo) {
     EXPECT_EQ(fill.fill(byEdges), 0u) << "fill() must remove the edges";
 }
 
-// A fit grows the outlines of a coarse sphere to the area of the fine sphere's. Before the fit, every outline is too
-// small, as all vertices lie on the fine sphere.
+// A fit enlarges the outlines of a coarse sphere to the area of the fine sphere's outlines. Before the fit, every
+// outline is too small, as all vertices lie on the fine sphere.
 TEST(FitOutlines, inscribedSphereGrowsToTheAreaOfTheFineOne) {
     const Mesh fine = sphere(128, 64);
     const Mesh coarse = sphere(12, 8);

@@ -7,12 +7,12 @@ namespace {
 
 const glm::dvec3 corner[3] = {{0.1, 0.2, 0.3}, {1.1, 0.2, 0.5}, {0.3, 1.4, 0.2}};
 constexpr double area = 0.7;
-constexpr std::size_t attributeCount = 8;  // 3 for normals, 3 for colours and 2 for uv
+constexpr std::size_t attributeCount = 8;  // 3 for the normal, 3 for the colour and 2 for the texture coordinates
 using Row = AttributeRow<attributeCount>;
 using Gradients = AttributeGradients<attributeCount>;
 using FullQuadric = AttributeQuadric<attributeCount>;
 
-// Returns the attribute row of a field that is linear in space.
+// Returns the row of attributes of a field that is linear in space.
 Row fieldAt(const glm::dvec3& p) {
     Row row;
     for (std::size_t j = 0; j < attributeCount; ++j)
@@ -62,15 +62,15 @@ TEST(AttributeQuadric, aStepCostsItsSquareTimesTheArea) {
     EXPECT_NEAR(quadric.at(glm::vec3(corner[1] - corner[0]), change), area * (0.25 + 0.0625), 1e-5);
 }
 
-// The sum of two faces' quadrics gives the sum of the faces' costs, even if the second quadric was stored at another
-// vertex with different attributes.
+// The sum of two faces' quadrics gives the sum of their costs, even if the second quadric was stored at another vertex
+// with different attributes.
 TEST(AttributeQuadric, sumsLikeItsFaces) {
     const glm::vec3 step(0.1f, -0.8f, 0.1f);
     const Row change = changeBetween(fieldAt(corner[0]), fieldAt({1, 2, 3}));
     FullQuadric sum = quadricOf(corner[2]);
     const float first = sum.at(step, change);
     const FullQuadric second = quadricOf({-0.4, 0.9, 1.5});
-    const glm::vec3 offset(0.3f, 0.2f, -0.5f);  // from the second quadric's vertex to the first quadric's
+    const glm::vec3 offset(0.3f, 0.2f, -0.5f);  // offset from the second quadric's vertex to the first quadric's vertex
     Row jump{};
     jump[1] = 0.4f;
     Row both = change;

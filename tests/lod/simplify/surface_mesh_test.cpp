@@ -94,7 +94,7 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     }
     const SurfaceMesh& mesh = surface.mesh();
     std::vector<glm::vec3> positions;
-    std::vector<std::vector<MeshVertexNumber>> faces;  // source vertices of each face's corners
+    std::vector<std::vector<MeshVertexNumber>> faces;  // for each face, the source vertices of its corners
     const auto sourcesOf = [](const SurfaceMesh& of, FaceHandle face) {
         std::vector<MeshVertexNumber> sources;
         for (const HalfedgeHandle corner : cornersOf(of, face)) sources.push_back(of.wedges.source(of.wedge(corner)));
@@ -103,7 +103,9 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     forEachVertex(mesh, [&](VertexHandle v) { positions.push_back(mesh.position(v)); });
     forEachFace(mesh, [&](FaceHandle face) { faces.push_back(sourcesOf(mesh, face)); });
     ASSERT_EQ(positions.size(), 22u);
-    ASSERT_EQ(faces.size(), 27u);  // of 32 faces, two inner collapses remove two each and one at the border removes one
+    // Of 32 faces, two collapses inside the surface remove two faces each, and one collapse at the border removes one
+    // face.
+    ASSERT_EQ(faces.size(), 27u);
 
     compact(surface.simplifier);
     const SurfaceMesh& copy = surface.mesh();

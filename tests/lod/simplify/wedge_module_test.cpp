@@ -75,7 +75,7 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // In both cases, the corners on the left can use only the surviving vertex.
+    // For both kinds of jump, the corners on the left can use only the surviving vertex.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));
@@ -108,8 +108,8 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// After a collapse, the survivor's wedge has the cost of the faces of both vertices: area times squared attribute
-// difference. Three faces meet at vertex 5, and six more at vertex 4.
+// After a collapse, the wedge of the surviving vertex has the cost of the faces of both vertices: area times squared
+// attribute difference. Three faces meet at vertex 5, and six more at vertex 4.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;

@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a plan of a thin lens with aperture 0.1 m, focused at 2 m, field of view 90°, 1000 × 750 px: c = 50·|1/2 −
-// 1/z| px.
+// Returns a plan of a thin lens with an aperture of 0.1 m, focused at 2 m, a field of view of 90° and 1000 × 750 px.
+// The blur at depth z is c = 50·|1/2 − 1/z| px.
 FramePlan planOfLens() {
     FramePlan plan;
     plan.view.width = 1000;
@@ -21,7 +21,7 @@ FramePlan planOfLens() {
     return plan;
 }
 
-// Adds a box of the given view-space corners, behind all others.
+// Adds a box with the given view-space corners, behind all other boxes.
 void addBox(FramePlan& plan, const glm::dvec3& minimum, const glm::dvec3& maximum) {
     ObjectPlan object;
     object.viewBox = Bounds{minimum, maximum};
@@ -30,7 +30,7 @@ void addBox(FramePlan& plan, const glm::dvec3& minimum, const glm::dvec3& maximu
     plan.objects.push_back(object);
 }
 
-// A wall at 10 m, where c = 20 px, fills the left half of the image.
+// A wall at 10 m, where the blur c is 20 px, fills the left half of the image.
 TEST(BlurredShare, isTheAreaOfWhatIsBlurred) {
     FramePlan plan = planOfLens();
     addBox(plan, {-20, -20, -10.01}, {0, 20, -10});
@@ -46,7 +46,7 @@ TEST(BlurredShare, leavesOutWhatIsHidden) {
     EXPECT_EQ(blurredShare(plan, 8), 0);
 }
 
-// Only a background with an image in it can look blurred.
+// The background counts as blurred only if it is an environment map; other backgrounds have no detail.
 TEST(BlurredShare, countsTheBackgroundOnlyIfItIsAMap) {
     FramePlan plan = planOfLens();
     EXPECT_EQ(blurredShare(plan, 8), 0);

@@ -43,9 +43,9 @@ Moments momentsOf(const Points& points) {
     return moments;
 }
 
-// Lens cells preserve the position and size of blurred objects at every sample count. The cells' centres have the
-// lens's mean, and the covariances of the centres and of the blur add up to the lens's covariance. For a circle of
-// confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens radii.
+// Lens cells, each represented by one sample, preserve the position and size of blurred objects at every sample count.
+// The cells' centres have the lens's mean, and the covariances of the centres and of the blur add up to the lens's
+// covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens radii.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
@@ -95,7 +95,7 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // 64 equal disks with the lens's total area are 1/4 wide
+    EXPECT_GT(apart, 1.0 / 8);  // each of 64 equal disks with the lens's total area is 1/4 wide, in lens radii
 }
 
 // Returns the RMS difference between two blurred straight edges, over positions of the edge: one blurred by a disk, the
@@ -138,8 +138,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
     }
 }
 
-// A part of a frame has the lens cells of all samples of the frame. A block that is planned separately has its own
-// cells, with the blur for all samples up to its end.
+// A part of a frame has the same lens cells as all samples of the frame together. A block that is planned separately
+// has its own cells, with the blur for the number of samples up to its end.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -156,8 +156,8 @@ TEST(LensCells, belongToWhatIsPlannedTogether) {
     EXPECT_NEAR(moments.covariance[0][0], 0.25 - 4 * block.blur * block.blur, 1e-4);
 }
 
-// The blur of lens cells shrinks as samples are added and vanishes where samples leave no gaps. Cell centres do not
-// jump there.
+// The blur of lens cells shrinks as samples are added and vanishes at the count where samples leave no gaps. The
+// centres of the cells do not jump there.
 TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const auto small = muchBlurred();
     const LensCells few = lensCellsOf(*small, 16);

@@ -1,4 +1,5 @@
-// Tests of the number of pixels that a triangle's bounds cover over the lens, against closed forms.
+// Tests of the number of pixels that a triangle's screen bounds cover over all points of the lens, against closed
+// forms.
 
 #include "plan/lens_cells/swept_work.h"
 

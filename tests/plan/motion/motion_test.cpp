@@ -1,4 +1,4 @@
-// Tests of motion during the exposure: moments, bounds and requirements on a shutter.
+// Tests of motion during the exposure: sample times, bounds and requirements on a shutter.
 
 #include "plan/motion/motion.h"
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// Moves the first sphere by `step` from each of `moments` moments to the next.
+// Sets `moments` poses over the exposure. The first sphere moves by `step` from each pose to the next.
 void moveFirst(SmallWorld& small, std::size_t moments, const glm::dvec3& step) {
     small.world.shutter.poses.assign(moments, small.world.pose);
     for (std::size_t i = 0; i < moments; ++i) {
@@ -98,7 +98,7 @@ TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     EXPECT_TRUE(leftOut(planFrame(small->world, small->view, settingsFor(8)), "object Object 0"));
 }
 
-// Without defocus, motion still needs all samples.
+// Even without defocus, motion needs all samples.
 TEST(Motion, samplesRemainForMotionWithoutALens) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

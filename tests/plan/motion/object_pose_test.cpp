@@ -1,4 +1,4 @@
-// Tests that bounds of posed objects contain every vertex of every level at many times.
+// Tests that bounds of posed objects contain every vertex of every level at many times of the animation.
 
 #include "plan/motion/object_pose.h"
 
@@ -22,7 +22,8 @@ void expectBoundsHold(const SmallWorld& small) {
         const auto mesh = static_cast<std::size_t>(object.mesh);
         const Pyramid& pyramid = small.world.pyramids[mesh];
         const Bounds box = posedBox(pyramid, objectPose(object, glm::dmat4(1)), object.skinned());
-        const double tolerance = 1e-5 * glm::length(box.size());  // baked vertices have single precision
+        // tolerance for baked vertices, which have single precision
+        const double tolerance = 1e-5 * glm::length(box.size());
         for (std::uint32_t level = 0; level < pyramid.levels.size(); ++level) {
             const Mesh baked = bakedLevel(small.scene.meshes[mesh], pyramid, level, object, glm::dvec3(0));
             for (const Primitive& primitive : baked.primitives)

@@ -1,5 +1,5 @@
-// Tests of bounds of a triangle's determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012, Appendix A),
-// against sampled values.
+// Tests of bounds on a triangle's facing determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012,
+// Appendix A), against sampled values.
 
 #include "plan/visible/lens_facing.h"
 
@@ -35,7 +35,7 @@ LensTriangle anyTriangle(TriangleSource& random) {
     return triangle;
 }
 
-// Returns the determinant of the triangle after the shear of lens point (u, v).
+// Returns the determinant of the triangle after its corners are sheared for the lens point (u, v).
 double sheared(const LensTriangle& triangle, double u, double v) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = triangle.places[i] + triangle.coc[i] * glm::dvec3(u, aspect * v, 0);
@@ -54,7 +54,8 @@ double sampledLargest(const LensTriangle& triangle, double radius) {
     return largest;
 }
 
-// Returns the determinant's max change from the lens centre to the rim, the unit of the bounds' errors.
+// Returns the max change of the determinant from the lens centre to the rim. Errors of the bounds are given in this
+// unit.
 double spreadOf(const LensTriangle& triangle) {
     return sampledLargest(triangle, 1) - sheared(triangle, 0, 0);
 }
@@ -72,7 +73,8 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// For a thin lens, C = a + b·w, the bound is that of an eye that moves over a disk of radius |a| (Eq. 6 of the paper).
+// For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound is that of an eye that
+// moves over a disk of radius |a| (Eq. 6 of the paper).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;
@@ -101,13 +103,13 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     for (int trial = 0; trial < 400; ++trial) {
         const LensTriangle from = anyTriangle(random);
         LensTriangle to = anyTriangle(random);
-        // The motion ranges from nearly none to two unrelated triangles.
+        // The motion ranges from almost none to a change between two unrelated triangles.
         const double share = std::pow(10.0, random(-3, 0));
         to = between(from, to, share);
         const double sampled = sampledLargest(from, to);
         const double bound = largestDeterminant(from, to, aspect);
         ASSERT_GE(bound, sampled - 1e-9);
-        // Dividing the exposure into eight parts tightens the bound, whose error shrinks with the square of a part's
+        // Dividing the exposure into eight parts tightens the bound: its error shrinks with the square of a part's
         // length.
         double divided = -1e300;
         for (int part = 0; part < 8; ++part)
@@ -119,7 +121,7 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
         loosest = std::max(loosest, (bound - sampled) / size);
         loosestDivided = std::max(loosestDivided, (divided - sampled) / size);
     }
-    EXPECT_GT(loosest, 0.1) << "some triangles move much";
+    EXPECT_GT(loosest, 0.1) << "some triangles move far";
     EXPECT_LT(loosestDivided, 0.1 * loosest + 0.01);
 }
 

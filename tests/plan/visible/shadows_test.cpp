@@ -16,7 +16,8 @@ namespace {
 
 constexpr double wallDepth = 4;  // m
 
-// Returns a wall of 8 m width at z = −4 m, in front of a pinhole camera at the origin that looks at its middle 2.9 m.
+// Returns a wall of 8 m width at z = −4 m, in front of a pinhole camera at the origin. The image shows the middle 2.9 m
+// of the wall.
 std::unique_ptr<SmallWorld> wallWithoutLights() {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.emplace_back();
@@ -55,7 +56,7 @@ std::vector<double> sharesOf(SmallWorld& small) {
     return lightShares(small.world, plan, seenPoints(plan));
 }
 
-// A lamp 40 m from the wall, of 1600·E candela, and a sun of E lux illuminate the wall alike.
+// A lamp of 1600·E candela that is 40 m from the wall illuminates the wall as much as a sun of E lux.
 TEST(ShadowPlan, lightsCountByTheirIlluminanceOfTheImage) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, 2, {});
@@ -77,8 +78,8 @@ TEST(ShadowPlan, aUniformSkyCountsByItsIlluminance) {
     EXPECT_NEAR(shares[1], 0.5, 1e-3);
 }
 
-// The lamp is 0.3 m from the wall. There, it outshines the sun, although at the distance of the scene's radius it would
-// give 0.2 % of the light.
+// The lamp is 0.3 m from the wall. There, it outshines the sun. At the distance of the scene's radius, it would give
+// only 0.2 % of the illuminance.
 TEST(ShadowPlan, aWeakLampNearASurfaceCastsShadows) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, 2, {});
@@ -90,13 +91,13 @@ TEST(ShadowPlan, aWeakLampNearASurfaceCastsShadows) {
 TEST(ShadowPlan, aLampThatTheImageDoesNotShowCastsNoShadow) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, 2, {});
-    addLight(*small, LightType::point, 0.15, {3.8, 0.2, 0.3 - wallDepth});  // at the edge of the wall
+    addLight(*small, LightType::point, 0.15, {3.8, 0.2, 0.3 - wallDepth});  // a lamp near the edge of the wall
     const FramePlan plan = shadowedPlan(*small);
     ASSERT_EQ(plan.shadows.maps.size(), 1U);
     EXPECT_EQ(plan.shadows.maps.front().light, 0);
 }
 
-// A texel is at most as wide as two pixels show of the wall, but not below half a pixel.
+// A shadow-map texel covers at most two pixels' width of the wall, and at least half a pixel's width.
 TEST(ShadowPlan, texelsAreAsSmallAsPixels) {
     for (const bool local : {false, true}) {
         const auto small = wallWithoutLights();
@@ -110,8 +111,8 @@ TEST(ShadowPlan, texelsAreAsSmallAsPixels) {
     }
 }
 
-// A floor that reaches from near to far needs more texels than the image has pixels; where it is out of focus, no texel
-// smaller than its blur.
+// A floor that reaches from near to far needs more shadow-map texels than the image has pixels. Where the floor is out
+// of focus, no texel needs to be smaller than the blur.
 TEST(ShadowPlan, texelsAreAsLargeAsTheBlurHides) {
     const auto sizeOf = [](bool blurred) {
         auto small = wallWithoutLights();
@@ -129,8 +130,9 @@ TEST(ShadowPlan, texelsAreAsLargeAsTheBlurHides) {
     EXPECT_LT(sizeOf(true), sizeOf(false));
 }
 
-// Both choices of directions give the same irradiance of a horizontal ground: π under a uniform sky of radiance 1, and
-// π·2/3 under a sky of radiance cos θ. The choice for a ground has less than half the variance.
+// Two methods choose directions to an environment: for any surface, and for a horizontal ground. Both give the same
+// irradiance of the ground: π under a uniform sky of radiance 1, and π·2/3 under a sky of radiance cos θ. The method
+// for a ground has less than half the variance.
 TEST(EnvironmentDirections, directionsForAGroundEstimateTheSameIrradiance) {
     for (const bool uniform : {true, false}) {
         Environment environment;

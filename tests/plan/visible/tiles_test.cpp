@@ -55,7 +55,7 @@ std::vector<int> objectsOf(const FramePlan& plan) {
     return objects;
 }
 
-// A tile's plan keeps every object that may appear in the tile in any sample, and drops the others.
+// A tile's plan keeps every object that may appear in the tile in any sample, and removes all other objects.
 TEST(TilePlan, holdsTheObjectsThatASampleMayShowThere) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small);

@@ -1,5 +1,6 @@
 // Tests of culled clusters against brute force over lens points and times. Munkberg, Toth and Akenine-Möller 2012,
-// Appendix A, treat the thin lens in Eq. 6 and any C in Eq. 5. Signs are inverted (see plan/visible/visibility.h).
+// Appendix A, treat the thin lens in Eq. 6 and any circle of confusion C in Eq. 5. Signs are inverted (see
+// plan/visible/visibility.h).
 
 #include "plan/visible/visibility.h"
 
@@ -42,7 +43,7 @@ RenderSettings settingsFor(std::uint32_t samples) {
 }
 
 // Returns objects of one triangle each, of up to `size` m, at random positions in front of the camera and a few beside
-// and behind it. Every third transform mirrors, every fourth stretches.
+// and behind it. Every third transform is a reflection, and every fourth has a non-uniform scale.
 std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double size) {
     auto small = std::make_unique<SmallWorld>();
     small->view.width = 400;
@@ -66,7 +67,7 @@ std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double siz
     return small;
 }
 
-// A triangle at a time of the exposure: clip positions (x, y, w) and C of its corners.
+// A triangle at one time of the exposure: clip positions (x, y, w) and circles of confusion of its corners.
 struct ClipTriangle {
     glm::dvec3 p[3];
     double c[3] = {};
@@ -100,14 +101,14 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Returns the determinant's max over the lens (Eq. 5).
+// Returns the max of the facing determinant over the lens (Eq. 5).
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
     return sign * determinant(t.p[0], t.p[1], t.p[2]) + std::hypot(n.x, aspect * n.y);
 }
 
-// Returns the determinant of the triangle after the shear of lens point (u, v).
+// Returns the determinant of the triangle after its corners are sheared for the lens point (u, v).
 double shearedDeterminant(const ClipTriangle& t, double aspect, double u, double v, double sign) {
     glm::dvec3 q[3];
     for (std::size_t i = 0; i < 3; ++i) q[i] = t.p[i] + t.c[i] * glm::dvec3(u, aspect * v, 0);
@@ -137,7 +138,7 @@ struct Counts {
     int couldBeAway = 0;  // triangles inside the image that face away over the entire lens and exposure
 };
 
-constexpr int lensPoints = 16;  // on the rim; the centre is one more
+constexpr int lensPoints = 16;  // number of lens points on the rim; the lens centre is tested too
 
 // Fails if a culled triangle shows its front inside the image at some lens point and time.
 Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
@@ -179,8 +180,8 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
 
 TEST(Visibility, randomTrianglesThroughAThinLens) {
     Random random(1);
-    // Triangles that are large relative to their distance are more often clipped, or their box reaches the near plane.
-    // Fewer of the triangles that face away are then culled.
+    // Triangles that are large relative to their distance are clipped more often, or their bounding box reaches the
+    // near plane. Fewer of the triangles that face away are then culled.
     const std::pair<double, double> sizesAndShares[] = {{0.02, 0.9}, {0.1, 0.7}, {0.4, 0.5}};
     for (const auto& [size, share] : sizesAndShares) {
         const auto small = looseTriangles(random, 3000, size);
@@ -190,8 +191,8 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// The max determinant of a thin lens equals that of an eye that moves over a disk of the lens's radius in metres (Eq.
-// 6).
+// The max facing determinant of a thin lens equals that of an eye that moves over a disk of the lens's radius in metres
+// (Eq. 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -205,7 +206,8 @@ TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     }
 }
 
-// No visible triangle is culled under lens controls that make C differ from a + b·w, alone and together.
+// No visible triangle is culled under lens controls, alone and together, that make the circle of confusion a nonlinear
+// function of depth.
 TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
     Random random(3);
     int away = 0;
@@ -255,7 +257,7 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
     }
 }
 
-// No visible triangle is culled where each corner has its own blur, which may change during the exposure (Eq. 5).
+// No visible triangle is culled if each corner has its own blur, which may change during the exposure (Eq. 5).
 TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
     Random random(5);
     for (const bool changes : {false, true})
@@ -274,7 +276,7 @@ TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
             finish(*small);
             if (changes) small->world.shutter.poses.assign(2, small->world.pose);
             RenderSettings settings = settingsFor(64);
-            settings.cocTolerance = 1e6;  // large enough that no triangle is divided
+            settings.cocTolerance = 1e6;  // a tolerance so large that no triangle is divided
             const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
             EXPECT_GT(counts.couldBeAway, 100);
             EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
@@ -371,7 +373,8 @@ TEST(Visibility, doubleSidedSurfacesNeverFaceAway) {
 }
 
 TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
-    const auto small = oneSphere(at(1.5, -4));  // the image's edge lies at x = 1.44 m
+    // the sphere's centre is beyond the image's edge, which lies at x = 1.44 m
+    const auto small = oneSphere(at(1.5, -4));
     small->view.lens.fStop = 16;
     const FramePlan sharp = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(sharp.trianglesOutside, sharp), 0.3);
@@ -379,7 +382,7 @@ TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
     small->view.lens.focusDistance = 0.5;
     const FramePlan blurred = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(blurred.trianglesOutside, blurred), 0.5 * share(sharp.trianglesOutside, sharp));
-    // A limit on the blur lets the clusters be culled again.
+    // With a limit on the blur, the clusters are culled again.
     small->view.lens.backgroundLimit = 2;
     const FramePlan bounded = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(bounded.trianglesOutside, bounded), 0.9 * share(sharp.trianglesOutside, sharp));
@@ -395,7 +398,7 @@ TEST(Visibility, allIsKeptOnRequest) {
 }
 
 TEST(Visibility, trianglesTooSmallForThePixelGridAreKept) {
-    const auto small = oneSphere(at(0, -4, 0.0005));  // 0.4 px wide, with 38,000 triangles
+    const auto small = oneSphere(at(0, -4, 0.0005));  // the sphere is 0.4 px wide and has 38,000 triangles
     EXPECT_EQ(planFrame(small->world, small->view, settingsFor(16)).trianglesFacingAway, 0u);
 }
 

@@ -35,7 +35,8 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Fixture for images in which a sample may be split over pixels between two levels (LodMode::continuous).
+// Fixture for images in which one sample may draw two levels of an object, each in a part of the pixels
+// (LodMode::continuous).
 class ScreenDoor : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }

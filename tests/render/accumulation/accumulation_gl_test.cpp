@@ -35,7 +35,8 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              1e-3);  // another vertex shader may round differently but must cover the same pixels
+              // this mode uses another vertex shader, which may round differently but must cover the same pixels
+              1e-3);
 }
 
 TEST_F(Accumulation, keepingEverythingGivesTheSameImage) {
@@ -71,9 +72,9 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 }
 
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
-    const auto small = wall(2, 0.4);  // in focus, so the lens must not move its edges
+    const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay in place
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // otherwise the plan drops the lens, as nothing is blurred
+    settings.keepAll = true;  // otherwise the plan omits the lens, as nothing is blurred
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -168,7 +169,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     const auto at = [](double z) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
     };
-    place(*small, 0, at(2));  // depths: red 2 m, green 3 m, blue 4 m
+    place(*small, 0, at(2));  // the red, green and blue quads are at depths of 2, 3 and 4 m
     place(*small, 2, at(4));
     place(*small, 1, at(3));
     small->world.environment.type = EnvironmentType::uniform;
@@ -181,7 +182,7 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// A gradient sky has the radiance L(d) of its formula in each pixel's direction d through a pinhole. A lens shows an
+// Through a pinhole, each pixel shows the gradient sky's radiance L(d) for the pixel's direction d. A lens shows an
 // environment at infinity unblurred only if it is focused at infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
@@ -231,8 +232,8 @@ void addLocalLights(SmallWorld& small) {
     small.world.lights.insert(small.world.lights.end(), {lamp, spot});
 }
 
-// Lights give the same image as constants and as uniforms of the shaders. Few lights are compiled into the shaders as
-// constants, and additional dark lights turn all of them into uniforms.
+// Lights give the same image whether they are constants or uniforms of the shaders. Few lights are compiled into the
+// shaders as constants, and additional dark lights turn all of them into uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -258,8 +259,8 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// The image stays the same when camera, objects and lights move together and turn about the vertical, although shading
-// uses the world's axes.
+// The image stays the same when camera, objects and lights move together and turn about the vertical axis, although
+// shading uses world coordinates.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();
     addLocalLights(*small);
@@ -270,13 +271,14 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has not moved yet
+    // the images differ, since the camera has not moved yet
+    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
 
-// Interpolated normals that face away from the eye do not glare: shading clamps the cosine of the half vector to [0,
-// 1].
+// Interpolated normals that face away from the eye cause no overly bright highlights: shading clamps the cosine of the
+// half vector to [0, 1].
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};
@@ -285,7 +287,7 @@ TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     PlacedLight lamp;
     lamp.light.intensity = 1;
-    lamp.direction = {0, 0, 1};  // shines from behind the wall
+    lamp.direction = {0, 0, 1};  // light from behind the wall
     small->world.lights = {lamp};
     for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
         for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)

@@ -24,7 +24,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// Returns a renderer of `method`, written as on the command line, such as "line:segments=4".
+// Returns a renderer of the method that a text names as on the command line, such as "line:segments=4".
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
@@ -36,7 +36,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Returns a reference image of 4096 samples from a different sequence than those of the tested images.
+// Returns a reference image of 4096 samples. Its sequence differs from the tested images' sequences.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -51,12 +51,12 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
         for (glm::length_t c = 0; c < 3; ++c) {
             const double off =
                 std::abs(double{image.pixels[i * 4 + static_cast<std::size_t>(c)]} / double{color[c]} - 1);
-            if (!(off <= largest)) largest = off;  // also true for NaN
+            if (!(off <= largest)) largest = off;  // the negated comparison also records NaN
         }
     return largest;
 }
 
-// Fixture for images whose samples are blurred as lens cells.
+// Fixture for images by lens cells: each sample represents a region of the lens, and its image is blurred accordingly.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
@@ -67,7 +67,7 @@ protected:
     }
 
     // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes (groups of pixels
-    // with similar blur) of σ = 1 and 2 px.
+    // with similar blur) with σ = 1 and 2 px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
         auto small = fiveSpheres();
         small->view.lens.fStop = 0.25;

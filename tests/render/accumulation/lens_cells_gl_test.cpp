@@ -1,4 +1,5 @@
-// Tests of images whose samples are blurred as lens cells (plan/lens_cells/lens_cells.h).
+// Tests of images by lens cells: each sample represents a region of the lens, and its image is blurred accordingly
+// (plan/lens_cells/lens_cells.h).
 
 #include <gtest/gtest.h>
 
@@ -37,8 +38,8 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
-// Method "auto" has the bits of the method that it chooses: multirate where spheres are blurred by 8 px and more,
-// accumulation where they are sharp. One renderer draws both.
+// The image of method "auto" is bit-identical to that of the method that it chooses: multirate where spheres are
+// blurred by 8 px and more, and accumulation where they are sharp. One renderer draws both images.
 TEST_F(LensCellImages, automaticMethodHasTheBitsOfItsChoice) {
     const auto blurred = blurredSpheres();
     const auto renderer = rendererOf(automaticMethod, blurred->world);
@@ -62,7 +63,8 @@ TEST_F(LensCellImages, keepAllGivesTheSameBits) {
     }
 }
 
-// The image stays the same if a geometry shader selects the layers, as some GPUs cannot do so in the vertex shader.
+// The image stays the same if a geometry shader selects the layers, for GPUs that cannot select layers in the vertex
+// shader.
 TEST_F(LensCellImages, geometryShaderLayersGiveTheSameImage) {
     const auto small = blurredSpheres();
     RendererOptions options;
@@ -110,7 +112,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
         RendererOptions exact;
         exact.layerFormat = LayerFormat::rgba32f;
         ASSERT_GT(lensCellsOf(small, ratedSettings(64)).classes(), 0);
-        // Returns the largest error of pixels near the edge that both surfaces share, away from their outer edges.
+        // Returns the largest error of pixels near the common edge of the two panels, away from their outer edges.
         const auto worst = [&](const char* method) {
             const Image image = drawnBy(method, small, ratedSettings(64), exact);
             double largest = 0;
@@ -162,7 +164,7 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// Lens cells fill the gaps between the separate copies of a light that few samples leave.
+// With few samples, the image of a light consists of separate copies. Lens cells fill the gaps between these copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -214,8 +216,8 @@ TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     }
 }
 
-// With few samples, a light's disk is as accurate as the samples' positions allow: each position is rounded to a pixel
-// and errs by 1/√12 px along an axis.
+// With few samples, a light's disk is as accurate as the samples' positions allow. Each position is rounded to a pixel,
+// which has an RMS error of 1/√12 px along an axis.
 TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
     for (const std::uint32_t n : {4u, 5u, 7u})
         for (const double fStop : {0.4, 0.25, 0.1846}) {
@@ -227,7 +229,7 @@ TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
         }
 }
 
-// A scene of a single colour, in front of and behind the focus, keeps that colour.
+// A scene of a single colour, with surfaces in front of and behind the focus, keeps that colour.
 TEST_F(LensCellImages, constantSceneStaysConstant) {
     SmallWorld small;
     small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -260,7 +262,7 @@ struct FenceColors {
     glm::vec3 background;
 };
 
-// Returns pickets at 2 m, and behind them a wall of pickets that ends within the frame.
+// Returns a fence of pickets at 2 m. Behind it stands a wall of pickets that ends within the frame.
 std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& colors) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(colors.fence));
@@ -297,9 +299,9 @@ double largestBesideOutlines(const Image& reference, const Image& image, const I
     return largest;
 }
 
-// Nothing shines through outlines: away from outlines in focus, multirate exceeds the accumulation's error by no more
-// than 2/255 in any pixel. The scenes are a sharp fence before a blurred wall, a sharp wall behind a blurred fence, and
-// a half transparent sharp fence.
+// The background does not shine through outlines. Away from outlines in focus, multirate exceeds the accumulation's
+// error by no more than 2/255 in any pixel. The scenes are a sharp fence before a blurred wall, a sharp wall behind a
+// blurred fence, and a half transparent sharp fence.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     SKIP_ON_SECOND_DRIVER();
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
@@ -327,8 +329,8 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// The image does not pop where blur classes (groups of pixels with similar blur) begin: as the lens opens in small
-// steps, from a blur below every class to several classes, no step changes the image by more than twice its
+// The image does not pop where blur classes (groups of pixels with similar blur) begin. The lens opens in small steps,
+// from a blur below every class to several classes. No step changes the image by more than twice the change of its
 // neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     SKIP_ON_SECOND_DRIVER();
@@ -351,8 +353,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The image converges, as the blur of lens cells vanishes with the sample count. Its error is never above the
-// accumulation's, far below it with few samples, and shrinks with many samples.
+// The image converges to the reference, as the blur of lens cells vanishes with the sample count. Its error is never
+// above the accumulation's. With few samples it is far below, and it shrinks with many samples.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

@@ -12,7 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// With multirate, blended surfaces, environment maps and lenses whose blur is limited look as with the accumulation.
+// Blended surfaces, environment maps and lenses with limited blur look the same with multirate as with the
+// accumulation.
 TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
     SKIP_ON_SECOND_DRIVER();
     const std::unique_ptr<GlContext> context = createHeadlessContext();

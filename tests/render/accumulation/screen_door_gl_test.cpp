@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Draws the only object at level `level` + 1 in `coarseCount` samples and at `level` in all others. `share` is the
-// boundary sample's share of pixels at level `level` + 1.
+// Draws the only object at level `level` + 1 in the first `coarseCount` samples and at `level` in the others. The first
+// of the others is split: it draws a fraction `share` of its pixels at level `level` + 1.
 void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
     ObjectPlan& object = plan.objects.at(0);
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
@@ -32,7 +32,7 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If the boundary sample is split, each pixel equals that of the image with n coarse samples or that with n + 1.
+// If one sample is split, each pixel equals the same pixel of the image with n or with n + 1 coarse samples.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -66,8 +66,8 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     }
 }
 
-// Splitting the boundary sample costs at most one sample of coverage. For an object of one colour on a background of
-// another, no pixel changes by more than 1/N of the difference between the two colours.
+// Splitting a sample between two levels costs at most one sample of coverage. For an object of one colour on a
+// background of another, no pixel changes by more than 1/N of the colour difference, with N samples.
 TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     const auto small = oneSphere();
     small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
@@ -76,7 +76,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // Coarse levels have the most different outlines.
+        // The outlines of the coarsest levels differ most.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
@@ -87,8 +87,8 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change of λ changes few pixels, each by one sample: the fraction of changed pixels equals the change in the
-// number of coarse samples.
+// A small change of λ changes few pixels, and each of these pixels by one sample. The fraction of changed pixels equals
+// the change in the number of coarse samples.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
@@ -99,7 +99,8 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
         return renderedPlan(*small, plan);
     };
     const double pixels = 160.0 * 120;
-    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // at some of these, no sample is split
+    // for some of these values, no sample is split
+    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {
         const Image below = at(lambda - 1e-4);
         const Image above = at(lambda + 1e-4);
         int changed = 0;

@@ -1,5 +1,5 @@
-// Tests of methods "accumulation" and "multirate" for every wave size, which is the number of samples drawn at once,
-// and of the rounding error of the sum of layers.
+// Tests of methods "accumulation" and "multirate" for every wave size, which is the number of samples drawn at once.
+// Also tests the rounding error of the sum of layers.
 
 #include <algorithm>
 #include <cmath>

@@ -59,7 +59,7 @@ void expectEverywhere(const Image& work, float expected) {
     for (const float value : work.pixels) ASSERT_EQ(value, expected);
 }
 
-// Two triangles that fill the image out of focus touch each pixel exactly once in each lens sample.
+// Two triangles that are out of focus and fill the image touch each pixel exactly once in each lens sample.
 TEST_F(Work, fullScreenPairTouchesEachPixelOnceASample) {
     const auto small = facingQuads({quadAt(1, {0, 0}, {2, 2})}, unlitMaterial(glm::vec4(1)));
     expectEverywhere(workOf(*small), samples);
@@ -79,13 +79,14 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     const glm::dmat4 back = glm::rotate(quadAt(1, {0, 0}, {2, 2}), std::numbers::pi, glm::dvec3(0, 1, 0));
     Material material = unlitMaterial(glm::vec4(1));
     expectEverywhere(workOf(*facingQuads({back}, material)), 0);
-    // Mirroring turns the quad's back into its front.
+    // A reflection turns the quad's back into its front.
     expectEverywhere(workOf(*facingQuads({glm::scale(back, glm::dvec3(1, 1, -1))}, material)), samples);
     material.doubleSided = true;
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each sample, a rectangle touches the pixels whose centres it contains after the shift by lens point and jitter.
+// In each sample, a rectangle touches the pixels whose centres it contains after it is shifted for the lens point and
+// the jitter.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);
@@ -105,14 +106,14 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     }
     const Image work = renderWork(small->world, plan);
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows in one of the
-    // 48 samples.
+    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows of pixels in
+    // one of the 48 samples.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// The work that a window gathers over several frames, a few samples in each, adds up to the sum of one complete pass.
-// This holds for one view after another.
+// In the viewer, the work AOV grows over several frames, by a few samples in each, up to the sum of one complete pass.
+// The test does this for two views, one after the other.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));
@@ -130,7 +131,7 @@ TEST_F(Work, growsToTheSameSumForViewAfterView) {
     }
 }
 
-// The window shows the work in the colours of the heat map's file.
+// The viewer shows the work AOV in the colours of the heat map that is written to files.
 TEST_F(Work, isShownInTheColoursOfItsFile) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

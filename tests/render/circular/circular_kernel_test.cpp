@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the factor F(1) is e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the complex factor at radius 1 is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
@@ -136,8 +136,8 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// The fitted kernels are no farther from a disk than Niemitalo's, each of which is compared at its best extent and disk
-// radius.
+// The fitted kernels are no farther from a disk than Niemitalo's kernels. Each of his kernels is compared at its best
+// extent and disk radius.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
@@ -269,7 +269,8 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
         int x, y;
         double light;
     };
-    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};  // their squares overlap; the border cuts the second
+    // the kernels' squares around both points overlap; the image border cuts the second square
+    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};
     Field in(side * side);
     for (const Point& point : points) in[at(point.x, point.y)] = point.light;
     for (const int n : {1, 2, 5, 9}) {

@@ -34,7 +34,7 @@ TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     Image varying(width, height, 1);
-    for (int y = 0; y < height; ++y)  // radii: a slope with a step at its end
+    for (int y = 0; y < height; ++y)  // blur radii: a slope with a step at its end
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
@@ -74,14 +74,14 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
                 moment += value * (std::pow(x - 48, 2) + std::pow(y - 40, 2));
             }
         EXPECT_NEAR(energy, 1000, 1000 * 0.01);
-        EXPECT_NEAR(std::sqrt(2 * moment / energy), radius, 1);  // a disk's second moment is R²/2
+        EXPECT_NEAR(std::sqrt(2 * moment / energy), radius, 1);  // the second moment of a disk of radius R is R²/2
     }
 }
 
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // scaled to the max before storage, so nothing clips
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // storage divides by the max, so nothing clips
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
@@ -98,8 +98,7 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// 10-bit storage divides weights by their max, as it does radiance, so that small weights keep their relative
-// precision.
+// 10-bit storage divides weights by their max, like radiance, so that small weights keep their relative precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;
@@ -108,8 +107,8 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// The published bracket of a kernel with a radius of eight taps scales values by the sum of the taps: a white field is
-// stored as 1, a black field as 0 and every other field in between.
+// The published bracket is the storage range of a kernel with a radius of eight taps. It scales values by the sum of
+// the taps: a white field is stored as 1, a black field as 0 and every other field in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {

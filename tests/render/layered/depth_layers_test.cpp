@@ -1,4 +1,5 @@
-// Tests that a pixel of the widened view shows the same point with the same blur as in the original view.
+// Tests of views that are widened beyond the frame: each pixel shows the same point with the same blur as in the
+// original view.
 
 #include "render/layered/depth_layers.h"
 

@@ -45,7 +45,7 @@ void blurBy(SmallWorld& small, double pixels, double depth) {
     small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
 }
 
-constexpr double everywhere = 1000;  // far beyond the frame, px
+constexpr double everywhere = 1000;  // px; a position far beyond the frame
 
 Pane wallAt(double depth, const glm::vec4& color) {
     return {{-everywhere, -everywhere, everywhere, everywhere, depth}, color};
@@ -55,7 +55,7 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
-    // All lens samples see the same uniform sky. The default sky varies within a pixel.
+    // A uniform sky is the same in all lens samples, whereas the default sky varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
@@ -84,8 +84,8 @@ TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     }
 }
 
-// A blurred bar shows the red stripe that it hides from a pinhole. The bar covers a strip of the lens disk, and the
-// rest of the lens sees the middle of the stripe.
+// A pinhole image shows a bar that hides a red stripe. If the bar is blurred, the stripe is visible: the bar covers a
+// strip of the lens disk, and the rest of the lens sees the middle of the stripe.
 TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     constexpr double bar = 8;    // width of the bar, px
     constexpr double blur = 24;  // diameter of the bar's blur, px
@@ -93,7 +93,7 @@ TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
                               {{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 2}, {1, 0, 0, 1}},
                               wallAt(2.0001, {0, 1, 0, 1})});
     blurBy(*small, blur, 1.2);
-    const double half = bar / blur;  // half width of the strip in lens radii
+    const double half = bar / blur;  // half width, in lens radii, of the strip of the lens that the bar covers
     const double covered = 2 / std::numbers::pi * (std::asin(half) + half * std::sqrt(1 - half * half));
     const Image image = seenBy(*small, "layered");
     const Image oneLayer = seenBy(*small, "layered:layers=1");
@@ -101,7 +101,7 @@ TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     EXPECT_NEAR(middle[2], covered, 0.03);
     EXPECT_NEAR(middle[0], 1 - covered, 0.03);
     EXPECT_LT(middle[1], 0.01);
-    EXPECT_LT(oneLayer.at(48, 32)[0], 0.01);  // one layer never contains the stripe
+    EXPECT_LT(oneLayer.at(48, 32)[0], 0.01);  // with one layer, the stripe is never visible
 }
 
 TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
@@ -112,8 +112,8 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
 }
 
-// More layers come closer to the accumulation. Boards at many depths hide each other, except where the lens sees around
-// them.
+// With more layers, the image approaches the accumulation's. Boards at many depths hide each other, except where the
+// lens sees around them.
 TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     std::vector<Pane> list;
     for (int i = 0; i < 14; ++i) {

@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Tens of thousands of blurred triangles, hundreds of them on each line, form the same white square as two large
+// Tens of thousands of blurred triangles, hundreds of them on each lens line, form the same white square as two large
 // triangles.
 TEST_P(LensSpace, seesTensOfThousandsOfBlurredTrianglesInATileAsTheirSquare) {
     SKIP_ON_SECOND_DRIVER();

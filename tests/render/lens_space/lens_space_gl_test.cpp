@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the number of rays that meets the tests' error bounds. A line is worth several points.
+// Returns the number of rays that meets the tests' error bounds. A lens line replaces several lens points.
 std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Models with textures, normal maps and skins look as in the accumulation.
+// Models with textures, normal maps and skins look the same as with the accumulation.
 TEST_P(Models, lookAsInTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
@@ -177,8 +177,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Exact lines and line buffers give the same image if no segment is dropped. Two distant triangles that do not
-// intersect fit into any buffer.
+// Exact visibility along lens lines and the published segment buffers give the same image if no segment is dropped. Two
+// distant triangles that do not intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -199,7 +199,7 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 
-// Segments that do not fit a buffer of two segments are counted, and larger buffers reduce the error.
+// A buffer of two segments counts the segments that it drops, and larger buffers reduce the error.
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
@@ -227,8 +227,8 @@ double errorOfSquares(const Image& reference, const Image& image, int side) {
     return std::sqrt(sum / count);
 }
 
-// Lines that are rotated from pixel to pixel turn spokes into noise. The spokes appear in the bokeh of a bright spot if
-// few lines have the same angles in every pixel.
+// Rotating the lens lines from pixel to pixel turns spokes into noise. The spokes appear in the bokeh of a bright spot
+// if few lines have the same angles in every pixel.
 TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({30, 30, 30, 1})};
@@ -242,13 +242,14 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // The noise is no larger than the spokes that it replaces. Averaged over 8 × 8 px, less than half of the spokes'
-    // error remains.
+    // The noise is no larger than the error of the spokes that it replaces. Averaged over 8 × 8 px, less than half of
+    // the spokes' error remains.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Exact lines show both of two intersecting quads. A buffer shows a single quad between the ends of a segment.
+// Exact visibility along lens lines shows both of two intersecting quads. A published segment buffer shows a single
+// quad between the ends of a segment.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

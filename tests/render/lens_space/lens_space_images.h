@@ -22,7 +22,7 @@ inline RenderSettings raySettings(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even if nothing is blurred
+    settings.keepAll = true;  // otherwise the plan omits the lens if nothing is blurred
     return settings;
 }
 
@@ -42,7 +42,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
     return compareImages(reference, image, CompareOptions{}).psnr;
 }
 
-// Returns two lit, rippled spheres, one in front of the focus and one behind, before a gradient sky.
+// Returns two lit, rippled spheres in front of a gradient sky: one in front of the focus and one behind it.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -101,16 +101,17 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     small->scene.meshes.push_back(mesh);
     small->view.width = small->view.height = 32;
     small->view.lens.dofEnabled = false;
-    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // m per pixel at a depth of 2 m
+    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // size of a pixel in m at a depth of 2 m
     // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 × 8 and of 16 × 16 px that
     // begin at pixel 16.
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
-    small->world.environment.type = EnvironmentType::none;  // alpha is coverage
+    small->world.environment.type = EnvironmentType::none;  // no environment, so that alpha is the coverage
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
     return small;
 }
 
-// Grid side with more triangles than the 65,536 iterations that Mesa's software driver allows in a loop.
+// Number of squares per side for which the grid has more triangles than the 65,536 iterations that Mesa's software
+// driver allows in a loop.
 inline constexpr std::uint32_t longerThanLoops = 184;
 
 class LensSpaceAlone : public testing::Test {

@@ -1,5 +1,5 @@
-// Tests of the part of a lens line from which a triangle is visible, against points along the line. For each point, the
-// test intersects the point's ray with the triangle's plane.
+// Tests of the intervals of a lens line from which a triangle is visible. For points along the line, the test
+// intersects the point's ray with the triangle's plane.
 
 #include "render/line/line_triangle.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double nearPlane = 0.1;
 
 // Returns whether the ray from the lens point p·d, d = `line.direction`, through the image position `line.place` meets
-// the triangle. Returns nullopt if the ray passes too close to an edge for rounding.
+// the triangle. Returns nullopt if the ray passes so close to an edge that rounding decides.
 std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine& line, double p, bool front) {
     glm::dmat3 matrix(0);
     for (int i = 0; i < 3; ++i) {
@@ -26,7 +26,8 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
     }
     const double determinant = glm::determinant(matrix);
     if (std::abs(determinant) < 1e-9) return {};
-    const glm::dvec3 weights = glm::inverse(matrix) * glm::dvec3(line.place, 1);  // corner weights for w = 1
+    // barycentric coordinates divided by w
+    const glm::dvec3 weights = glm::inverse(matrix) * glm::dvec3(line.place, 1);
     const double w = 1 / (weights.x + weights.y + weights.z);
     const glm::dvec3 barycentric = w * weights;
     const double margin = 1e-6;
@@ -36,7 +37,7 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
 }
 
 LensVertex vertexAt(double x, double y, double w) {
-    constexpr double a = -0.4, focus = 3;  // coefficients of C = a·(1 − w/focus)
+    constexpr double a = -0.4, focus = 3;  // coefficients of the circle of confusion C = a·(1 − w/focus) at depth w
     return {x, y, w, a * (1 - w / focus)};
 }
 

@@ -10,8 +10,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the light between the points p1 and p2 of a lens line, by Tzeng et al. 2012: p runs from −1/2 to 1/2 over the
-// line.
+// Returns the fraction of a lens line's light between its points p1 and p2 (Tzeng et al. 2012). p runs from −1/2 to 1/2
+// over the line.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
 }
@@ -34,13 +34,13 @@ TEST(LineWeights, addUp) {
     }
 }
 
-// Each spoke, a line through the lens centre, has a chord inside a region. The mean light κ on these chords is the
+// A spoke is a line through the lens centre. The mean light κ on the chords that the spokes have inside a region is the
 // region's share of the disk.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
-    const double h = 0.3;  // u > h is a segment of the circle
+    const double h = 0.3;  // the region u > h is a circular segment
     double halfPlane = 0, offCentreDisk = 0;
-    const double distance = 0.45, radius = 0.35;  // a disk beside the centre
+    const double distance = 0.45, radius = 0.35;  // the region is a disk beside the centre
     for (int i = 0; i < lines; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);
@@ -57,18 +57,20 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
 TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     const LineLight ring{1, 0.5, 0, 0.25};
     EXPECT_EQ(lightBetween(ring, -0.5, 0.5), 0);
-    EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);  // half the ring's area, on one side
+    // half the ring's area on one side of the centre
+    EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);
 }
 
-// Each spoke of a polygonal aperture represents an equal fraction of its area. The mean light of the spokes' parts beyond a
-// straight cut is therefore the fraction of the area beyond that cut.
+// Each spoke of a polygonal aperture represents an equal fraction of its area. The mean light of the spokes' parts
+// beyond a straight cut is therefore the fraction of the area beyond that cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;
     plan.view.width = plan.view.height = 100;
     plan.samples.resize(512);
     const LineSets lines = lineSets(plan, true);
-    // The square's corners lie on the axes. The part u > 1/2 is a half-size copy of its right half: 1/8 of the area.
+    // The square's corners lie on the axes. Its part with u > 1/2 is a half-size copy of its right half, which is 1/8
+    // of the area.
     double share = 0;
     for (const GpuRay& ray : lines.sets.table) {
         const LineLight light{ray.values.x, ray.values.y, 0, 0};

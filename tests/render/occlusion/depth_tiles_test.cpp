@@ -20,7 +20,7 @@ struct DepthRows {
     }
 };
 
-// Returns reversed depths of near surfaces with 1 % of far pixels.
+// Returns rows of reversed depth values of near surfaces, in which 1 % of the pixels are far away.
 DepthRows depthsWithHoles(int width, int height, std::mt19937& random) {
     DepthRows depths{width, height, {}};
     std::uniform_real_distribution<float> near(0.5f, 1.0f);
@@ -45,7 +45,7 @@ TEST(DepthTiles, neverFartherThanAnyPixelAsked) {
     }
 }
 
-// A far pixel affects queries near it, but no queries more than a tile away.
+// A far pixel affects depth queries near it, but no queries more than a tile away.
 TEST(DepthTiles, aHoleReachesNoFartherThanATile) {
     DepthRows depths{200, 100, std::vector<float>(200 * 100, 0.5f)};
     depths.values[50 * 200 + 100] = 0;

@@ -11,8 +11,8 @@ namespace defocus::engine {
 namespace {
 
 struct PlaceInImage {
-    glm::dvec2 place;  // px from the lower left corner
-    double depth;      // along the view axis, m
+    glm::dvec2 place;  // position in px from the lower left corner
+    double depth;      // depth along the view axis, m
 };
 
 // Returns the image position of the view-space point `inView` for a lens sample, by geometric optics. The ray from the
@@ -28,7 +28,8 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-// Expects each sample to see random points of boxes within the boxes' bounds. The boxes lie all over the objects.
+// Expects random points of random boxes in object space to project into the bounds computed for their box, for each
+// sample.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
@@ -73,7 +74,7 @@ TEST(LensSight, boxesHoldWhatAPinholeSees) {
     expectBoxesHoldWhatIsSeen(*small);
 }
 
-// The bounds of a small box are at most 3 px wide and have the box's own depth.
+// The bounds of a small box are at most 3 px wide, and their depth is the depth of the box.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -90,7 +91,8 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies inside the box
 }
 
-// Boxes are not tested under lens controls, with motion or with an object's own blur, since C is then not a + b·w.
+// Boxes are not tested under lens controls, with motion or with an object's own blur, since the circle of confusion is
+// then not a linear function of the depth.
 TEST(LensSight, knowsWhereItDoesNotHold) {
     RenderSettings settings;
     settings.sampleCount = 8;

@@ -24,7 +24,7 @@ std::unique_ptr<GlContext> OccludedSurfaces::context_;
 
 struct OpaqueDrawn {
     Image image;
-    double hidden = 0;  // culled share of the triangles
+    double hidden = 0;  // fraction of the triangles that is culled
 };
 
 RenderSettings sharpLevels(std::uint32_t samples) {
@@ -54,7 +54,7 @@ Image drawnWithAllHidden(const SmallWorld& small, RenderSettings settings) {
     return drawn.image;
 }
 
-// Returns a wall with a gap, and spheres in front of and behind the wall, most of which it hides.
+// Returns a wall with a gap, and spheres in front of and behind the wall. The wall hides most of the spheres behind it.
 std::unique_ptr<SmallWorld> behindAWall() {
     auto small = fiveSpheres();
     small->scene.materials.push_back(unlitMaterial({0.3f, 0.5f, 0.2f, 1}));
@@ -63,7 +63,7 @@ std::unique_ptr<SmallWorld> behindAWall() {
     const auto at = [](double x, double y, double z, double s) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)), glm::dvec3(s));
     };
-    place(*small, 1, at(-2.05, 0, -4, 2));  // the two halves leave a gap in the middle
+    place(*small, 1, at(-2.05, 0, -4, 2));  // the two halves of the wall leave a gap in the middle
     place(*small, 1, at(2.05, 0, -4, 2));
     for (int i = 0; i < 9; ++i) place(*small, 0, at(i % 3 - 1, i / 3 - 1, -7 - 0.2 * i, 0.6));
     return small;
@@ -96,7 +96,8 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
     }
 }
 
-// Culling is also exact if everything is in focus. The plan then omits the lens, and samples only smooth edges.
+// Culling is also exact if everything is in focus. The plan then omits the lens, and samples differ only in their
+// position inside the pixel.
 TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     const auto small = behindAWall();
     small->view.lens.dofEnabled = false;
@@ -124,7 +125,7 @@ TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
         Material& wall = small->scene.materials[1];
         wall.alphaMode = mode;
         wall.alphaCutoff = 0.5f;
-        wall.baseColorFactor.a = 0.4f;  // below the cutoff, so all of the wall is a hole
+        wall.baseColorFactor.a = 0.4f;  // alpha below the cutoff, so the entire wall is a hole
         const OpaqueDrawn drawn = opaqueDrawn("accumulation", *small, sharpLevels(24));
         EXPECT_LT(drawn.hidden, behindWall - 0.1);
         EXPECT_TRUE(drawn.image.pixels == drawnWithAllHidden(*small, sharpLevels(24)).pixels);

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of flat boards for tests of post-process methods, and their images.
+// Scenes of flat boards for tests of post-process methods, and functions that render them.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace defocus::engine {
 inline RenderSettings settingsWithTheLens() {
     RenderSettings settings;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even if nothing is blurred
+    settings.keepAll = true;  // otherwise the plan omits the lens if nothing is blurred
     return settings;
 }
 
@@ -41,7 +41,7 @@ inline double largestDifferenceInColumns(const Image& a, const Image& b, int lef
     return largest;
 }
 
-// An unlit, upright board at a depth, seen before a uniform sky.
+// An unlit, upright board at a depth, seen in front of a uniform sky.
 struct Board {
     double depth = 2;
     glm::dvec2 centre{0};    // m

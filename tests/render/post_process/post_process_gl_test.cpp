@@ -37,7 +37,7 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image image = postProcessed(*small, GetParam());
-    // Without blur, the image equals the pinhole image of another post-process method.
+    // Without blur, the image equals the pinhole image that another post-process method gives.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes.c_str())), 2e-3);
@@ -68,7 +68,7 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
-    // A bright square on a black wall, both at one depth behind the focus plane, blurred by 16 px.
+    // A bright square on a black wall. Both are at the same depth behind the focus plane and have a blur of 16 px.
     const auto small =
         boards({{6, {0, 0}, {0.2, 0.2}, {8, 4, 2, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 16 / (0.05 * (1.0 / 2 - 1.0 / 6) * 96 / 0.72);
@@ -83,15 +83,15 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     }
     ASSERT_GT(sharpEnergy, 100);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
-    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // shows that the light is blurred
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the centre is darker, so the light is blurred
 }
 
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Images of reduced size widen the disk by their pixels of 4 px (variance 16/12) and their linear interpolation
-    // (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R has a variance of
-    // R²/4 along an axis.
+    // Images of a quarter of the size widen the disk by their pixels, which are 4 px wide (variance 16/12), and by
+    // linear interpolation (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R
+    // has a variance of R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
     // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
@@ -114,7 +114,7 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     const Image image = postProcessed(*small, GetParam());
     small->view.lens.dofEnabled = false;
     const Image sharp = postProcessed(*small, GetParam());
-    const int edge = 48;  // column where the board ends, the middle
+    const int edge = 48;  // column where the board ends, in the middle of the image
     EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
 }
 
@@ -136,12 +136,13 @@ TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
-    // A pane in focus stands before a blurred, striped background. The stripes stay sharp through the pane, because
-    // Scheuermann's second pass writes the pane's depth.
+    // A pane in focus stands in front of a blurred, striped background. The stripes stay sharp through the pane,
+    // because Scheuermann's second pass writes the pane's depth.
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    small->view.lens.blurScale = 4;  // blurs by 10 px, which a blur field of a quarter of the size can hold
+    // blurs the background by 10 px, within the range of a blur field at a quarter of the resolution
+    small->view.lens.blurScale = 4;
     std::string method = GetParam();
     if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
     method += (method.find(':') == std::string::npos ? ":" : ",") + std::string("transparency-buckets=0");
@@ -185,8 +186,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Linearity is limited by ten-bit storage and by negative lobes, which are clamped at black without a sky but not
-    // with a sky. A bias by luminance is not linear.
+    // Ten-bit storage limits linearity. So do negative lobes, which are clamped at black without a sky but not with a
+    // sky. A bias by luminance is not linear.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
@@ -222,8 +223,8 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// A bias by luminance does not brighten edges as a constant bias does. A bright, blurred board over black shows its
-// coverage: a constant bias doubles the coverage, and a bias by luminance increases it in proportion to the board's
+// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
+// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
 // share of the disk.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
@@ -238,7 +239,7 @@ TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const std::vector<double> constant = rowOf("circular:pinholes=1,blend-bias=2");
     const std::vector<double> luminance = rowOf("circular:pinholes=1,blend-bias=2,bias-by=luminance");
     int edges = 0;
-    for (std::size_t x = 50; x < coverage.size(); ++x) {  // beyond the board's sharp image
+    for (std::size_t x = 50; x < coverage.size(); ++x) {  // columns beyond the board's sharp image
         EXPECT_NEAR(constant[x], std::min(2 * coverage[x], 1.0), 2e-3) << x;
         EXPECT_NEAR(luminance[x], std::min(coverage[x] * (1 + coverage[x]), 1.0), 2e-3) << x;
         edges += coverage[x] > 0.05 && coverage[x] < 0.4 ? 1 : 0;

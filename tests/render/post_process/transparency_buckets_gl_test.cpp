@@ -113,7 +113,8 @@ TEST_P(BlendedSurfaces, whatStandsBeforeAPaneHidesItAndLeavesNoHalo) {
     const Image image = inBuckets(*with, 1);
     const Image expected =
         laidOver(inBuckets(*boards({board}, sky), 0), glm::vec3(paneColor), [](int x) { return x < 48 ? 0 : 0.5; });
-    const bool circular = std::string(GetParam()).starts_with("circular");  // Scheuermann's small image leaks a little
+    // Scheuermann's image of reduced size leaks a little light
+    const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected), circular ? 2e-3 : 0.03);
 }
 
@@ -138,8 +139,8 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
-// Blur passes that cover only the area that a bucket can reach give the same image as passes over the entire image. An
-// invisible board extends the area to the entire image.
+// Blur passes that cover only the pixels that a bucket can reach give the same image as passes over the entire image.
+// In the second scene, an invisible board extends the bucket to the entire image.
 TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
     const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
     for (const double depth : {1.2, 2.0, 6.0}) {
@@ -157,7 +158,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     const Board wall = boardOver(-90, 24, 9, {0.9f, 0.2f, 0.1f, 1});
     const auto with = boards({boardOver(-90, 48, 1, paneColor), wall}, sky);
     const auto without = boards({wall}, sky);
-    with->world.pose.objects[0].cocScale = 0;  // sharp although out of focus
+    with->world.pose.objects[0].cocScale = 0;  // no blur, although the board is out of focus
     blurAt(*with, 9, 12);
     blurAt(*without, 9, 12);
     const Image expected =

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// An object with its blur in px. Objects are listed from front to back.
+// An object of the test's plan, with its blur in px. Objects are listed from front to back.
 struct Flat {
     double blur = 0;
     bool blended = true;
@@ -63,7 +63,7 @@ TEST(TransparencyBuckets, passOverOpaqueObjects) {
 TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
     FramePlan plan = planOf({{-9}, {0, false, true}, {5}, {9}});
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
-    moveRight(plan.objects[2]);  // beside the transmitting object
+    moveRight(plan.objects[2]);  // the object is now beside the transmitting object
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{2}, {0}}));
     plan.objects[2].transmits = true;
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
@@ -97,7 +97,8 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
         object.coc.nearest = object.coc.farthest = 20;
         object.coc.largest = 20;
     }
-    // At 2 m, [−1, 1] m is the middle half of the image's width of [−2, 2] m, and its full height. The margin is 24 px.
+    // At a depth of 2 m, the object's extent of [−1, 1] m is the middle half of the image's width, which is [−2, 2] m,
+    // and the full height of the image. The margin is 24 px.
     const TexelRectangle reach = reachOf({0}, plan);
     EXPECT_EQ(reach.x, 250 - 10 - 24);
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
@@ -108,7 +109,8 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);
     EXPECT_EQ(reachOf({0}, plan).width, 0);
-    plan.objects[0].nearestDepth = plan.view.nearPlane;  // the object may be seen anywhere in the image
+    // the object reaches the near plane, so it may be visible anywhere in the image
+    plan.objects[0].nearestDepth = plan.view.nearPlane;
     EXPECT_EQ(reachOf({0}, plan).width, 1000);
 }
 

@@ -46,8 +46,8 @@ TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
                 EXPECT_TRUE(samples == 16 || samples == 32 || samples % 64 == 0) << samples;
 }
 
-// Better qualities aim at smaller errors and begin with at least as many samples. An estimate can only add samples, so
-// the first number is at most the one that is used without an estimate.
+// Better qualities aim at smaller errors and begin with at least as many samples. The error estimate can only add
+// samples, so the first sample count is at most the count that is used without an estimate.
 TEST(SamplesForBlur, followTheQuality) {
     EXPECT_GT(flipOf(Quality::draft), flipOf(Quality::good));
     EXPECT_GT(flipOf(Quality::good), flipOf(Quality::fine));

@@ -1,4 +1,5 @@
-// Tests of when a frame ends and of the sample count that its blocks are planned for, with images of a known error.
+// Tests of BlockSchedule: when it ends a frame, and for which final sample count it plans the blocks. The images are
+// synthetic and have a known error.
 
 #include "render/sampling/block_schedule.h"
 
@@ -12,8 +13,8 @@
 namespace defocus::engine {
 namespace {
 
-// A synthetic frame: means of 64 · n samples whose error is `first` · n^(−0.6). The steps towards the limit are
-// independent.
+// A synthetic frame: mean images of 64 · n samples whose error is `first` · n^(−0.6). The steps from each mean to the
+// next are independent.
 class MadeFrame {
 public:
     explicit MadeFrame(double first) : means_(max) {
@@ -28,7 +29,7 @@ public:
         }
     }
 
-    // Returns the image after `samples` samples. The linear values encode to the stored values.
+    // Returns the linear image after `samples` samples; its sRGB encoding gives the stored means.
     [[nodiscard]] Image mean(std::uint32_t samples) const {
         const std::vector<double>& values = means_[samples / 64 - 1];
         Image image(size / 3, 1, 3);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// The edge that a pixel sees: a straight line across the lens, with white on one side.
+// The edge that a pixel sees: a straight line across the lens, with white on one of its sides.
 struct LensEdge {
     double angle;
     double offset;  // signed distance from the lens centre in lens radii, −1 … 1
@@ -59,7 +59,7 @@ TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
 }
 
 TEST(ErrorEstimate, independentSamplesGiveSigmaOverRootN) {
-    // For independent samples, the means M of m and n samples have |M(n) − M(m)|² = σ²(1/m − 1/n).
+    // If samples are independent, the means M(m) and M(n) of m and n samples have |M(n) − M(m)|² = σ²(1/m − 1/n).
     for (const double m : {1.0, 2.0, 3.0, 4.5})
         EXPECT_NEAR(errorOverDifference(m, 5, 0.5), std::sqrt(m / (5 - m)), 1e-12) << m;
 }
@@ -84,8 +84,8 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
     EXPECT_THROW(estimate.add(Image(3, 4, 3), 128), Error);
 }
 
-// On edges, the estimate may be too high but is never too low, for every sequence. Edges alone converge faster than
-// pictures do, and with two of the sequences far faster at some sample counts.
+// For every sequence, the error estimate of edges may be too high but is never too low. Edges converge faster than
+// other images, and with two of the sequences far faster at some sample counts.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
     const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
         }
 }
 
-// The estimate reads only a part of a large image and is the same for the same noise.
+// The estimate reads only a subset of a large image's pixels and is the same for the same noise.
 TEST(ErrorEstimate, aMillionPixelsStandForAll) {
     const auto noise = [](int width, int height, double share) {
         Image image(width, height, 3);

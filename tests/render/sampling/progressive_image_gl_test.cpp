@@ -1,4 +1,4 @@
-// Tests that an image that grows block by block equals an image rendered at once, also in the window.
+// Tests that an image that is drawn block by block equals an image drawn at once, also in the viewer.
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST_F(Growing, firstBlockIsTheFrameOf64SamplesWithLevels) {
 }
 
 TEST_F(Growing, levelsBecomeFinerWithTheSamples) {
-    small_->view.lens.fStop = 0.5;  // much blur, so that few samples allow coarse levels
+    small_->view.lens.fStop = 0.5;  // strong blur, so that few samples allow coarse levels
     ProgressiveImage image = progressive();
     image.begin(small_->view, {}, 512);
     const double first = static_cast<double>(image.plan().trianglesDrawn);
@@ -137,7 +137,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 
-// The window shows the values of an 8-bit file.
+// The viewer displays the values that an 8-bit file would contain.
 TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     ProgressiveImage image = progressive();
     image.drawFrame(small_->view, settingsOf(8));

@@ -1,4 +1,5 @@
-// Tests of Scheuermann's gather: taps in the shape of the aperture, bytes as published, and planes set by hand.
+// Tests of Scheuermann's gather blur: taps in the shape of the aperture, 8-bit storage as published, and blur planes
+// set by hand.
 
 #include <gtest/gtest.h>
 
@@ -57,9 +58,9 @@ Image bokehOf(const View& view, double depth) {
     return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
 }
 
-// Light has the shape of the aperture, upright behind the focus and turned by 180° in front of the focus. The 64 taps
-// are dots of a few pixels, so much light lies outside a smooth shape. Far less lies outside the right shape than
-// outside the turned one.
+// A blurred light has the shape of the aperture, upright behind the focus and turned by 180° in front of it. The 64
+// taps are dots of a few pixels, so much light lies outside a smooth shape. The share outside the expected shape is far
+// below the share outside the opposite shape.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);
@@ -91,8 +92,8 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
     EXPECT_LT(middle(), 0.1 * ofADisk);
 }
 
-// With 8-bit encoded colours, an object in focus is the pinhole image, clamped at white and rounded. No byte is exactly
-// the middle of the blur's range, so some of the pre-blurred image shows through.
+// With 8-bit encoded colours, an object in focus is the pinhole image, clamped at white and rounded. The middle of the
+// blur's range is not exactly a byte value, so the image contains a small share of the pre-blurred image.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -106,7 +107,8 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     }
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_LT(error, 1.0 / 255);
-    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half the RMS error of rounding; alpha adds no error
+    // lower bound: half the RMS error of rounding to bytes; alpha adds no error
+    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));
 }
 
 TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {

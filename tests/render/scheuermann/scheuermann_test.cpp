@@ -37,7 +37,7 @@ TEST(BlurrinessPlanes, whereInfinityIsLessBlurredTheCutoffIsItsBlur) {
     ASSERT_LT(atInfinity, 10);
     const BlurrinessPlanes planes = blurrinessPlanes(coc, 4, 10, width);
     EXPECT_NEAR(planes.cutoff, atInfinity / 10, 1e-12);
-    // At 8 m, twice the focus distance, both the linear blur and the lens's blur are half the blur at infinity.
+    // At 8 m, twice the focus distance, both the linear blur and the lens's blur are half of their values at infinity.
     EXPECT_NEAR((8 - planes.focus) / (planes.far - planes.focus), 0.5 * planes.cutoff, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 8, width), 0.5 * atInfinity, 1e-9);
 }

@@ -1,4 +1,5 @@
-// Slow tests that frames drawn tile by tile equal undivided frames bit for bit, at each kind of level and behind glass.
+// Slow tests that frames drawn tile by tile equal undivided frames bit for bit, in each mode of levels of detail and
+// behind glass.
 
 #include "render/tiles/tiled_image.h"
 
@@ -12,7 +13,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
         expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
-// Tiles stay exact if a transmitting object shows other pixels of the image, which may lie outside the tile.
+// Tiles stay exact if a transmitting object shows other parts of the image, which may lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     Material glass;

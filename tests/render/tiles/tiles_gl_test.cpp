@@ -59,8 +59,8 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// An image of several cells has no seams. It differs from an undivided image only because each cell rounds window
-// coordinates in its own way.
+// An image that is divided into several rasterization cells has no seams. It differs from an undivided image only
+// because each cell rounds window coordinates differently.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
     const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);
@@ -81,7 +81,7 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         largest = std::max(largest, std::abs(difference));
         squared += difference * difference;
     }
-    // In one of 70 samples, a corner of the silhouette may round to another pixel.
+    // tolerance for one of 70 samples, in which a corner of the silhouette may round to another pixel
     EXPECT_LT(largest, 2.0 / 70);
     EXPECT_LT(std::sqrt(squared / static_cast<double>(full.pixels.size())), 1e-4);
 }

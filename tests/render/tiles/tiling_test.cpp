@@ -1,4 +1,4 @@
-// Tests of the division of a frame: bands cover the frame once and fit the available memory.
+// Tests of the division of a frame: bands cover the frame without overlap and fit into the available memory.
 
 #include "render/tiles/tiling.h"
 
@@ -76,7 +76,8 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
     EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
     EXPECT_FALSE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel - 1)));
-    // An image of several cells is always divided, so that its bits do not depend on the memory.
+    // An image of several rasterization cells is always divided, so that its bits do not depend on the available
+    // memory.
     EXPECT_FALSE(fitsInOnePiece(needsOf(16384, 16, 1ull << 50)));
     TilingNeeds oneCell = needsOf(16384, 16, 1ull << 50);
     oneCell.mayUseCells = false;
@@ -87,7 +88,7 @@ TEST(Tiling, aDeviceWithMemoryOfItsOwnIsLookedAtApart) {
     TilingNeeds needs = needsOf(1000, 1000, 100 << 20);
     needs.shared = false;
     const Tiling plenty = chosenTiling(needs);
-    needs.hostMemory = 1000 * (tilePixelBytes + bandPixelBytes) * 20;  // memory for twenty rows
+    needs.hostMemory = 1000 * (tilePixelBytes + bandPixelBytes) * 20;  // enough memory for twenty rows
     EXPECT_GT(chosenTiling(needs).bands.size(), plenty.bands.size());
     EXPECT_EQ(chosenTiling(needs).bands.size(), 50u);
 }

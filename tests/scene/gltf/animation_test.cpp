@@ -1,4 +1,4 @@
-// Clips, skins, and animated cameras and lights from small files that the tests write.
+// Tests of clips, skins, and animated cameras and lights. The tests write small files and load them.
 
 #include "scene/animation.h"
 
@@ -21,7 +21,7 @@ json attributesOf(GltfBuilder& builder) {
     return {{"POSITION", builder.positions(unitTriangle)}};
 }
 
-// Adds a channel whose sampler goes from the first to the last value of `values` in two seconds.
+// Adds a channel whose sampler interpolates from the first to the last of `values` in two seconds.
 int addChannel(GltfBuilder& builder, json& animation, const std::vector<float>& values, const char* type,
                const json& target) {
     const std::size_t components = values.size() / 2;
@@ -53,7 +53,7 @@ TEST(GltfSkin, eightInfluencesAreReadAndSumToOne) {
     EXPECT_EQ(vertices.weights[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[0], glm::vec4(0.5f, 0, 0, 0));
     EXPECT_EQ(vertices.weights1[1], glm::vec4(0.25f, 0.25f, 0, 0));
-    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // no weights: the vertex follows its first joint
+    EXPECT_EQ(vertices.weights[2], glm::vec4(1, 0, 0, 0));  // without weights, the vertex follows its first joint
     EXPECT_EQ(vertices.joints1[0], glm::u16vec4(2));
     EXPECT_TRUE(scene.ignored.empty());
     // If a skin has no inverseBindMatrices, all matrices are the identity.
@@ -73,10 +73,11 @@ TEST(GltfSkin, furtherInfluencesOutOfRangeAreRefused) {
     EXPECT_THROW((void)builder.load(), Error);
 }
 
-// Flat normals of a mesh without normals follow a morph target. Here the target lifts one corner of a triangle.
+// If a mesh has no normals, its flat normals follow a morph target. Here the target lifts one corner of a triangle.
 TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     GltfBuilder builder;
-    const int target = builder.positions({0, 0, 0, 0, 0, 1, 0, 0, 0});  // (1, 0, 0) becomes (1, 0, 1)
+    // The target moves the corner (1, 0, 0) to (1, 0, 1).
+    const int target = builder.positions({0, 0, 0, 0, 0, 1, 0, 0, 0});
     builder.mesh({{{"attributes", attributesOf(builder)}, {"targets", {{{"POSITION", target}}}}}});
     const Mesh mesh = builder.load().meshes[0];
     ASSERT_EQ(mesh.morphTargets.at(0).normals.size(), 3u);
@@ -155,8 +156,9 @@ TEST(GltfAnimation, pointersDriveCamerasLightsAndNodes) {
     EXPECT_FLOAT_EQ(pose.lights.at(0).light.intensity, 15);
     EXPECT_FLOAT_EQ(pose.lights[0].light.color.r, 0.5f);
     EXPECT_DOUBLE_EQ(pose.lights[0].position.y, 4);
-    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");  // materials are not animated
-    EXPECT_EQ(scene.cameras[0].yfov, 0.5);                     // the camera keeps the value of the file
+    // the channel is ignored, since materials are not animated
+    EXPECT_EQ(scene.ignored.at(0).what, "animation channel");
+    EXPECT_EQ(scene.cameras[0].yfov, 0.5);  // the camera keeps the value in the file
 }
 
 TEST(GltfAnimation, pointersToWhatIsMissingAreRefused) {
@@ -176,7 +178,7 @@ TEST(Clips, areFoundByNameAndNumber) {
     scene.clips[0].name = "Survey";
     scene.clips[1].name = "2";
     EXPECT_EQ(clipNamed(scene, "Survey"), 0);
-    EXPECT_EQ(clipNamed(scene, "2"), 1);  // a name precedes a number
+    EXPECT_EQ(clipNamed(scene, "2"), 1);  // the clip that is named "2" takes precedence over the clip with index 2
     EXPECT_EQ(clipNamed(scene, "1"), 1);
     for (const char* wrong : {"3", "-1", "1.0", "", "Walk"})
         EXPECT_THROW((void)clipNamed(scene, wrong), Error) << wrong;

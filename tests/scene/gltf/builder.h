@@ -45,7 +45,7 @@ public:
         return add("accessors", entry);
     }
 
-    // Adds an accessor to tightly packed floats and returns its index.
+    // Adds an accessor for tightly packed floats and returns its index.
     int floats(const std::vector<float>& values, const char* type, std::size_t components) {
         return accessor(view(values), gltfFloat, type, values.size() / components);
     }

@@ -1,4 +1,5 @@
-// Compares Draco and meshopt files with the scenes that they were made from (tests/data/compressed).
+// Compares scenes in Draco and meshopt files with the uncompressed scenes from which the files were made
+// (tests/data/compressed).
 
 #include <gtest/gtest.h>
 
@@ -44,8 +45,8 @@ double areaOf(const Posed& posed) {
 }
 
 // Returns the max distance from a vertex of `from` to the nearest matching vertex of `to`. Vertices match if each
-// colour channel differs by at most 2 of 255 and the normals by at most 3°. Matching keeps vertices apart that share a
-// position on a seam.
+// colour channel differs by at most 2 of 255 and the normals by at most 3°. Vertices that share a position on a seam
+// are thus compared separately.
 double farthest(const Posed& from, const Posed& to) {
     double max = 0;
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
@@ -69,9 +70,9 @@ struct CompressedCase {
 
 class Compressed : public testing::TestWithParam<CompressedCase> {};
 
-// Compressed files equal the originals to their precision. glTF-Transform stores positions with 14 bits over the
-// longest side: rounding moves a point by at most √3/2 of a step. Skin matrices, which include the scale of the steps,
-// and offsets of morph targets are rounded too.
+// Compressed files equal the originals up to the precision of the compression. glTF-Transform stores positions with 14
+// bits over the longest side, so rounding moves a point by at most √3/2 of a step. Skin matrices, which include the
+// scale of the steps, and offsets of morph targets are rounded too.
 TEST_P(Compressed, isTheOriginalToItsPrecision) {
     const std::filesystem::path path = modelPath(std::filesystem::path("tests/data/compressed") / GetParam().file);
     const std::filesystem::path originalPath = modelPath(std::filesystem::path("meshes") / GetParam().original);

@@ -1,4 +1,4 @@
-// Features of core glTF 2.0 and of the supported extensions, each in a file of a few triangles.
+// Tests of features of core glTF 2.0 and of the supported extensions, each with a file of a few triangles.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<glm::vec3> corners(const Scene& scene) {
     return result;
 }
 
-// Five vertices whose x coordinate is their index.
+// Positions of five vertices; the x coordinate is the index of the vertex.
 const std::vector<float> numbered = {0, 0, 0, 1, 0, 1, 2, 0, 0, 3, 0, 1, 4, 0, 0};
 
 std::vector<int> cornerNumbers(const Scene& scene) {
@@ -457,8 +457,8 @@ TEST(GltfScene, impossiblePhysicalCamerasAreFaults) {
     EXPECT_EQ(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}}), "");
 }
 
-// Values of EXT_camera_physical in millimetres, from exporters that misread the draft's unit, are ignored and a reason
-// is given.
+// Values of EXT_camera_physical in millimetres come from exporters that misread the draft's unit. The loader ignores
+// these values and states the reason.
 TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     GltfBuilder builder;
     builder.json["cameras"] = {physicalCamera({{"focalLength", 35}, {"sensorSize", {36, 24}}})};
@@ -482,8 +482,8 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
 }
 
-// Blade rotation in a file from Blender is converted. At the same rotation, Cycles' polygon has the middle of an edge
-// where this project's polygon has a corner: half a blade's angle.
+// Blade rotation in a file from Blender is converted. At the same rotation angle, Cycles' aperture polygon has the
+// middle of an edge where this project's polygon has a corner. The difference is half the angle between two corners.
 TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     GltfBuilder builder;
     const auto camera = [](const nlohmann::json& extras) -> nlohmann::json {
@@ -643,7 +643,7 @@ TEST(GltfFiles, dataUrisSpacesAndCodedNames) {
     EXPECT_EQ(trianglesWith("with space é.bin"), expected);
     EXPECT_EQ(trianglesWith("with%20space%20%C3%A9.bin"), expected);
     EXPECT_EQ(trianglesWith("100%25.bin"), expected) << "a name that only looks percent-encoded";
-    const std::string zeros(32, 'A');  // 24 zero bytes
+    const std::string zeros(32, 'A');  // base64 of 24 zero bytes
     EXPECT_EQ(trianglesWith("data:application/octet-stream;base64,AACAPwAAgD8AAAAA" + zeros), expected);
     EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AAAA"), expected) << "longer data";
     EXPECT_EQ(trianglesWith("DATA:text/any;BASE64,AACAPwAA\r\n gD8AAAAA\n" + zeros + "\n"), expected) << "line breaks";

@@ -1,5 +1,5 @@
-// Loads real files with pseudo-random damage: each load returns a scene or throws Error. Intended for runs with
-// sanitizers.
+// Loads real files with pseudo-random damage: each load returns a scene or throws Error. The test is intended for runs
+// with sanitizers.
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@
 namespace defocus::engine {
 namespace {
 
-constexpr int damagedCopies = 300;  // copies of each file
+constexpr int damagedCopies = 300;  // number of damaged copies of each file
 
 class Damage {
 public:
     explicit Damage(std::uint32_t seed) : random_(seed) {}
 
     // Damages a file in one of four ways: flipped bits, changed digits in the JSON, a removed range, or truncation.
-    // Then corrects the lengths of a GLB, so that the fault lies deeper than the container.
+    // Then corrects the lengths in a GLB file's header, so that the loader reads beyond the header.
     std::string apply(std::string file) {
         const bool glb = file.starts_with("glTF");
         switch (below(4)) {
@@ -88,7 +88,7 @@ TEST_P(DamagedModel, loadsOrIsAnError) {
             EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
         }
     }
-    // The damage is neither too weak nor too strong: some copies are refused and some load.
+    // The damage is neither too weak nor too strong: the loader rejects some copies and loads others.
     EXPECT_LT(loaded, damagedCopies);
     EXPECT_GT(loaded, 0);
 }

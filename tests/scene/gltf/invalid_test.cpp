@@ -1,4 +1,4 @@
-// Invalid and hostile files give an error of one line with the name of the file and the fault.
+// Tests that invalid and hostile files give a one-line error with the name of the file and the fault.
 
 #include <gtest/gtest.h>
 
@@ -141,7 +141,7 @@ TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
         expectFault(errorOf(builder), "built.glb", "elements");
     }
     GltfBuilder builder = triangle();
-    builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // more elements than the real buffer view holds
+    builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // more elements than the buffer view can hold
     expectFault(errorOf(builder), "built.glb", "exceed buffer view 0");
     builder = triangle();
     builder.json["accessors"][0]["byteOffset"] = (std::uint64_t{1} << 53) - 1;

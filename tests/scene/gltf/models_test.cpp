@@ -1,4 +1,4 @@
-// Compares real models with the figures in their README and with known properties.
+// Compares real models with the figures in their README files and with known properties.
 
 #include "models.h"
 
@@ -19,8 +19,8 @@ namespace {
 
 struct ModelFacts {
     const char* file;
-    std::size_t triangles;         // counts each mesh once
-    std::size_t trianglesInScene;  // counts a mesh for each node that draws it
+    std::size_t triangles;         // triangle count in which each mesh counts once
+    std::size_t trianglesInScene;  // triangle count in which a mesh counts for each node that draws it
 };
 
 class Model : public testing::TestWithParam<ModelFacts> {};
@@ -108,7 +108,8 @@ TEST(OwnScenes, haveTheTrianglesTheirAccessorsState) {
         std::ifstream file(entry.path(), std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
         if (extension == ".glb")
-            text = text.substr(20, text.find(std::string("BIN\0", 4), 20) - 4 - 20);  // the JSON chunk
+            // keeps only the JSON chunk of the GLB file
+            text = text.substr(20, text.find(std::string("BIN\0", 4), 20) - 4 - 20);
         const nlohmann::json json = nlohmann::json::parse(text);
         const Scene scene = loadGltf(entry.path());
         ASSERT_EQ(scene.meshes.size(), json["meshes"].size());
@@ -135,7 +136,7 @@ TEST(Models, pointsAndLinesAreRead) {
     EXPECT_EQ(scene.meshes.at(3).strokes[0].indices.size(), 12u);
 }
 
-// A quantised cube equals the same cube with floats: the quantised cube's node undoes the quantisation.
+// A quantized cube equals the same cube with float positions, because its node's transform undoes the quantization.
 TEST(Models, quantisedCubeEqualsThePlainOne) {
     DEFOCUS_MODEL_OR_SKIP(plainPath, "AnimatedMorphCube.glb");
     DEFOCUS_MODEL_OR_SKIP(quantisedPath, "AnimatedMorphCube-Quantized.glb");
@@ -163,8 +164,8 @@ TEST(Models, instancesBecomeObjects) {
     EXPECT_NE(pose.objects[0].worldFromObject[3], pose.objects[124].worldFromObject[3]);
 }
 
-// Texture transforms move the texture to the model's markers, which show where the texture's diagonal arrow must
-// appear: at 45° in the texture, for every transform.
+// Each marker of the model shows where the texture's diagonal arrow must appear. Every texture transform must map the
+// marker to 45° in the texture.
 TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     DEFOCUS_MODEL_OR_SKIP(path, "TextureTransformTest/TextureTransformTest.gltf");
     const Scene scene = loadGltf(path);
@@ -183,7 +184,7 @@ TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     EXPECT_NEAR(scaled.x, 0.7778, 1e-3);
     EXPECT_NEAR(scaled.y, 0.7778, 1e-3);
     const glm::vec3 all = transformed("All", "All - Correct");
-    EXPECT_NEAR(all.x, 0.7778, 0.05);  // the model's author placed this marker by hand
+    EXPECT_NEAR(all.x, 0.7778, 0.05);  // large tolerance, since the model's author placed this marker by hand
     EXPECT_NEAR(all.y, 0.7778, 0.05);
 }
 

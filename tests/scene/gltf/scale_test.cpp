@@ -1,5 +1,5 @@
-// Files with very many elements of one kind load correctly and in less than quadratic time, which would exceed the
-// tests' time limit. Data that nodes share counts for each node.
+// Tests that files with very many elements of one kind load correctly and fast; quadratic time would exceed the tests'
+// time limit. The memory budget counts shared data once for each node that uses it.
 
 #include <gtest/gtest.h>
 

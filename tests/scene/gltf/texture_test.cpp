@@ -1,4 +1,4 @@
-// Textures that cannot be read cost a note in Scene::ignored instead of the scene.
+// Tests that textures that cannot be read are listed in Scene::ignored and do not prevent loading.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ const Bytes& redPng() {
     return png;
 }
 
-// A triangle whose material has this texture as base colour. Images are added by the test.
+// A triangle whose material has this texture as base colour. Each test adds the images.
 GltfBuilder texturedTriangle(const nlohmann::json& texture) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}, {"material", 0}}});
@@ -58,7 +58,7 @@ TEST(GltfTexture, ofDamagedDataIsLeftOut) {
     }
 }
 
-// The validator's file has a damaged JPEG that no texture uses.
+// The file has a damaged JPEG that no texture uses; it is one of the glTF validator's test files.
 TEST(GltfTexture, damagedImagesThatNothingUsesAreNoFault) {
     DEFOCUS_MODEL_OR_SKIP(path, std::filesystem::path("invalid") / "val_image_invalid_image_data.gltf");
     EXPECT_TRUE(loadGltf(path).ignored.empty());
@@ -78,12 +78,13 @@ TEST(GltfTexture, imagesThatNothingUsesAreNotRead) {
     EXPECT_EQ(scene.images[0].rgba, (std::vector<std::uint8_t>{200, 10, 20, 255}));
 }
 
-// Images with too many pixels for their file are left out before they are decoded. Here three images share a PNG of a
-// hundred bytes that declares 16384 × 16384 px.
+// Images that declare too many pixels for the size of their file are omitted before they are decoded. Here three images
+// share a PNG of a hundred bytes that declares 16384 × 16384 px.
 TEST(GltfTexture, pixelsAreCountedBeforeTheyAreDecoded) {
     GltfBuilder builder = texturedTriangle({{"source", 0}});
     Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    appendChunk(png, "IHDR", {0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 0, 0, 0, 0});  // 16384 × 16384, 8 bits, grey
+    // 16384 × 16384 px, 8 bits per channel, grey
+    appendChunk(png, "IHDR", {0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 0, 0, 0, 0});
     appendChunk(png, "IDAT", {0x78, 0x9c, 3, 0, 0, 0, 0, 1});
     appendChunk(png, "IEND", {});
     builder.json["images"] = {{{"bufferView", builder.view(png)}, {"mimeType", "image/png"}}};
@@ -117,7 +118,8 @@ TEST(GltfTexture, withoutAnImageIsLeftOut) {
     expectNote(scene, false, "it has no image");
 }
 
-// Windows exporters write backslashes, which glTF forbids. A file whose name has a backslash is preferred.
+// Exporters on Windows write backslashes in URIs, which glTF forbids. A file whose name contains a backslash takes
+// precedence.
 TEST(GltfTexture, backslashesInUrisAreReadAsSlashes) {
     const ScratchFolder folder;
     std::filesystem::create_directory(folder / "maps");

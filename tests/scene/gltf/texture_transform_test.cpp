@@ -1,4 +1,5 @@
-// KHR_texture_transform scales the coordinates, rotates them counter-clockwise (v points down), then translates them.
+// Tests of KHR_texture_transform, which scales texture coordinates, rotates them counter-clockwise (v points down), and
+// translates them.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ void expectPlaced(const nlohmann::json& transform, const glm::dvec2& from, const
 TEST(GltfTextureTransform, movesTurnsAndScales) {
     expectPlaced({{"offset", {0.25, -0.5}}}, {0.5, 0.5}, {0.75, 0});
     expectPlaced({{"scale", {2, 3}}}, {0.5, 0.5}, {1, 1.5});
-    expectPlaced({{"rotation", std::acos(0.0)}}, {1, 0}, {0, -1});  // right becomes up
+    // a quarter turn, which moves a point at the right to the top
+    expectPlaced({{"rotation", std::acos(0.0)}}, {1, 0}, {0, -1});
     expectPlaced({{"rotation", std::acos(0.0)}}, {0, 1}, {1, 0});
     const double angle = 0.4;
     expectPlaced({{"offset", {0.1, 0.2}}, {"rotation", angle}, {"scale", {2, 3}}}, {1, 1},

@@ -8,7 +8,8 @@ namespace {
 class ViewHistory : public testing::Test {
 protected:
     void SetUp() override { history.begin(now); }
-    // Records a frame with this f-number, `seconds` after the previous frame. `held`: a mouse button is down.
+    // Records a frame with this f-number, `seconds` after the previous frame. `held` is true while a mouse button is
+    // down.
     void frame(double fStop, bool held = false, double seconds = 0.02) {
         now.lens.fStop = fStop;
         clock += seconds;
@@ -48,13 +49,13 @@ TEST_F(ViewHistory, dragsAfterEachOtherAreSteps) {
     EXPECT_EQ(undone(), 4);
     EXPECT_EQ(undone(), 3);
     EXPECT_EQ(undone(), opened);
-    EXPECT_EQ(undone(), opened);  // no further step exists
+    EXPECT_EQ(undone(), opened);  // the first state, since no further step exists
     EXPECT_EQ(redone(), 3);
 }
 
 TEST_F(ViewHistory, notchesOfAWheelAreOneStepOnceItRests) {
     for (const double stop : {3.0, 4.0, 5.0}) frame(stop, false, 0.1);
-    EXPECT_EQ(history.undoSteps(), 1u);  // the edit is in progress
+    EXPECT_EQ(history.undoSteps(), 1u);  // all changes belong to one step while the edit is in progress
     frame(5, false, 0.6);
     frame(6, false, 0.6);
     frame(6, false, 0.6);

@@ -1,4 +1,4 @@
-// Files that a window keeps between runs: recent scenes and saved views.
+// Tests of files that the viewer keeps between runs: recent scenes and saved views.
 
 #include "view/document/kept_files.h"
 
@@ -117,7 +117,8 @@ TEST_F(WindowMemory, viewsWithoutSenseAreLeftOutAndNoJsonIsAFault) {
     EXPECT_EQ(readSavedViews(views(), "a").size(), 1u);
     std::ofstream(views()) << "[";
     EXPECT_THROW(readSavedViews(views(), "a"), Error);
-    EXPECT_THROW(writeSavedViews(views(), "a", {view}), Error);  // files of other programs are not overwritten
+    // throws, since files of other programs must not be overwritten
+    EXPECT_THROW(writeSavedViews(views(), "a", {view}), Error);
 }
 
 }  // namespace

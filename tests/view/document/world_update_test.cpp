@@ -1,4 +1,4 @@
-// Edits of the request either update the world or are reverted.
+// Tests that each edit of the request either updates the world or is reverted.
 
 #include <gtest/gtest.h>
 

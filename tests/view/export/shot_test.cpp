@@ -1,4 +1,4 @@
-// Key frames that a window exports are the same after `defocus capture` reads them.
+// Tests that key frames that the viewer exports are the same after `defocus capture` reads them.
 
 #include "view/export/shot.h"
 
@@ -80,7 +80,7 @@ TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
-// Roll is continuous over key frames: a camera that rolls past upside down does not turn back.
+// The roll angle is continuous over key frames: a camera that rolls past upside down does not turn back.
 TEST(ViewShot, rollGoesTheShortWay) {
     std::vector<ShotKey> keys(3, keyAt({0, 1, 5}, 2, 2));
     const double degrees[] = {170, 190, 350};
@@ -128,7 +128,7 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         SCOPED_TRACE(seed);
         Dice dice(seed);
         Request options = randomOptions(dice);
-        options.environment.clear();  // a path would become absolute
+        options.environment.clear();  // no environment map, since its path would become absolute
         Lens cameraLens;
         changeFields(cameraLens, dice);
         std::vector<ShotKey> keys(static_cast<std::size_t>(dice.integer(1, 3)));

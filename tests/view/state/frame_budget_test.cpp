@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the milliseconds of a frame on a machine that takes `perSample` ms for a sample at full resolution.
+// Returns the duration in ms of a frame on a machine that takes `perSample` ms for a sample at full resolution.
 double cost(const FrameQuality& quality, double perSample) {
     return perSample * quality.samples * quality.resolution * quality.resolution;
 }
@@ -23,7 +23,7 @@ TEST(FrameBudget, qualitiesRiseByAboutTwice) {
         EXPECT_NEAR(cost(qualities[i], 1) / cost(qualities[i - 1], 1), 2, 0.01) << i;
         EXPECT_LE(qualities[i].thresholdBias, qualities[i - 1].thresholdBias);
     }
-    // Below half the resolution, outlines break into steps.
+    // Below half the resolution, outlines would have visible steps.
     EXPECT_GE(qualities.front().resolution, 0.5);
     EXPECT_LE(qualities.front().thresholdBias, 4);
     EXPECT_EQ(qualities.back().resolution, 1);
@@ -54,7 +54,7 @@ TEST(FrameBudget, staysWhereItSettled) {
 
 TEST(FrameBudget, comesDownAtOnce) {
     const std::size_t best = frameQualities().size() - 1;
-    const FrameBudget slow = adapted({16, best}, 16 * 16);  // 16 times too slow: four steps down
+    const FrameBudget slow = adapted({16, best}, 16 * 16);  // 16 times too slow, which lowers the quality by four steps
     EXPECT_EQ(slow.rung, best - 4);
     EXPECT_EQ(adapted({16, 0}, 1e6).rung, 0u);
     EXPECT_EQ(adapted({16, best}, 0).rung, best);

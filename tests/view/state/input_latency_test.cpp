@@ -13,9 +13,9 @@ TEST(InputLatency, countsFromTheEarliestEventToTheFrameThatAnswers) {
     InputLatency latency;
     EXPECT_EQ(latency.summary().count, 0u);
     latency.arrived(at(100));
-    latency.arrived(at(120));  // while the first input is still pending
+    latency.arrived(at(120));  // a second input while the first is still pending
     latency.shown(at(150));
-    latency.shown(at(400));  // no input is pending
+    latency.shown(at(400));  // a frame without a pending input
     EXPECT_EQ(latency.summary().count, 1u);
     EXPECT_DOUBLE_EQ(latency.summary().latest, 50);
     for (const int wait : {10, 30, 20, 400}) {

@@ -10,8 +10,8 @@ namespace {
 TEST(PhotographicStops, areThirdsOfAStop) {
     const auto stops = standardStops();
     for (std::size_t i = 1; i < stops.size(); ++i) {
-        const double thirds = 6 * std::log2(stops[i] / stops[i - 1]);  // a stop is √2
-        EXPECT_NEAR(thirds, 1, 0.6) << stops[i];                       // manufacturers round the numbers
+        const double thirds = 6 * std::log2(stops[i] / stops[i - 1]);  // one stop is a factor of √2 in the f-number
+        EXPECT_NEAR(thirds, 1, 0.6) << stops[i];                       // manufacturers round the f-numbers
     }
     EXPECT_NEAR(6 * std::log2(stops.back() / stops.front()), static_cast<double>(stops.size() - 1), 0.5);
 }

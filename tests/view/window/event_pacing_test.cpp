@@ -88,7 +88,7 @@ TEST(EventPacing, nothingIsLostNorPutOutOfOrder) {
         queue.push_back(kind == 0   ? button(i % 2 == 0, i % 3 * 60)
                         : kind == 1 ? text(static_cast<char32_t>(i))
                                     : key(i * 31 % 400, i % 3 != 0, i % 7 == 0));
-        queue.back().scroll.x = i;  // index of the event
+        queue.back().scroll.x = i;  // stores the index of the event
     }
     int next = 0;
     while (!queue.empty()) {
