@@ -31,8 +31,8 @@ void createOwnFolder(const std::filesystem::path& folder);
 // is absolute, leaves the folder, or is a device, pipe or directory. A missing file is not an error.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
-// Who chose a file's path. The program never creates links, pipes or devices. A link, pipe or device at a path that the
-// program chose is therefore replaced by the file and never written through.
+// The chooser of a file's path: the user or the program. The program never creates links, pipes or devices. A link,
+// pipe or device at a path that the program chose is therefore replaced by the file and never written through.
 enum class NamedBy { user, program };
 
 // Creates or atomically replaces the file at `path`. Throws Error, with the path in its message, if writing fails.

@@ -314,7 +314,7 @@ TEST_F(Faults, aClockThatGoesBackChangesNothing) {
         << said();
 }
 
-// If one of the driver's memory allocations fails, whichever one it is, the program prints one line and keeps the
+// If any one of the driver's memory allocations fails, the program prints one line and keeps the
 // finished frames.
 TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
     const Words film = {"capture", "shot.json", "--quiet", "--range", "0:7", "--resume"};

@@ -50,7 +50,7 @@ protected:
     Request request_;
 };
 
-// The meter exposes a uniform surface to a linear value of 0.4, whatever the sun's illuminance is.
+// The meter exposes a uniform surface to a linear value of 0.4, for any illuminance of the sun.
 TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
     request_.exposure = ExposureValue{0};

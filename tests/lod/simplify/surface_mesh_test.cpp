@@ -103,8 +103,7 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     forEachVertex(mesh, [&](VertexHandle v) { positions.push_back(mesh.position(v)); });
     forEachFace(mesh, [&](FaceHandle face) { faces.push_back(sourcesOf(mesh, face)); });
     ASSERT_EQ(positions.size(), 22u);
-    // Of 32 faces, two collapses inside the surface remove two faces each, and one collapse at the border removes one
-    // face.
+    // Two collapses inside the surface remove two of the 32 faces each, and one collapse at the border removes one.
     ASSERT_EQ(faces.size(), 27u);
 
     compact(surface.simplifier);
