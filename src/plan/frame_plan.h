@@ -81,8 +81,10 @@ struct ObjectPlan {
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
     bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
-    bool mirrored = false;   // the transform flips the winding of triangles
-    bool blended = false;    // has alpha-blended primitives
+    bool mirrored = false;  // the transform flips the winding of triangles
+    bool blended = false;   // has alpha-blended primitives
+    // Each lens sample shows a blended fragment or not, by its alpha. false: fragments are blended back to front.
+    bool stochasticAlpha = false;
     bool transmits = false;  // has transmissive primitives
     bool ground = false;     // the ground plane, which casts no shadow
 };
@@ -143,7 +145,8 @@ struct FramePlan {
     bool usesCocControls = false;               // C differs from a + b·w for some object
     bool usesOwnBlur = false;                   // some object or vertex modifies the lens's blur
     bool usesTextures = false;
-    bool usesBlending = false;
+    bool usesBlending = false;   // some object is alpha-blended
+    bool sortsBlending = false;  // some object is blended back to front
     bool usesTransmission = false;
     bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
     bool showsMap = false;    // the background is an environment map

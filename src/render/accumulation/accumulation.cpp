@@ -160,6 +160,7 @@ private:
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
                                    .defines = layerFormatDefines(format),
+                                   .stochasticAlpha = true,
                                    .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
                                    .shaderFolder = options_.shaderFolder};
         if (!sameFormat) {
@@ -175,7 +176,7 @@ private:
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
-               (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.usesBlending));
+               (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.sortsBlending));
     }
 
     static void timed(GpuTimer& timer, const auto& pass) {
