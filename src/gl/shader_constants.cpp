@@ -73,6 +73,7 @@ constexpr ShaderConstant constants[] = {
 
     // Shadows
     {"bool", "shadowed", "false", "SHADOWED"},
+    {"bool", "tintedShadows", "false", "TINTED_SHADOWS"},  // shadow maps have one depth per colour channel
     {"int", "shadowMapCount", "0"},
     {"int", "shadowPoints", "0"},
     {"int", "shadowSize", "0"},

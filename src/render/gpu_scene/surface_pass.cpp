@@ -330,9 +330,19 @@ void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(translucent_, first, count);
 }
 
-void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot) {
+void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted) {
     shadowSlot_ = slot;
-    drawSurfaces(first, count);
+    if (!tinted) return drawSurfaces(first, count);
+    // The nearest of several surfaces that hide a channel has the largest reversed depth.
+    bindSolid(GL_GREATER);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MAX);
+    drawFronts(opaque_, first, count);
+    glDepthMask(GL_FALSE);
+    drawFronts(translucent_, first, count);
+    glDepthMask(GL_TRUE);
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_BLEND);
 }
 
 void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {

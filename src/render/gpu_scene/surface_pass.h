@@ -61,8 +61,9 @@ public:
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
     // Draws all surfaces as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // Draws front and back faces of all surfaces into shadow map `slot` of each sample.
-    void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
+    // Draws front and back faces of all surfaces into shadow map `slot` of each sample. `tinted`: the maps have a depth
+    // per colour channel.
+    void drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted);
     // Draws all surfaces without depth test and adds each fragment to the target by blending.
     void drawTouched(std::uint32_t first, std::uint32_t count);
     // Draws the environment into pixels without a surface. LayerSum composites environments other than maps when it
