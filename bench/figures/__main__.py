@@ -17,6 +17,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "levels": "compare levels with full detail on copies of thin parts or of models",
     "quality": "measure how well the automatic number of samples meets its quality",
+    "blending": "measure the noise of alpha-blended surfaces",
     "latency": "measure how fast the window answers the mouse",
 }
 

@@ -11,5 +11,5 @@ void main() {
     writeSurface(surfaceOf(vertex, ownBlur));
     if (chromatic) bandShift = bandShiftIn;
     gl_Position = throughLens(vertex.pinhole, ownBlur, lensAndJitterIn);
-    chooseLayer(eyeAndDitherIn.w);
+    chooseLayer(eyeAndSampleIn.w);
 }

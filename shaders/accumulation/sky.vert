@@ -4,7 +4,7 @@
 #include "include/layer_choice.glsl"
 
 layout(location = 6) in vec4 lensAndJitterIn;
-layout(location = 7) in vec4 eyeAndDitherIn;
+layout(location = 7) in vec4 eyeAndSampleIn;
 layout(location = 14) in float bandShiftIn;
 
 out Sky {
@@ -15,7 +15,7 @@ void main() {
     sky.place = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);
     sky.lensAndJitter = lensAndJitterIn;
     sky.bandShift = chromatic ? bandShiftIn : 0.0;
-    sky.layer = eyeAndDitherIn.w;
+    sky.layer = eyeAndSampleIn.w;
     gl_Position = vec4(sky.place, 0.0, 1.0);  // reversed depth: 0 is infinity
     chooseLayer(sky.layer);
 }

@@ -16,7 +16,9 @@ vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], u
 void main() {
     readSurface();
     uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
-    if (alphaTested && maskHides(texturedColor(surface.color).a, surface.color.a, pixel, 0.0)) discard;
+#ifdef CHOOSES_BY_ALPHA
+    if (maskHides(texturedColor(surface.color).a, surface.color.a, pixel, 0.0)) discard;
+#endif
     float w = 1.0 / gl_FragCoord.w;
     depthOut = w;
     vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);

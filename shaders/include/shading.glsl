@@ -51,7 +51,7 @@ struct SurfacePoint {
     vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
 };
 
-float lightShares[lightCount + 1];   // visible fraction of each light; only if shadowed
+vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
 
 // Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
 struct LightSums {

@@ -19,7 +19,8 @@
 
 #include "include/shadow_projection.glsl"
 
-layout(binding = 23) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
+// Reversed depth; 0: empty. With tintedShadows, one channel per colour.
+layout(binding = 23) uniform sampler2DArray shadowMaps;
 
 struct Facet {
     vec3 place;     // position in m from the camera along the world's axes
@@ -42,9 +43,9 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
     return dot(vec2(a.z, b.z), steps) * (way > farthest ? farthest / way : 1.0);
 }
 
-// Returns 1 if the facet is lit according to shadow map `slot` of this layer's sample, else 0. `toLight` is a unit
-// vector.
-float litAt(int slot, Facet facet, vec3 toLight) {
+// Returns 1 for each colour channel in which the facet is lit according to shadow map `slot` of this layer's sample, else
+// 0. `toLight` is a unit vector.
+vec3 litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
     float width = texelFetch(shadowProjections, texel + 4).w * dot(texelFetch(shadowProjections, texel + 3), vec4(facet.place, 1.0));
@@ -52,7 +53,7 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
     float away = width * (0.25 + 0.75 * sine * grazing) + object.levels.x + shadowError;
     vec4 clip = shadowPosition(texel, facet.place + facet.normal * away);
-    if (!all(lessThan(abs(clip.xy), vec2(clip.w)))) return 1.0;
+    if (!all(lessThan(abs(clip.xy), vec2(clip.w)))) return vec3(1.0);
     vec2 place = clip.xy / clip.w;
     ivec2 at = min(ivec2((0.5 + 0.5 * place) * float(shadowSize)), ivec2(shadowSize - 1));
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
@@ -61,8 +62,8 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     // change of depth along a plane that rises at 45°
     float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;
     float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
-    float nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).r;
-    return nearest <= max(depth, 0.0) ? 1.0 : 0.0;
+    vec3 nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).rgb;
+    return vec3(lessThanEqual(tintedShadows ? nearest : nearest.rrr, vec3(max(depth, 0.0))));
 }
 
 int cubeFace(vec3 direction) {
@@ -72,11 +73,11 @@ int cubeFace(vec3 direction) {
     return direction.z > 0.0 ? 4 : 5;
 }
 
-// Returns the visible fraction of light `i`; `toLight` is the unit vector to the light.
-float lightShare(int i, Facet facet, vec3 toLight) {
-    if (shadowFirst[i] < 0) return 1.0;
+// Returns the fraction of the light of `i` that reaches the facet, per colour channel; `toLight` is the unit vector to the light.
+vec3 lightShare(int i, Facet facet, vec3 toLight) {
+    if (shadowFirst[i] < 0) return vec3(1.0);
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);
-    float sum = 0.0;
+    vec3 sum = vec3(0.0);
     for (int point = 0; point < shadowPoints; ++point) sum += litAt(point * shadowMapCount + map, facet, toLight);
     return sum / float(shadowPoints);
 }

@@ -14,6 +14,7 @@ struct Surface {
     vec4 uv;              // both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
-    float ditherOffset;
+    int facet;            // number of the triangle's last vertex; only if choosesByAlpha
+    float sampleNumber;   // number in the frame of the lens sample
     float layer;
 };

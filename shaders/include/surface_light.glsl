@@ -38,7 +38,7 @@ float surfaceFootprint(vec3 normal) {
 uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }
 
 // Returns true if this pixel draws the coarser level in a boundary sample, the lens sample that mixes two levels.
-bool drawsCoarser() { return ditherThreshold(pixelOfImage(), 0.0) < object.values.y; }
+bool drawsCoarser() { return objectThreshold(pixelOfImage()) < object.values.y; }
 
 // Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.
 vec4 surfaceLight() {
@@ -46,7 +46,10 @@ vec4 surfaceLight() {
     if (fineShare && drawsCoarser()) discard;
     vec4 plainColor = surfaceColor();
     vec4 baseColor = texturedColor(plainColor);
-    if (alphaTested && maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)) discard;
+#ifdef CHOOSES_BY_ALPHA
+    if (alphaTested ? maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)
+                    : baseColor.a <= alphaThreshold(pixelOfImage())) discard;
+#endif
     vec4 light = vec4(surfaceRadiance(baseColor.rgb), surfaceCoverage);
 #ifdef TRANSMISSIVE
     if (alphaBlended) light = mix(texelFetch(backdrop, ivec3(gl_FragCoord.xy, gl_Layer), 0), light, baseColor.a);

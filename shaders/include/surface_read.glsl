@@ -3,10 +3,13 @@
 
 Surface surfaceAt(int corner) {
     Surface s = Surface(vec4(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec2(0.0), 0.0, vec4(0.0),
-                        vec4(0.0), vec2(1.0, 0.0), 0.0, 0.0);
+                        vec4(0.0), vec2(1.0, 0.0), 0, 0.0, 0.0);
     s.color = SURFACE_IN.color;
-    s.ditherOffset = SURFACE_IN.ditherOffset;
+    s.sampleNumber = SURFACE_IN.sampleNumber;
     s.layer = SURFACE_IN.layer;
+#ifdef CHOOSES_BY_ALPHA
+    s.facet = SURFACE_IN.facet;
+#endif
 #ifdef COLOR_RANGES
     s.minColor = SURFACE_IN.minColor;
     s.maxColor = SURFACE_IN.maxColor;

@@ -1,8 +1,11 @@
 // Members of the interface block SurfaceVaryings; struct Surface in surface.glsl explains them.
 
     vec4 color;
-    flat float ditherOffset;
+    flat float sampleNumber;
     flat float layer;
+#ifdef CHOOSES_BY_ALPHA
+    flat int facet;
+#endif
 #ifdef COLOR_RANGES
     flat vec4 minColor;
     flat vec4 maxColor;

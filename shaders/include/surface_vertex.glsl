@@ -6,13 +6,13 @@
 #include "include/surface_output.glsl"
 
 layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, k·v), pixel jitter (NDC)
-layout(location = 7) in vec4 eyeAndDitherIn;    // per instance: lens point (m), dither offset, layer
+layout(location = 7) in vec4 eyeAndSampleIn;    // per instance: lens point (m), number in the frame, layer
 layout(location = 13) in vec3 momentIn;         // per instance: `moment` of vertexAt()
 layout(location = 14) in float bandShiftIn;     // per instance: bandShift of lens.glsl
 // Min and max vertex colour of all triangles at the vertex. Each channel is 256 · max + min, in units of 1/255.
 layout(location = 15) in vec4 colorRangeIn;
 
-Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndDitherIn.xy, 0.0)); }
+Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndSampleIn.xy, 0.0)); }
 
 Surface surfaceOf(Vertex vertex, vec2 ownBlur) {
     mat3 worldFromView = mat3(frame.worldFromView);
@@ -30,7 +30,8 @@ Surface surfaceOf(Vertex vertex, vec2 ownBlur) {
     s.uv = vec4(uv0In, uv1In);
     s.tangent = vec4(worldFromView * vertex.view.tangent, tangentIn.w);
     s.ownBlur = ownBlur;
-    s.ditherOffset = eyeAndDitherIn.z;
-    s.layer = eyeAndDitherIn.w;
+    s.facet = gl_VertexID;
+    s.sampleNumber = eyeAndSampleIn.z;
+    s.layer = eyeAndSampleIn.w;
     return s;
 }

@@ -2,8 +2,11 @@
 
 void writeSurface(Surface s) {
     SURFACE_OUT.color = s.color;
-    SURFACE_OUT.ditherOffset = s.ditherOffset;
+    SURFACE_OUT.sampleNumber = s.sampleNumber;
     SURFACE_OUT.layer = s.layer;
+#ifdef CHOOSES_BY_ALPHA
+    SURFACE_OUT.facet = s.facet;
+#endif
 #ifdef COLOR_RANGES
     SURFACE_OUT.minColor = s.minColor;
     SURFACE_OUT.maxColor = s.maxColor;

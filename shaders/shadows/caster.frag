@@ -1,6 +1,7 @@
-// Draws a shadow caster; only depth is written. A caster that transmits a part of the light covers the corresponding
-// fraction of the texels, different texels in each lens sample (Enderton et al. 2010, Stochastic Transparency).
-// Coloured transmission is converted to its luminance.
+// Draws a shadow caster. A caster that transmits a part of the light covers the corresponding fraction of the texels,
+// different texels in each lens sample and each map (include/alpha_choice.glsl). With tintedShadows, each colour channel
+// has its own fraction, and the depth of the surface that hides the channel is a colour (McGuire and Enderton 2011,
+// Colored Stochastic Shadow Maps). Otherwise only depth is written, and colours count by their luminance.
 
 #include "include/frame.glsl"
 #include "include/surface_fragment.glsl"
@@ -8,18 +9,35 @@
 #include "include/alpha_mask.glsl"
 #include "include/transmittance.glsl"
 
+#ifdef TINTED_SHADOWS
+layout(location = 0) out vec4 depthsOut;   // reversed depth per channel; 0: nothing hides the channel's light
+#endif
+
 vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv)); }
 
 void main() {
     readSurface();
     vec4 color = texturedColor(surface.color);
-    uvec2 texel = uvec2(gl_FragCoord.xy);
+#ifdef CHOOSES_BY_ALPHA
+    // The maps of a lens sample lie side by side.
+    uint map = uint(surface.layer) % uint(shadowPoints * shadowMapCount);
+    uvec2 texel = uvec2(gl_FragCoord.xy) + uvec2(map * uint(shadowSize), 0u);
     if (alphaTested && maskHides(color.a, surface.color.a, texel, 0.0)) discard;
-    float hidden = 1.0;
+    vec3 hidden = vec3(1.0);
     if (letsLightPass) {
         float metallic = material.surface.x * materialTexel(metallicRoughnessTexture).b;
-        hidden -= transmittedShare(metallic) * dot(transmittedTint(color.rgb, volumeThickness()), vec3(0.2126, 0.7152, 0.0722));
+        // The thickness reaches from the front to the back of a volume, so that only the front absorbs.
+        vec3 tint = transmittedTint(color.rgb, gl_FrontFacing ? volumeThickness() : 0.0);
+        if (!tintedShadows) tint = vec3(dot(tint, vec3(0.2126, 0.7152, 0.0722)));
+        hidden -= transmittedShare(metallic) * tint;
     }
     if (alphaBlended) hidden *= color.a;
-    if ((alphaBlended || letsLightPass) && hidden <= ditherThreshold(texel, surface.ditherOffset)) discard;
+    bvec3 hides = alphaTested && !letsLightPass ? bvec3(true) : greaterThan(hidden, vec3(alphaThreshold(texel)));
+    if (!any(hides)) discard;
+#else
+    const bvec3 hides = bvec3(true);
+#endif
+#ifdef TINTED_SHADOWS
+    depthsOut = vec4(vec3(hides) * gl_FragCoord.z, 0.0);
+#endif
 }

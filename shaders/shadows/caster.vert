@@ -10,7 +10,7 @@ layout(location = 3) uniform int shadowSlot;
 void main() {
     Vertex vertex = instanceVertex();
     Surface surface = surfaceOf(vertex, vec2(1.0, 0.0));
-    int layer = int(eyeAndDitherIn.w);
+    int layer = int(eyeAndSampleIn.w);
     gl_Position = shadowPosition(shadowTexel(layer, shadowSlot), surface.position);
     surface.layer = float(layer * (shadowPoints * shadowMapCount) + shadowSlot);
     writeSurface(surface);

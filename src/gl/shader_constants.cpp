@@ -48,7 +48,8 @@ constexpr ShaderConstant constants[] = {
     {"bool", "doubleSided", "false"},
     {"bool", "alphaTested", "false"},
     {"bool", "alphaBlended", "false"},
-    {"bool", "letsLightPass", "false"},  // the shadow caster transmits light
+    {"bool", "choosesByAlpha", "false", "CHOOSES_BY_ALPHA"},  // alpha decides which lens samples show a fragment
+    {"bool", "letsLightPass", "false"},                       // the shadow caster transmits light
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},
     {"bool", "levelColorRange", "false"},
@@ -72,6 +73,7 @@ constexpr ShaderConstant constants[] = {
 
     // Shadows
     {"bool", "shadowed", "false", "SHADOWED"},
+    {"bool", "tintedShadows", "false", "TINTED_SHADOWS"},  // shadow maps have one depth per colour channel
     {"int", "shadowMapCount", "0"},
     {"int", "shadowPoints", "0"},
     {"int", "shadowSize", "0"},

@@ -16,6 +16,7 @@
 #include "plan/lens_cells/blurred_patches.h"
 #include "plan/motion/motion.h"
 #include "plan/motion/object_pose.h"
+#include "plan/visible/blend_order.h"
 #include "plan/visible/shadows.h"
 #include "plan/visible/visibility.h"
 #include "scene/posed_mesh.h"
@@ -48,12 +49,6 @@ void checkRequest(const View& view, const RenderSettings& settings) {
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
     static const Material gltfDefault;
     return primitive.material >= 0 ? scene.materials[static_cast<std::size_t>(primitive.material)] : gltfDefault;
-}
-
-bool hasBlending(const Scene& scene, const Mesh& mesh) {
-    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
-        return materialOf(scene, primitive).alphaMode == AlphaMode::blend;
-    });
 }
 
 bool transmits(const Scene& scene, const Mesh& mesh) {
@@ -224,12 +219,17 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     const double blur = plan.largestBlur;
     if (plan.settings.keepAll || blur >= minBlur) return;
-    const bool still = plan.moments.empty() && plan.shadows.maps.empty();
+    const bool stochastic = std::ranges::any_of(plan.objects, &ObjectPlan::stochasticAlpha);
+    const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
     plan.leftOut.push_back(
-        {"lens samples", fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", blur,
-                                     kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
+        {"lens samples",
+         fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", blur, kept,
+                     still                   ? "antialiasing"
+                     : !plan.moments.empty() ? "motion"
+                     : stochastic            ? "transparency"
+                                             : "shadow")});
     plan.usesLens = false;
     const double aspect = plan.coc.aspect;  // a pinhole needs the aspect ratio, too
     plan.coc = {};
@@ -261,9 +261,9 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     const Scene& scene = *world.scene;
     for (ObjectPlan& object : plan.objects) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        object.blended = hasBlending(scene, mesh);
         object.transmits = transmits(scene, mesh);
         plan.usesBlending |= object.blended;
+        plan.sortsBlending |= object.blended && !object.stochasticAlpha;
         plan.usesTransmission |= object.transmits;
         plan.usesTextures |= hasTextures(scene, mesh);
     }
@@ -361,6 +361,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
+    chooseBlending(plan, world);
     // If no blur is visible, switch to a pinhole before the levels are chosen, because they depend on the blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);

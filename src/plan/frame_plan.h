@@ -82,8 +82,11 @@ struct ObjectPlan {
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
     bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
-    bool mirrored = false;   // the transform flips the winding of triangles
-    bool blended = false;    // the object has alpha-blended primitives
+    bool mirrored = false;  // the transform flips the winding of triangles
+    bool blended = false;   // the object has alpha-blended primitives
+    // true: each lens sample draws or drops a blended fragment by its alpha. false: fragments are blended back to
+    // front.
+    bool stochasticAlpha = false;
     bool transmits = false;  // the object has transmissive primitives
     bool ground = false;     // the object is the ground plane, which casts no shadow
 };
@@ -144,7 +147,8 @@ struct FramePlan {
     bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
     bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
     bool usesTextures = false;
-    bool usesBlending = false;
+    bool usesBlending = false;   // some object is alpha-blended
+    bool sortsBlending = false;  // some object is blended back to front
     bool usesTransmission = false;
     bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
     bool showsMap = false;    // the background is an environment map

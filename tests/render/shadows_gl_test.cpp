@@ -175,6 +175,83 @@ TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     EXPECT_NEAR(sum / seen, expected, 0.01);
 }
 
+// A pane of coloured glass tints the light by its base colour at each surface, and by the absorption of its volume.
+TEST_F(Shadowed, colouredGlassTintsTheLight) {
+    const glm::vec3 colour(1, 0.2f, 0.5f);
+    for (const bool closed : {false, true}) {
+        const auto small = wall();
+        addSun(*small, {1, 0, 1}, 0.01);
+        Material glass;
+        glass.metallicFactor = 0;
+        glass.transmissionFactor = 1;
+        glass.baseColorFactor = glm::vec4(colour, 1);
+        Mesh pane = quad(1);
+        if (closed) {
+            glass.thicknessFactor = 1;
+            glass.attenuationDistance = 2;
+            glass.attenuationColor = {0.5f, 1, 1};
+            for (int i = 0; i < 4; ++i)
+                pane.vertices.positions.push_back(pane.vertices.positions[i] - glm::vec3(0, 0, 0.001f));
+            pane.vertices.normals.insert(pane.vertices.normals.end(), 4, {0, 0, -1});
+            std::vector<std::uint32_t>& indices = pane.primitives[0].indices;
+            indices.insert(indices.end(), {4, 6, 5, 4, 7, 6});
+        }
+        small->scene.meshes.push_back(pane);
+        small->scene.materials.push_back(glass);
+        place(*small, 1, glm::translate(glm::dmat4(1), {2, 0, 1 - receiverDepth}));
+        finish(*small);
+        glm::dvec3 expected = colour;
+        if (closed) expected *= glm::dvec3(colour) * glm::dvec3(std::sqrt(0.5), 1, 1);
+        const RenderSettings settings = settingsFor(256, Shadows::on);
+        const Image lit = shadowImage(*small, settingsFor(256, Shadows::off));
+        const Image image = shadowImage(*small, settings);
+        glm::dvec3 mean(0);
+        int seen = 0;
+        for (int x = 0; x < small->view.width; ++x) {
+            const double place = wallX(small->view, x);
+            if (place < 0.1 || place > 0.65) continue;  // farther right, the pane hides the wall
+            for (int c = 0; c < 3; ++c) mean[c] += double{image.at(x, 36)[c]} / double{lit.at(x, 36)[c]};
+            ++seen;
+        }
+        ASSERT_GT(seen, 10);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c] / seen, expected[c], 0.01) << closed << ' ' << c;
+    }
+}
+
+// Blended surfaces behind each other, here in one mesh, let the product of their shares pass.
+TEST_F(Shadowed, blendedLayersShadeByTheirProduct) {
+    const auto small = wall();
+    addSun(*small, {1, 0, 1}, 0.01);
+    Mesh layers;
+    Primitive primitive{1, {}};
+    for (const float alpha : {0.4f, 0.7f}) {
+        const auto first = static_cast<std::uint32_t>(layers.vertices.count());
+        for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+            layers.vertices.positions.emplace_back(corner, alpha);
+            layers.vertices.colors.emplace_back(1, 1, 1, alpha);
+        }
+        primitive.indices.insert(primitive.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+    layers.vertices.normals.assign(layers.vertices.count(), {0, 0, 1});
+    layers.primitives.push_back(primitive);
+    small->scene.meshes.push_back(layers);
+    small->scene.materials.push_back(matt());
+    small->scene.materials.back().alphaMode = AlphaMode::blend;
+    place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), {3, 0, 1 - receiverDepth}), {2, 2, 0.1}));
+    finish(*small);
+    const std::vector<double> shares = litShares(*small, settingsFor(256, Shadows::on));
+    double sum = 0;
+    int seen = 0;
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x);
+        if (place < 0.15 || place > 0.65) continue;  // farther right, the layers hide the wall
+        sum += shares[static_cast<std::size_t>(x)];
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+    EXPECT_NEAR(sum / seen, 0.6 * 0.3, 0.01);
+}
+
 // Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of
 // 0.8 m. The lamp uses one map, or six if an object also stands behind the lamp.
 TEST_F(Shadowed, lampsThrowMagnifiedShadows) {

@@ -29,13 +29,13 @@ constexpr std::uint32_t maxWave = 16;
 
 // Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
 // 0, as many as fit into RendererOptions::waveBytes.
-std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t requested,
-                         LayerFormat format) {
+std::uint32_t chosenWave(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
+                         std::uint32_t requested, LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // a backdrop is a copy of all layers
-                                     shadowMapBytes(plan);
+                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+                                     shadowMapBytes(scene, plan);
     const std::uint64_t fitting =
         requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
     return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>({fitting, maxWave, plan.samples.size()})));
@@ -150,7 +150,7 @@ private:
         const LayerWindow window = layerWindow(plan_);
         const LayerSumInfo info{.width = window.layerWidth,
                                 .height = window.layerHeight,
-                                .layers = chosenWave(plan_, options_, wave_, format),
+                                .layers = chosenWave(*scene_.world().scene, plan_, options_, wave_, format),
                                 .format = format,
                                 .shaderFolder = options_.shaderFolder,
                                 .sumWidth = window.width,
@@ -163,6 +163,7 @@ private:
         }
         const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
                                    .defines = layerFormatDefines(format),
+                                   .stochasticAlpha = true,
                                    .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
                                    .shaderFolder = options_.shaderFolder};
         if (!sameFormat) {
@@ -178,7 +179,7 @@ private:
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
-               (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.usesBlending));
+               (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.sortsBlending));
     }
 
     static void timed(GpuTimer& timer, const auto& pass) {

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double unlimitedBlur = 1e9;  // image widths; finite, so that 0 times unlimitedBlur is 0
 constexpr std::size_t maxConstantLights = 4;
-constexpr double goldenRatio = 0.618033988749894848;
 
 // Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
 constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes; all drivers have GL_MAX_UNIFORM_BLOCK_SIZE ≥ 16 KiB
@@ -216,11 +215,10 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
         const LensSample& sample = plan.samples[i];
         // A sample position to the right of the pixel's centre shifts the image left.
         const glm::vec2 jitter = -sample.pixel * pixel;
-        const double dither = 0.5 + goldenRatio * static_cast<double>(plan.settings.firstSample + i);
+        const auto number = static_cast<float>(plan.settings.firstSample + i);
         const auto layer = static_cast<float>(i % blockSamples % layerCount);
-        samples[i] = {
-            {sample.lens.x, k * sample.lens.y, jitter.x, jitter.y},
-            {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
+        samples[i] = {{sample.lens.x, k * sample.lens.y, jitter.x, jitter.y},
+                      {radius * sample.lens.x, radius * sample.lens.y, number, layer}};
     }
     samples_ = Buffer::of(std::span<const GpuSample>(samples));
     std::vector<glm::vec3> moments;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace defocus::engine {
 
 namespace {
@@ -17,8 +19,22 @@ std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// Returns defines with the index of the first map and the number of maps for each light and, as the last entry, for the
-// environment.
+// Returns whether some caster transmits light in another colour.
+bool tintsLight(const Scene& scene, const FramePlan& plan) {
+    const auto isGrey = [](const glm::vec3& color) { return color.r == color.g && color.g == color.b; };
+    return std::ranges::any_of(plan.shadows.casters, [&](const ObjectPlan& caster) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(caster.mesh)];
+        return std::ranges::any_of(mesh.primitives, [&](const Primitive& primitive) {
+            if (primitive.material < 0) return false;
+            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+            return material.transmits() &&
+                   (!mesh.vertices.colors.empty() || material.baseColor.used() ||
+                    !isGrey(glm::vec3(material.baseColorFactor)) || !isGrey(material.attenuationColor));
+        });
+    });
+}
+
+// Returns defines with the index of the first map and the number of maps for each light, and last for the environment.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);
@@ -63,9 +79,11 @@ FramePlan castersOf(const FramePlan& plan) {
 
 }  // namespace
 
-std::uint64_t shadowMapBytes(const FramePlan& plan) {
+std::uint64_t shadowMapBytes(const Scene& scene, const FramePlan& plan) {
     const auto size = static_cast<std::uint64_t>(plan.shadows.size);
-    return mapsPerSample(plan) * size * size * pixelBytes(TextureFormat::depth32f);
+    const std::uint64_t texel =
+        pixelBytes(TextureFormat::depth32f) + (tintsLight(scene, plan) ? pixelBytes(TextureFormat::rgba32f) : 0);
+    return mapsPerSample(plan) * size * size * texel;
 }
 
 ShadowMaps::ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder)
@@ -80,6 +98,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     defines_.clear();
     if (plan.shadows.maps.empty() || plan.samples.empty()) {
         maps_ = GlTexture();
+        tintedMaps_ = GlTexture();
         return;
     }
     const World& world = scene_->world();
@@ -89,17 +108,23 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     frame_ = &frame;
     plan_ = castersOf(plan);
     defines_ = mapDefines(plan, world.lights.size());
+    const bool tinted = tintsLight(*world.scene, plan);
+    if (tinted) defines_.emplace_back("tintedShadows", "true");
     projections_ = TexelBuffer(texelsOf(shadowProjections(world, plan, directions_)), GL_RGBA32F, 4,
                                "projections of shadow maps (use fewer samples)");
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
-    if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
+    if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers ||
+        static_cast<bool>(tintedMaps_) != tinted) {
         target_ = Target();
-        maps_ = GlTexture();  // free the old maps first, because memory may not suffice for both
-        maps_ = GlTexture({.format = TextureFormat::depth32f,
-                           .width = plan.shadows.size,
-                           .height = plan.shadows.size,
-                           .layers = layers});
-        target_ = Target({}, &maps_);
+        maps_ = GlTexture();  // free the old maps first: memory may not hold both
+        tintedMaps_ = GlTexture();
+        const auto mapsOf = [&](TextureFormat format) {
+            return GlTexture(
+                {.format = format, .width = plan.shadows.size, .height = plan.shadows.size, .layers = layers});
+        };
+        maps_ = mapsOf(TextureFormat::depth32f);
+        if (tinted) tintedMaps_ = mapsOf(TextureFormat::rgba32f);
+        target_ = tinted ? Target({&tintedMaps_}, &maps_) : Target({}, &maps_);
     }
     casters_.prepare(plan_, frame, this);
 }
@@ -108,14 +133,15 @@ void ShadowMaps::draw(std::uint32_t first, std::uint32_t count) {
     if (defines_.empty()) return;
     target_.bind();
     glDepthMask(GL_TRUE);
-    constexpr float nothing = 0;  // depth is reversed: infinitely far from the light
-    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &nothing);
+    constexpr float nothing[4] = {};  // depth is reversed: infinitely far from the light
+    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, nothing);
+    if (tintedMaps_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
     for (std::size_t slot = 0; slot < mapsPerSample(plan_); ++slot)
-        casters_.drawCasters(first, count, static_cast<int>(slot));
+        casters_.drawCasters(first, count, static_cast<int>(slot), static_cast<bool>(tintedMaps_));
 }
 
 void ShadowMaps::bind(std::uint32_t sample) const {
-    maps_.attach(mapsUnit);
+    (tintedMaps_ ? tintedMaps_ : maps_).attach(mapsUnit);
     projections_.attach(projectionsUnit);
     const std::uint32_t layer = sample % blockSamples % frame_->layerCount();
     glUniform1i(firstSampleLocation, static_cast<GLint>(sample - layer));

@@ -25,7 +25,9 @@ public:
     // Binds the maps for drawing the samples from `sample` to the end of its wave. The program that reads the maps must
     // be in use.
     void bind(std::uint32_t sample) const;
-    [[nodiscard]] std::size_t bytes() const { return maps_.bytes() + projections_.bytes() + casters_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const {
+        return maps_.bytes() + tintedMaps_.bytes() + projections_.bytes() + casters_.bytes();
+    }
 
 private:
     GpuScene* scene_;
@@ -37,10 +39,11 @@ private:
     ShaderDefines defines_;
     TexelBuffer projections_;
     GlTexture maps_;
+    GlTexture tintedMaps_;  // depths per colour channel; allocated if a caster tints the light
     Target target_;
 };
 
 // Returns the bytes of the shadow maps of one lens sample.
-std::uint64_t shadowMapBytes(const FramePlan& plan);
+std::uint64_t shadowMapBytes(const Scene& scene, const FramePlan& plan);
 
 }  // namespace defocus::engine

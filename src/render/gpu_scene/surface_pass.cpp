@@ -83,6 +83,9 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             draw.mirrored = object.mirrored;
             draw.refinement = object.refinement;
             draw.blurMoves = object.blurMoves;
+            const Material& material = scene_->material(draw.material);
+            draw.stochasticAlpha = info_.stochasticAlpha && object.stochasticAlpha &&
+                                   material.alphaMode == AlphaMode::blend && !material.transmits();
             materialSlots_.try_emplace(draw.material, materialSlots_.size());
             addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
@@ -106,7 +109,8 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
     for (const IndexRun& run : runs) indexCount += run.count;
     if (indexCount == 0) return;
     const Material& material = scene_->material(draw.material);
-    auto& list = material.alphaMode == AlphaMode::blend || material.transmits() ? translucent_ : opaque_;
+    const bool blended = material.alphaMode == AlphaMode::blend || material.transmits();
+    auto& list = blended && !draw.stochasticAlpha ? translucent_ : opaque_;
     const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
         if (first >= end) return;
         Draw& added = list.emplace_back(draw);
@@ -152,7 +156,11 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(static_cast<bool>(mesh.blurs), "vertexBlurs");
     set(draw.blurMoves && frame_->moments(), "blurMoves");
     set(material.alphaMode == AlphaMode::mask, "alphaTested");
-    set(material.alphaMode == AlphaMode::blend, "alphaBlended");
+    const bool blended = material.alphaMode == AlphaMode::blend;
+    set(blended && !draw.stochasticAlpha, "alphaBlended");
+    set(material.alphaMode == AlphaMode::mask || draw.stochasticAlpha ||
+            (info_.look == SurfaceLook::caster && (blended || material.transmits())),
+        "choosesByAlpha");
     set(draw.screenDoor == ScreenDoor::coarseShare, "coarseShare");
     set(draw.screenDoor == ScreenDoor::fineShare, "fineShare");
     poseDefines(defines, poses_[draw.object], mesh);
@@ -323,9 +331,19 @@ void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(translucent_, first, count);
 }
 
-void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot) {
+void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted) {
     shadowSlot_ = slot;
-    drawSurfaces(first, count);
+    if (!tinted) return drawSurfaces(first, count);
+    // The nearest of several surfaces that hide a channel has the largest reversed depth.
+    bindSolid(GL_GREATER);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MAX);
+    drawFronts(opaque_, first, count);
+    glDepthMask(GL_FALSE);
+    drawFronts(translucent_, first, count);
+    glDepthMask(GL_TRUE);
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_BLEND);
 }
 
 void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {

@@ -21,6 +21,7 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
+    bool stochasticAlpha = false;    // draws ObjectPlan::stochasticAlpha; false: all blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool vertexShaderLayers = true;  // false: a geometry shader selects the layer
     std::filesystem::path shaderFolder;
@@ -36,7 +37,8 @@ public:
     // Prepares the draws and programs of `plan`. `shadows` are the maps of the same plan to read, or to draw for
     // SurfaceLook::caster; null without shadows. `frame` and `shadows` must exist until the last draw.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
-    // Draws the opaque and alpha-tested surfaces of samples [first, first + count), front to back.
+    // Draws the opaque, alpha-tested and stochastically transparent surfaces of samples [first, first + count), front
+    // to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // drawOpaqueVisible draws the same image as drawOpaque, but skips hidden triangles if there are enough of them.
     // Sample `first` is drawn with layer `layer` of `depths`, later samples with the layers after it. Returns the
@@ -45,10 +47,10 @@ public:
     void findHidden(const FramePlan& plan);
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer);
-    // Draws alpha-blended and transmitting surfaces, object by object from back to front. `colors` is the render target
-    // and already contains the environment. The background seen through a transmitting surface is a copy of `colors`,
-    // made before its object is drawn. The number of copies is limited: with more transmitting objects, only the
-    // nearest are visible through each other. `objects` must contain all transmitting objects or none.
+    // Draws sorted alpha-blended and transmitting surfaces, object by object from back to front. `colors` is the render
+    // target and already contains the environment. A transmitting surface shows a copy of `colors` made before its
+    // object is drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible
+    // through each other. `objects` must contain all transmitting objects or none.
     void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
                          const ObjectSet& objects = {});
     // Sets whether alpha-blended surfaces add their alpha to the target's alpha. If so, alpha exceeds 1 where they
@@ -59,8 +61,9 @@ public:
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
     // Draws all surfaces as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // Draws front and back faces of all surfaces into shadow map `slot` of each sample.
-    void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
+    // Draws front and back faces of all surfaces into shadow map `slot` of each sample. `tinted`: the maps have a depth
+    // per colour channel.
+    void drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted);
     // Draws all surfaces without depth test and adds each fragment to the target by blending.
     void drawTouched(std::uint32_t first, std::uint32_t count);
     // Draws the environment into pixels without a surface. LayerSum composites environments other than maps when it
@@ -88,6 +91,7 @@ private:
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
         bool blurMoves = false;
+        bool stochasticAlpha = false;
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
@@ -133,7 +137,7 @@ private:
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     bool marksBlended_ = false;
-    std::vector<Draw> translucent_;  // alpha-blended or transmitting; farthest first
+    std::vector<Draw> translucent_;  // sorted alpha-blended or transmitting; farthest first
     std::size_t transmittingObjects_ = 0;
     bool blursBackdrop_ = false;  // true if a transmitting surface is rough
     Backdrop backdrop_;

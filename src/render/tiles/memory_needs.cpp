@@ -70,7 +70,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.rows = {0, plan.view.height};
     const std::uint64_t backdropFactor = plan.usesTransmission ? 2 : 1;
     needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor;
-    needs.layerMaps = shadowMapBytes(plan);
+    needs.layerMaps = shadowMapBytes(*world.scene, plan);
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = limits.wave;
     needs.shared = currentIsSoftware();

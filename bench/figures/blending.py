@@ -1,0 +1,51 @@
+"""Measures the noise of alpha-blended surfaces, sorted and drawn by stochastic transparency.
+
+    scripts/figures blending SCENE … [--before PROGRAM] [--options "--fstop 2"] [--program build/release/defocus]
+
+SCENE is a .gltf or .glb file. For each scene the table has the RMSE of 16, 64 and 256 lens samples against a reference of
+the same program from another seed. With --before, an older program is measured, too, and the last column is the RMSE
+between the two references: the error of an order of surfaces that is wrong.
+"""
+
+import json
+import pathlib
+import tempfile
+
+from figures.command import add_program, executable, parser_of, path, run
+
+COUNTS = (16, 64, 256)
+
+
+def main(words):
+    parser = parser_of("blending", __doc__)
+    parser.add_argument("scenes", nargs="+", metavar="SCENE")
+    parser.add_argument("--before", type=executable, metavar="PROGRAM", help="older program to measure, too")
+    parser.add_argument("--size", default="256x192", metavar="WxH", help="default: 256x192")
+    parser.add_argument("--reference-samples", type=int, default=4096, help="lens samples of the reference (default: 4096)")
+    parser.add_argument("--options", type=str.split, default=[], metavar="TEXT", help="further options of defocus render")
+    add_program(parser)
+    arguments = parser.parse_args(words)
+    programs = ([("before", arguments.before)] if arguments.before else []) + [("now", arguments.program)]
+    print(f"{'scene':24}{'program':>9}" + "".join(f"{f'N = {count}':>10}" for count in COUNTS) + f"{'order':>10}")
+    for scene in arguments.scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            measure(arguments, path(scene), programs, pathlib.Path(folder))
+
+
+def measure(arguments, scene, programs, folder):
+    def render(program, file, *options):
+        run(program, "render", scene, "--size", arguments.size, "--quiet", "--method", "accumulation", "--lod", "off",
+            "--keep-all", *arguments.options, *options, "-o", folder / file)
+
+    def rmse(a, b):
+        return json.loads(run(arguments.program, "compare", folder / a, folder / b, "--json"))["rmse"]
+
+    for name, program in programs:
+        render(program, f"{name}.exr", "--samples", arguments.reference_samples, "--seed", 9)
+        row = f"{pathlib.Path(scene).stem:24}{name:>9}"
+        for count in COUNTS:
+            render(program, "image.exr", "--samples", count)
+            row += f"{rmse(f'{name}.exr', 'image.exr'):10.4f}"
+        if name == "now" and len(programs) > 1:
+            row += f"{rmse('before.exr', 'now.exr'):10.4f}"
+        print(row, flush=True)
