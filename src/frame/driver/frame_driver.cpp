@@ -201,11 +201,12 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
 }
 
 // Returns the samples per wave of a frame that must be able to stop soon: one on a CPU, where a sample may take long.
-// On a GPU, a small number of samples costs little time and doesn't leave it idle. Returns 0, any number, for other
-// frames.
+// On a GPU, a small number of samples costs little time and doesn't leave it idle. Never more than the request's
+// wave. Returns 0, any number, for other frames.
 std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
-    if (!fitOf(order).shortDraws || options_.limits.wave > 0) return 0;
-    return currentIsSoftware() ? 1 : 8;
+    if (!fitOf(order).shortDraws) return 0;
+    const std::uint32_t shortest = currentIsSoftware() ? 1 : 8;
+    return options_.limits.wave > 0 ? std::min(options_.limits.wave, shortest) : shortest;
 }
 
 // Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.
