@@ -23,7 +23,8 @@ function(defocus_library TARGET KIND)
                                                    "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
     target_compile_features(${TARGET} INTERFACE cxx_std_20)
-    set(LIBRARIES OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer OpenMeshCore)
+    set(LIBRARIES OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer OpenMeshCore
+                  ZLIB::ZLIB)
     set(FLAGS PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
     if(KIND STREQUAL "SHARED")  # programs that link the shared library need none of these packages
         list(TRANSFORM LIBRARIES REPLACE "(.+)" "$<BUILD_INTERFACE:$<TARGET_LINKER_FILE:\\1>>")
@@ -63,7 +64,7 @@ function(defocus_install_library TARGET KIND IN_ALL)
     file(RELATIVE_PATH PREFIX_FROM_PC "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
     set(PRIVATE_LIBRARIES "")
     if(KIND STREQUAL "STATIC")
-        set(PRIVATE_LIBRARIES "Requires.private: OpenImageIO fmt tbb draco stb epoxy egl\nLibs.private: -lmeshoptimizer -lOpenMeshCore -pthread\n")
+        set(PRIVATE_LIBRARIES "Requires.private: OpenImageIO fmt tbb draco stb epoxy egl zlib\nLibs.private: -lmeshoptimizer -lOpenMeshCore -pthread\n")
     endif()
     configure_file("${PROJECT_SOURCE_DIR}/cmake/defocus.pc.in" "${GENERATED}/defocus.pc" @ONLY)
     install(FILES "${GENERATED}/defocus.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${RULE})

@@ -25,6 +25,7 @@
 #include "cli/options/request_options.h"
 #include "core/error.h"
 #include "core/message.h"
+#include "core/source_date.h"
 #include "core/suggestion.h"
 #include "frame/program_facts.h"
 
@@ -155,7 +156,38 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     return fmt::format("{}; {}", what, helpHint(program));
 }
 
+// Refuses empty names of files and folders, which may come from an unset variable of a script.
+void refuseEmptyNames(CLI::App& command) {
+    const CLI::Validator notEmpty(
+        [](const std::string& text) {
+            return text.empty() ? std::string("the name is empty; give a file or folder, or leave it out")
+                                : std::string();
+        },
+        "");
+    for (CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+        const std::string type = option->get_type_name();
+        const bool named = type.find("FILE") != std::string::npos || type.find("FOLDER") != std::string::npos;
+        if (named || option->get_name() == "SHOT") option->check(notEmpty);
+    }
+    for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) refuseEmptyNames(*below);
+}
+
+// Returns the message that standard output cannot be written, with the reason; empty if all of it was written.
+std::string outputFault() {
+    std::cout.flush();  // the text of --help or --version
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return {};
+    if (errno == 0) {  // an earlier write failed; one more tells the reason
+        std::clearerr(stdout);
+        std::fputc('\n', stdout);
+        std::fflush(stdout);
+    }
+    return fmt::format("cannot write to standard output{}",
+                       errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "");
+}
+
 int run(int argc, char** argv) {
+    checkSourceDate();
     CLI::App program(
         "Renders glTF scenes with the depth of field of a real lens, from lens samples and levels of detail",
         "defocus");
@@ -199,6 +231,7 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addSettingsCommand(program);
     addCompletionsCommand(program);
     addManCommand(program);
+    refuseEmptyNames(program);
     program.parse_complete_callback([&program, &global] { refuseUnusedShaders(program, global); });
     program.footer(
         "'defocus COMMAND --help' shows the most common options of a command, '--help-all' all of them.\n\n"
@@ -225,16 +258,13 @@ int runProgram(int argc, char** argv) {
     claimClosedOutputs();
     try {
         const int code = run(argc, argv);
-        errno = 0;
-        std::cout.flush();  // flush the text of --help or --version
-        const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
-        const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
-        if (lost && code == 0) return printFault(failed, "cannot write to standard output" + reason);
-        return code;
+        const std::string fault = outputFault();
+        return fault.empty() || code != 0 ? code : printFault(failed, fault);
     } catch (const std::bad_alloc&) {
         return printFault(failed, "out of memory; try a smaller --size or --wave, or a scene with fewer triangles");
     } catch (const std::exception& error) {
-        return printFault(failed, error.what());
+        // fmt::print throws an exception that doesn't name standard output.
+        return printFault(failed, std::ferror(stdout) != 0 ? outputFault() : error.what());
     }
 }
 

@@ -12,6 +12,9 @@ namespace defocus::engine {
 // number from 0 to 253402300799 (the year 9999).
 std::optional<std::time_t> sourceDate();
 
+// Throws Error if SOURCE_DATE_EPOCH is set to another text than such a number.
+void checkSourceDate();
+
 // Formats a time in UTC; `format` is a format string of strftime.
 std::string utcText(std::time_t time, const char* format);
 

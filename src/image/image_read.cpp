@@ -84,12 +84,14 @@ struct OpenImage {
     std::unique_ptr<CheckedMemory> memory;
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
+    bool unchecked = false;  // the pixels must be checked before they are read
 };
 
 OpenImage openImage(std::span<const std::byte> encoded, std::string_view format, const std::string& name) {
     OpenImage image;
     if (format == "png") {
         image.bytes = checkedPng(encoded, name);
+        image.unchecked = true;
     } else {
         if (format == "openexr") checkExrHeader(encoded, encoded.size(), name);
         const auto* first = reinterpret_cast<const unsigned char*>(encoded.data());
@@ -145,6 +147,7 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
 template <typename T>
 std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name, int firstRow,
                             int rowCount) {
+    if (std::exchange(image.unchecked, false)) checkPngPixels(image.bytes, name);
     const int first = *std::ranges::min_element(channels);
     const int end = *std::ranges::max_element(channels) + 1;
     const std::size_t stride = static_cast<std::size_t>(end - first);

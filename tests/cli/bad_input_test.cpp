@@ -420,6 +420,25 @@ TEST_F(BadInput, damagedCopiesOfAModel) {
     }
 }
 
+// An empty name, which may come from an unset variable of a script, is refused instead of being read as a default.
+TEST_F(BadInput, emptyNames) {
+    for (const char* option : {"--environment", "--aperture-image", "--stats", "--cache-dir", "-o"})
+        expectFault(2, "the name is empty; give a file or folder, or leave it out", {option, ""});
+    for (const char* command : {"capture", "merge"}) {
+        const Outcome outcome = run({command, ""});
+        expectOneLine(outcome, 2);
+        EXPECT_NE(outcome.err.find("the name is empty"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(BadInput, malformedSourceDate) {
+    for (const char* date : {"", "yesterday", "-1", "1e9", "99999999999999"}) {
+        ::setenv("SOURCE_DATE_EPOCH", date, 1);
+        expectFault(1, fmt::format("SOURCE_DATE_EPOCH is '{}', not a number", date), {"-o", "a.png"});
+    }
+    ::unsetenv("SOURCE_DATE_EPOCH");
+}
+
 // The program draws the intact triangles of a damaged file and counts the damaged triangles in a warning.
 TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();

@@ -16,7 +16,7 @@
 
 namespace {
 
-const defocus::FuzzTarget* target = nullptr;
+const defocus::engine::FuzzTarget* target = nullptr;
 
 // Max CPU seconds for one input. libFuzzer's own limit (-timeout) measures wall-clock time, which grows on a busy
 // machine.
@@ -27,7 +27,7 @@ constexpr double longestRun = 60;
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     const char* const name = std::getenv("DEFOCUS_FUZZ_TARGET");
     try {
-        target = &defocus::fuzzTargetNamed(name != nullptr ? name : "");
+        target = &defocus::engine::fuzzTargetNamed(name != nullptr ? name : "");
     } catch (const defocus::Error& error) {
         std::fprintf(stderr, "DEFOCUS_FUZZ_TARGET: %s\n", error.what());
         std::exit(2);

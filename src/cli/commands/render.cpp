@@ -168,18 +168,75 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Draws the frame. Parts that go to files are written as soon as they are finished. Returns false if a signal stops it.
-bool draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress, bool keepPartial) {
+// Image of the samples so far, with all that is needed to write it without the driver.
+struct PartialImage {
+    Image image;
+    WriteOptions options;
+    Metadata metadata;
+    std::uint32_t samples = 0;
+    std::uint32_t sampleTotal = 0;
+};
+
+// Returns nullopt if there is nothing to keep; see FrameOutput::partialImage.
+std::optional<PartialImage> partialImage(FrameOutput& output, SceneDriver& driver) {
+    std::optional<Image> image = output.partialImage();
+    if (!image) return {};
     const FrameDriver& frame = driver.driver();
+    return PartialImage{std::move(*image), driver.writeOptions(), driver.metadata(), frame.samples(),
+                        frame.sampleTotal()};
+}
+
+// Writes the image. Returns the message about the stop.
+std::string writePartial(const std::vector<std::filesystem::path>& outputs, const PartialImage& partial) {
+    for (const std::filesystem::path& path : outputs)
+        writeOutput(path, partial.image, partial.metadata, partial.options);
+    return fmt::format("stopped after {} of {} samples: the image of these samples is written", partial.samples,
+                       partial.sampleTotal);
+}
+
+// Keeps a copy of the image of the samples so far, which is written if a signal arrives within a long draw. The copy is
+// renewed twice a second at most, because reading an image takes time; between short draws, the program stops by
+// itself.
+class PartialCopies {
+public:
+    PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)
+        : output_(output), driver_(driver), outputs_(outputs) {}
+
+    void renew() {
+        if (samples_ == driver_.driver().samples() || (samples_ > 0 && millisecondsSince(copied_) < 500)) return;
+        std::optional<PartialImage> partial = partialImage(output_, driver_);
+        if (!partial) return;
+        samples_ = partial->samples;
+        copied_ = Clock::now();
+        const auto copy = std::make_shared<const PartialImage>(std::move(*partial));
+        setStopAction([copy, outputs = outputs_] { return writePartial(outputs, *copy); });
+    }
+
+private:
+    FrameOutput& output_;
+    SceneDriver& driver_;
+    const std::vector<std::filesystem::path>& outputs_;
+    std::uint32_t samples_ = 0;  // of the latest copy
+    Clock::time_point copied_;
+};
+
+// Draws the frame. Parts that go to files are written as soon as they are finished. Returns false if a signal stops it.
+bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, const RenderArguments& arguments) {
+    const FrameDriver& frame = driver.driver();
+    PartialCopies copies(output, driver, arguments.outputs);
     const auto step = [&] {
-        setStopMessage(output.stopMessage());
+        if (arguments.keepPartial && frame.samples() > 0)
+            copies.renew();
+        else
+            setStopMessage(output.stopMessage());
         report(progress, frame.inTiles() ? "rows" : "samples", static_cast<std::uint64_t>(1000 * output.share()), 1000);
     };
-    stopWhenAsked(keepPartial ? StopWithin::currentDraw : StopWithin::aSecond);
+    stopWhenAsked();
     do {
         step();
         if (stopAsked()) return false;
     } while (output.advance());
+    setStopMessage("stopped while the finished image was written; repeat the command");
     return true;
 }
 
@@ -193,14 +250,12 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
 }
 
-// Writes the image of the samples drawn so far if --keep-partial is given. Throws Error with a message about the stop.
-[[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver,
-                             WarningPrinter& warnings) {
-    const std::optional<Image> image = output.partialImage();
-    if (!image) fail("{}", output.stopMessage());
-    writeImages(arguments, *image, driver, warnings);
-    const FrameDriver& frame = driver.driver();
-    fail("stopped after {} of {} samples: the image of these samples is written", frame.samples(), frame.sampleTotal());
+// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+[[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver) {
+    const std::optional<PartialImage> partial = partialImage(output, driver);
+    if (!partial) fail("{}", output.stopMessage());
+    endWithoutSecondThread();
+    fail("{}", writePartial(arguments.outputs, *partial));
 }
 
 void writeAllAovs(const RenderArguments& arguments, SceneDriver& driver, bool quiet) {
@@ -225,9 +280,9 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printCacheUse(driver.frame(), global);
     warnings.print(driver.warnings());
     progress = terminalProgress(global);
-    const bool complete = draw(output, driver, progress, arguments.keepPartial);
+    const bool complete = draw(output, driver, progress, arguments);
     progress = {};
-    if (!complete) endStopped(arguments, output, driver, warnings);
+    if (!complete) endStopped(arguments, output, driver);
     warnings.print(driver.warnings());
 
     if (const std::optional<Image> image = output.finish()) writeImages(arguments, *image, driver, warnings);

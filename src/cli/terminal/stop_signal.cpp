@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -22,14 +23,16 @@ constexpr int stopped = 1;  // exit code
 volatile std::sig_atomic_t asked = 0;
 sem_t wake;  // posted by the signal handler, in which sem_post is safe
 
-std::mutex& messageMutex() {
-    static std::mutex mutex;
-    return mutex;
-}
+// What the second thread does before it ends the process. Never destroyed: the thread may outlive static objects.
+struct End {
+    std::mutex mutex;
+    std::function<std::string()> save = [] { return std::string("stopped"); };
+    bool byOther = false;  // another thread ends the process
+};
 
-std::string& message() {
-    static std::string text = "stopped";
-    return text;
+End& end() {
+    static End& only = *new End;
+    return only;
 }
 
 // Waits for a signal, then ends the process after 0.5 s. The main thread may still be inside a draw, so destructors
@@ -38,23 +41,28 @@ void endWhenAsked() {
     while (sem_wait(&wake) != 0) {
     }
     std::this_thread::sleep_for(patience);
+    const std::scoped_lock lock(end().mutex);
+    if (end().byOther) return;
     removePendingFiles();
-    const std::scoped_lock lock(messageMutex());
+    std::string line;
+    try {
+        line = end().save();
+    } catch (const std::exception& error) {
+        line = error.what();
+    }
     if (isatty(STDERR_FILENO) == 1) writeMessage("\r\x1b[K");  // erase the progress line
-    printMessage("defocus: {}\n", message());
+    printMessage("defocus: {}\n", line);
     ::_exit(stopped);
 }
 
 }  // namespace
 
-void stopWhenAsked(StopWithin within) {
-    if (within == StopWithin::aSecond) {
-        static std::once_flag once;
-        std::call_once(once, [] {
-            sem_init(&wake, 0, 0);
-            std::thread(endWhenAsked).detach();
-        });
-    }
+void stopWhenAsked() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        sem_init(&wake, 0, 0);
+        std::thread(endWhenAsked).detach();
+    });
     struct sigaction action {};
     action.sa_handler = [](int) {
         asked = 1;
@@ -69,9 +77,18 @@ bool stopAsked() {
     return asked != 0;
 }
 
-void setStopMessage(std::string text) {
-    const std::scoped_lock lock(messageMutex());
-    message() = std::move(text);
+void setStopMessage(std::string message) {
+    setStopAction([message = std::move(message)] { return message; });
+}
+
+void setStopAction(std::function<std::string()> save) {
+    const std::scoped_lock lock(end().mutex);
+    end().save = std::move(save);
+}
+
+void endWithoutSecondThread() {
+    const std::scoped_lock lock(end().mutex);
+    end().byOther = true;
 }
 
 }  // namespace defocus::engine

@@ -1,21 +1,24 @@
 #pragma once
 // Handles SIGINT (Ctrl-C) and SIGTERM (sent by Slurm before the end of a job). The first signal asks long work to stop
-// after its current draw; the next one ends the process at once.
+// after its current draw. A second thread ends the process if it still runs 0.5 s later, even within a long draw. The
+// next signal ends the process at once.
 
+#include <functional>
 #include <string>
 
 namespace defocus::engine {
 
-enum class StopWithin {
-    aSecond,      // a second thread ends the process if it still runs after 0.5 s, even within a long draw
-    currentDraw,  // the process ends by itself, after it has saved what is finished
-};
-
-// Installs the handlers.
-void stopWhenAsked(StopWithin within = StopWithin::aSecond);
+// Installs the handlers and starts the second thread.
+void stopWhenAsked();
 // Returns whether a signal has requested a stop.
 bool stopAsked();
 // Sets the line that is printed if the second thread ends the process, such as "stopped: 3 of 9 rows are kept".
 void setStopMessage(std::string message);
+// Sets a function that the second thread calls instead before it ends the process, to save what is finished. The
+// function returns the line to print. It runs while the main thread may be inside a draw.
+void setStopAction(std::function<std::string()> save);
+// Leaves the end of the process to the calling thread, which saves what is finished by itself. Doesn't return if the
+// second thread has begun to end the process.
+void endWithoutSecondThread();
 
 }  // namespace defocus::engine

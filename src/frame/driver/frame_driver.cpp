@@ -200,12 +200,13 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Returns the number of samples per wave for a frame that must be able to stop soon. On a CPU this is 1, because a
-// sample may take long. On a GPU, a few samples take little time and keep the GPU busy. Returns 0 (no limit) for other
-// frames.
+// Returns the number of samples per wave for a frame that must be able to stop soon: on a CPU 1, because a sample may
+// take long; on a GPU a few, which take little time and keep the GPU busy. The result is at most the request's wave.
+// Returns 0 (no limit) for other frames.
 std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
-    if (!fitOf(order).shortDraws || options_.limits.wave > 0) return 0;
-    return currentIsSoftware() ? 1 : 8;
+    if (!fitOf(order).shortDraws) return 0;
+    const std::uint32_t shortest = currentIsSoftware() ? 1 : 8;
+    return options_.limits.wave > 0 ? std::min(options_.limits.wave, shortest) : shortest;
 }
 
 // Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.

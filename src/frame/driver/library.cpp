@@ -127,6 +127,7 @@ std::vector<Pyramid> pyramids(const Request& request, const Progress& progress) 
     const engine::Scene scene = engine::loadScene(request, progress);
     engine::PyramidOptions options;
     options.vertices = request.levelVertices;
+    options.memoryLimit = request.memory.value_or(0);
     const engine::Finishes finishes(scene);
     options.finishes = &finishes;
     const std::vector<engine::Pyramid> built =

@@ -26,6 +26,7 @@
 #include "lens/aperture.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
+#include "lod/pyramid/build_memory.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "scene/built_in_environment.h"
@@ -92,12 +93,14 @@ Lens chosenLens(const Request& request, const Camera& camera, const std::filesys
     return lens;
 }
 
-std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
+std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, PyramidOptions options,
+                                        const Progress& progress) {
+    options.maxLevels = 1;
     std::vector<Pyramid> pyramids(meshes.size());
     std::mutex reporting;
     std::uint64_t done = 0;
-    parallelFor(meshes.size(), [&](std::size_t i) {
-        pyramids[i] = fullDetail(meshes[i]);
+    buildLargestFirst(meshes, options, [&](std::size_t i, const PyramidOptions& within) {
+        pyramids[i] = buildPyramid(meshes[i], within);
         const std::lock_guard lock(reporting);
         report(progress, "meshes", ++done, meshes.size());
     });
@@ -275,6 +278,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     frame.settings = renderSettings(request);
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
+    frame.memoryLimit = request.memory.value_or(0);
     // Pyramids of full detail only are not worth caching.
     if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
@@ -288,10 +292,11 @@ std::filesystem::path pyramidFolder(const Request& request) {
 void addPyramids(PreparedFrame& frame, const Progress& progress) {
     const Clock::time_point begin = Clock::now();
     const std::vector<Mesh>& meshes = frame.scene->meshes;
+    PyramidOptions options;
+    options.memoryLimit = frame.memoryLimit;
     if (frame.settings.lod == LodMode::off) {
-        frame.world.pyramids = fullDetailPyramids(meshes, progress);
+        frame.world.pyramids = fullDetailPyramids(meshes, options, progress);
     } else {
-        PyramidOptions options;
         options.vertices = frame.settings.levelVertices;
         const Finishes finishes(*frame.scene);
         options.finishes = &finishes;

@@ -27,6 +27,7 @@ struct PreparedFrame {
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
+    std::uint64_t memoryLimit = 0;      // max bytes of the process while pyramids are built; 0: no limit
     std::size_t pyramidsLoaded = 0;     // number of pyramids read from the cache
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
@@ -75,7 +76,7 @@ double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 std::filesystem::path pyramidFolder(const Request& request);
 
 // Reads the meshes' pyramids from the cache and builds the missing ones. With LodMode::off, builds pyramids that have
-// full detail only.
+// full detail only. Throws Error if a pyramid doesn't fit into the request's memory limit.
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
 // Calls placeFrame, then addPyramids.

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <mutex>
 #include <new>
-#include <numeric>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -15,7 +14,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/parallel.h"
+#include "lod/pyramid/build_memory.h"
 #include "lod/pyramid/file.h"
 
 namespace defocus::engine {
@@ -131,13 +130,6 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     }
 
     const std::uint64_t triangles = trianglesOf(meshes);
-    // Process the largest mesh first, so that no core is left with a large mesh at the end.
-    std::vector<std::size_t> order(meshes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return meshes[a].triangleCount() > meshes[b].triangleCount();
-    });
-
     result.pyramids.resize(meshes.size());
     PyramidProgress steps(meshes, progress);
     std::mutex mutex;  // protects `result` except for its pyramids
@@ -145,20 +137,20 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
         const std::scoped_lock lock(mutex);
         return result.failure.empty();
     };
-    parallelFor(meshes.size(), [&](std::size_t i) {
-        const Mesh& mesh = meshes[order[i]];
-        Pyramid& pyramid = result.pyramids[order[i]];
+    buildLargestFirst(meshes, options, [&](std::size_t index, const PyramidOptions& within) {
+        const Mesh& mesh = meshes[index];
+        Pyramid& pyramid = result.pyramids[index];
         const bool worthIt = mesh.triangleCount() > options.minTriangles;
         const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
         std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
         const bool found = loaded.has_value();
         pyramid = found ? std::move(*loaded)
-                        : buildPyramid(mesh, options, pyramidHelpers(mesh, triangles),
-                                       [&](double share) { steps.reached(order[i], share); });
+                        : buildPyramid(mesh, within, pyramidHelpers(mesh, triangles),
+                                       [&](double share) { steps.reached(index, share); });
         const std::string failure =
             worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
 
-        steps.reached(order[i], 1);
+        steps.reached(index, 1);
         const std::scoped_lock lock(mutex);
         if (found) ++result.loaded;
         if (result.failure.empty()) result.failure = failure;

@@ -61,7 +61,7 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
     const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, smallestPatch, contrast,
                  repairedFaces, end] = pyramid;
-    const auto& [minTriangles, maxLevels, levelVertices, finishes] = key.options;
+    const auto& [minTriangles, maxLevels, levelVertices, finishes, memoryLimit] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
     header.minTriangles = minTriangles;

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <thread>
 
@@ -14,6 +13,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "lod/pyramid/blurred_error.h"
+#include "lod/pyramid/build_memory.h"
 #include "lod/pyramid/clusters.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
@@ -377,6 +377,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
 
 Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
               const std::function<void(double)>& step) {
+    requireRoomToBuild(mesh, options);
     Pyramid pyramid = assembled(mesh, options, helpers, [&](double share) {
         if (step) step(share);
     });
@@ -464,19 +465,11 @@ std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
                                    const Progress& progress) {
-    // Build the largest pyramid first, so that no core is left with a large mesh at the end.
-    std::vector<std::size_t> order(meshes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return meshes[a].triangleCount() > meshes[b].triangleCount();
-    });
-
     const std::uint64_t all = trianglesOf(meshes);
     std::vector<Pyramid> pyramids(meshes.size());
     PyramidProgress steps(meshes, progress);
-    parallelFor(meshes.size(), [&](std::size_t i) {
-        const std::size_t mesh = order[i];
-        pyramids[mesh] = build(meshes[mesh], options, pyramidHelpers(meshes[mesh], all),
+    buildLargestFirst(meshes, options, [&](std::size_t mesh, const PyramidOptions& within) {
+        pyramids[mesh] = build(meshes[mesh], within, pyramidHelpers(meshes[mesh], all),
                                [&](double share) { steps.reached(mesh, share); });
         steps.reached(mesh, 1);
     });

@@ -120,15 +120,16 @@ struct PyramidOptions {
     int maxLevels = 24;  // max number of levels, including level 0
     LevelVertices vertices = LevelVertices::fitted;
     const Finishes* finishes = nullptr;  // materials of the scene that owns the meshes; null: white and matt
+    std::uint64_t memoryLimit = 0;       // max bytes of the process while pyramids are built; 0: no limit
 };
 
 const char* levelVerticesName(LevelVertices vertices);  // name on the command line
 
 // Builds a mesh's pyramid. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every triangle of the
 // mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws Error if an
-// index is out of range. `helpers` is the number of threads that fit and measure levels while the calling thread
-// collapses edges. `step` receives the completed fraction of the work, in [0, 1], in steps of about 0.01. It is called
-// on the calling thread.
+// index is out of range, and if the memory limit is too low (build_memory.h). `helpers` is the number of threads that
+// fit and measure levels while the calling thread collapses edges. `step` receives the completed fraction of the work,
+// in [0, 1], in steps of about 0.01. It is called on the calling thread.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
                      const std::function<void(double)>& step = {});
 
@@ -157,7 +158,7 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 // mesh's triangles. `all` is the total number of triangles of all meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
-// Builds one pyramid per mesh, on all cores.
+// Builds one pyramid per mesh, in the order of buildLargestFirst (build_memory.h).
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
 

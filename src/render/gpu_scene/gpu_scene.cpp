@@ -251,10 +251,15 @@ const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb, float cutof
     const Texture& source = world_->scene->textures[static_cast<std::size_t>(use.texture)];
     const TextureImage& image = world_->scene->images[static_cast<std::size_t>(source.image)];
     GlTexture& result = entry->second;
-    result = GlTexture({.format = srgb ? TextureFormat::srgb8Alpha8 : TextureFormat::rgba8,
-                        .width = image.width,
-                        .height = image.height,
-                        .levels = source.mipmaps ? mipmapLevels(image.width, image.height) : 1});
+    try {
+        result = GlTexture({.format = srgb ? TextureFormat::srgb8Alpha8 : TextureFormat::rgba8,
+                            .width = image.width,
+                            .height = image.height,
+                            .levels = source.mipmaps ? mipmapLevels(image.width, image.height) : 1});
+    } catch (const Error& error) {
+        fail("texture '{}': {}; use a smaller image",
+             world_->scene->imageNames.at(static_cast<std::size_t>(source.image)), error.what());
+    }
     if (source.mipmaps) {
         result.upload(0, image.width, image.height, cutoff > 0 ? cutOut(image, cutoff).data() : image.rgba.data());
         result.generateMipmaps();

@@ -107,12 +107,12 @@ void checkViews(const Source& source) {
 
 void UnpackBudget::grant(std::uint64_t fileBytes) {
     fileBytes_ += fileBytes;
-    left_ += perFileByte * fileBytes;
+    limit_ += perFileByte * fileBytes;
 }
 
 bool UnpackBudget::take(std::uint64_t count, std::uint64_t elementBytes) {
-    if (elementBytes != 0 && count > left_ / elementBytes) return false;
-    left_ -= count * elementBytes;
+    if (elementBytes != 0 && count > (limit_ - taken_) / elementBytes) return false;
+    taken_ += count * elementBytes;
     return true;
 }
 
@@ -152,8 +152,13 @@ std::span<const std::byte> viewBytes(const Source& source, int view) {
 
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what) {
     if (!source.budget.take(count, elementBytes))
-        fault(source.document, "{}: {} elements are implausible for a file of {} bytes", what, count,
-              source.budget.fileBytes());
+        fault(
+            source.document,
+            "{}: {} elements are implausible for a file of {} bytes, because with them its contents would take {:.3g} "
+            "MiB, and at most {:.3g} MiB are read",
+            what, count, source.budget.fileBytes(),
+            (double(source.budget.taken()) + double(count) * double(elementBytes)) / 0x1p20,
+            double(source.budget.limit()) / 0x1p20);
 }
 
 void grantFile(Source& source, const std::string& uri, const std::string& what) {

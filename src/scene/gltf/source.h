@@ -32,11 +32,14 @@ public:
     // Reserves memory for `count` elements of `elementBytes` each. Returns false if the memory exceeds the remaining
     // limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
+    [[nodiscard]] std::uint64_t limit() const { return limit_; }  // bytes
+    [[nodiscard]] std::uint64_t taken() const { return taken_; }  // bytes reserved so far
 
 private:
     static constexpr std::uint64_t floorBytes = 512ull << 20;
     static constexpr std::uint64_t perFileByte = 256;
-    std::uint64_t left_ = floorBytes;
+    std::uint64_t limit_ = floorBytes;
+    std::uint64_t taken_ = 0;
     std::uint64_t fileBytes_ = 0;
 };
 

@@ -1,0 +1,89 @@
+#include "lod/pyramid/build_memory.h"
+
+#include <algorithm>
+#include <numeric>
+#include <thread>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/memory_limits.h"
+#include "core/number_text.h"
+#include "core/parallel.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Bytes for each triangle and vertex. Fitting and comparing levels take most of it. The images that measure blurred
+// errors (blurred_error.h) have a constant size.
+constexpr std::uint64_t imageBytes = 16u << 20;
+constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
+constexpr std::uint64_t vertexBytes = 60;
+
+std::uint64_t attributeBytes(const Vertices& vertices) {
+    const auto bytesOf = [](const auto&... arrays) { return (... + (arrays.empty() ? 0 : sizeof(arrays.front()))); };
+    return bytesOf(vertices.positions, vertices.normals, vertices.tangents, vertices.uv0, vertices.uv1, vertices.colors,
+                   vertices.joints, vertices.weights, vertices.blurs, vertices.joints1, vertices.weights1);
+}
+
+// Returns the bytes to build a pyramid that has only level 0.
+std::uint64_t fullDetailBytes(const Mesh& mesh) {
+    return mesh.triangleCount() * fullTriangleBytes +
+           mesh.vertices.count() * (vertexBytes + 2 * attributeBytes(mesh.vertices));
+}
+
+// Upper bound on the bytes of a finished pyramid.
+std::uint64_t keptBytes(const Mesh& mesh) {
+    return 2 * fullDetailBytes(mesh);
+}
+
+// Returns whether all pyramids may be built on all cores: the largest meshes at the same time, beside the finished
+// pyramids of the others. `order`: mesh indices, the largest mesh first.
+bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
+                    const PyramidOptions& options) {
+    if (options.memoryLimit == 0) return true;
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    std::uint64_t bytes = residentMemory();
+    for (std::size_t i = 0; i < order.size(); ++i)
+        bytes += i < cores ? bytesToBuild(meshes[order[i]], options) : keptBytes(meshes[order[i]]);
+    return bytes <= options.memoryLimit;
+}
+
+}  // namespace
+
+std::uint64_t bytesToBuild(const Mesh& mesh, const PyramidOptions& options) {
+    const std::uint64_t full = fullDetailBytes(mesh);
+    if (options.maxLevels <= 1 || mesh.triangleCount() <= options.minTriangles) return full;
+    return imageBytes + full + mesh.triangleCount() * (levelTriangleBytes - fullTriangleBytes);
+}
+
+void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
+    if (options.memoryLimit == 0) return;
+    const std::uint64_t needed = bytesToBuild(mesh, options);
+    if (residentMemory() + needed <= options.memoryLimit) return;
+    giveBackFreedMemory();
+    const std::uint64_t held = residentMemory();
+    if (held + needed <= options.memoryLimit) return;
+    fail(
+        "{} of memory are too little for mesh '{}': its {} triangles take up to {}, and the program holds {}; at least "
+        "{} are enough for this mesh{}",
+        bytesText(options.memoryLimit), mesh.name, grouped(mesh.triangleCount()), bytesText(needed), bytesText(held),
+        bytesText(held + needed), options.maxLevels > 1 ? ", and --lod off takes less" : "");
+}
+
+void buildLargestFirst(const std::vector<Mesh>& meshes, const PyramidOptions& options, const BuildOne& build) {
+    std::vector<std::size_t> order(meshes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> triangles(meshes.size());
+    std::ranges::transform(meshes, triangles.begin(), &Mesh::triangleCount);
+    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return triangles[i]; });
+    if (fitsInParallel(meshes, order, options)) {
+        PyramidOptions unlimited = options;
+        unlimited.memoryLimit = 0;
+        parallelFor(order.size(), [&](std::size_t i) { build(order[i], unlimited); });
+    } else {
+        for (const std::size_t mesh : order) build(mesh, options);
+    }
+}
+
+}  // namespace defocus::engine
