@@ -85,6 +85,10 @@ glm::dvec3 colorOf(const nlohmann::json& json, const char* name) {
     return color;
 }
 
+float alphaOf(const nlohmann::json& json) {
+    return json.contains("diffuseFactor") ? toFloat(json["diffuseFactor"][3].get<double>()) : 1.0f;
+}
+
 // Returns the metalness m for diffuse colour d and specular colour s: the solution of b = d·(1 − max s) / ((1 − 0.04)(1
 // − m)) and s = 0.04·(1 − m) + b·m with base colour b, where colours are replaced by their brightness. `left` is 1 −
 // max s. Source: Khronos, "Convert between workflows", KHR_materials_pbrSpecularGlossiness.
@@ -100,27 +104,41 @@ double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double
     return std::clamp((root - b) / (2 * dielectricReflectance), 0.0, 1.0);
 }
 
-// Converts a specular-glossiness material to the closest metallic-roughness material. The conversion is exact if
-// diffuse and specular colours are the same grey, or if the specular colour is 0.04. Materials with a specular texture
-// are treated as dielectrics.
-void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
+// Converts a material with a specular-glossiness texture, without loss (KHR_materials_specular, "Conversion from
+// specular-glossiness"): refractive index 0 stands for a reflectance that equals the specular colour. readTextures
+// replaces the metallic-roughness texture, which is the specular-glossiness texture here.
+void readSpecularGlossinessTexture(Source& source, const nlohmann::json& json, Material& material) {
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
-    glm::dvec3 specular = colorOf(json, "specularFactor");
-    if (json.contains("specularGlossinessTexture")) {
-        ignore(source, "specular-glossiness texture", "not supported; drawn as a dielectric");
-        specular = glm::dvec3(dielectricReflectance);
-    }
+    material.baseColorFactor = glm::vec4(glm::vec3(diffuse), alphaOf(json));
+    material.metallicFactor = 0;
+    material.ior = 0;
+    material.specularColorFactor = glm::vec3(colorOf(json, "specularFactor"));
+    material.specularColor = textureUse(source, json, "specularGlossinessTexture");
+    material.metallicRoughness = material.specularColor;
+}
+
+// Converts a specular-glossiness material without such a texture to the closest metallic-roughness material. The
+// conversion is exact if diffuse and specular colours are the same grey, or if the specular colour is 0.04.
+void readSpecularGlossinessFactors(const nlohmann::json& json, Material& material) {
+    const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
+    const glm::dvec3 specular = colorOf(json, "specularFactor");
     const double left = 1 - std::max({specular.r, specular.g, specular.b});
     const double metalness = metalnessOf(diffuse, specular, left);
     const glm::dvec3 fromDiffuse = diffuse * (left / (1 - dielectricReflectance) / std::max(1 - metalness, minShare));
     const glm::dvec3 fromSpecular =
         (specular - dielectricReflectance * (1 - metalness)) / std::max(metalness, minShare);
     const glm::dvec3 base = glm::clamp(glm::mix(fromDiffuse, fromSpecular, metalness * metalness), 0.0, 1.0);
-    const double alpha = json.contains("diffuseFactor") ? json["diffuseFactor"][3].get<double>() : 1.0;
-    material.baseColorFactor = {toFloat(base.r), toFloat(base.g), toFloat(base.b), toFloat(alpha)};
+    material.baseColorFactor = glm::vec4(glm::vec3(base), alphaOf(json));
     material.metallicFactor = toFloat(metalness);
+}
+
+void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
     material.roughnessFactor = toFloat(1 - std::clamp(json.value("glossinessFactor", 1.0), 0.0, 1.0));
     material.baseColor = textureUse(source, json, "diffuseTexture");
+    if (json.contains("specularGlossinessTexture"))
+        readSpecularGlossinessTexture(source, json, material);
+    else
+        readSpecularGlossinessFactors(json, material);
 }
 
 glm::vec3 colorOf(const nlohmann::json& json, const char* name, const glm::vec3& otherwise) {
@@ -224,7 +242,7 @@ Material readMaterial(Source& source, std::size_t index) {
     material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);
     material.doubleSided = json.value("doubleSided", false);
     material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
-    readReflectance(source, json, material);
+    if (findExtension(json, "KHR_materials_pbrSpecularGlossiness") == nullptr) readReflectance(source, json, material);
     readTransmission(source, json, material);
     readClearcoat(source, json, material);
     readSheen(source, json, material);

@@ -171,8 +171,12 @@ constexpr Property imageProperties[] = {
     nameProperty, {"uri", Kind::string}, {"mimeType", Kind::string}, {"bufferView", Kind::index, "bufferViews"}};
 constexpr Property samplerProperties[] = {
     nameProperty, {"magFilter", Kind::size}, {"minFilter", Kind::size}, {"wrapS", Kind::size}, {"wrapT", Kind::size}};
-constexpr Property textureProperties[] = {
-    nameProperty, {"sampler", Kind::index, "samplers"}, {"source", Kind::index, "images"}};
+constexpr Property webpProperties[] = {{"source", Kind::index, "images"}};
+constexpr Property textureExtensions[] = {object("EXT_texture_webp", webpProperties)};
+constexpr Property textureProperties[] = {nameProperty,
+                                          {"sampler", Kind::index, "samplers"},
+                                          {"source", Kind::index, "images"},
+                                          object("extensions", textureExtensions)};
 
 // ---- hierarchy ----------------------------------------------------------------------------------
 
