@@ -19,7 +19,7 @@
 
 #include "include/shadow_projection.glsl"
 
-layout(binding = 23) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
+layout(binding = 29) uniform sampler2DArray shadowMaps;   // reversed depth; 0: empty
 
 struct Facet {
     vec3 place;     // position in m from the camera along the world's axes

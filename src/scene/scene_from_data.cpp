@@ -134,7 +134,7 @@ Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
     block = compacted(block, lists);
     const std::size_t replaced = repairAttributes(block, lists);
     if (replaced > 0) scene.ignored.push_back(replacedNormalsNote(replaced));
-    append(mesh, withMissingAttributes(std::move(block), lists, normalMapUvSet(mesh.primitives, scene.materials)));
+    append(mesh, withMissingAttributes(std::move(block), lists, tangentUvSet(mesh.primitives, scene.materials)));
     mesh.blurBounds = boundsOf(mesh.vertices.blurs);
     return mesh;
 }

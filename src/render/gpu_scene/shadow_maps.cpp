@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 23;  // as in shaders/include/shadows.glsl
-constexpr GLuint projectionsUnit = 24;
+constexpr GLuint mapsUnit = 29;  // as in shaders/include/shadows.glsl
+constexpr GLuint projectionsUnit = 30;
 constexpr GLint firstSampleLocation = 2;
 constexpr GLint slotLocation = 3;  // as in shaders/shadows/caster.vert
 

@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 22;      // as in shaders/include/transmission.glsl
+constexpr GLuint backdropUnit = 28;      // as in shaders/include/transmission.glsl
 constexpr GLint shadowSlotLocation = 3;  // as in shaders/shadows/caster.vert
 
 struct SampleSpan {

@@ -1,5 +1,6 @@
 // Sources: glTF 2.0 specification, materials (3.9). Extensions: KHR_texture_transform, KHR_materials_unlit,
-// _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _clearcoat and _sheen.
+// _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _dispersion,
+// _diffuse_transmission, _clearcoat, _sheen, _anisotropy and _iridescence.
 #include "scene/gltf/material.h"
 
 #include <fmt/ranges.h>
@@ -197,6 +198,35 @@ void readSheen(Source& source, const nlohmann::json& json, Material& material) {
     material.sheenRoughness = textureUse(source, *sheen, "sheenRoughnessTexture");
 }
 
+void readAnisotropy(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* anisotropy = findExtension(json, "KHR_materials_anisotropy");
+    if (anisotropy == nullptr) return;
+    material.anisotropyStrength = shareOf(*anisotropy, "anisotropyStrength", 0);
+    material.anisotropyRotation = numberOf(*anisotropy, "anisotropyRotation", 0);
+    material.anisotropy = textureUse(source, *anisotropy, "anisotropyTexture");
+}
+
+void readIridescence(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* iridescence = findExtension(json, "KHR_materials_iridescence");
+    if (iridescence == nullptr) return;
+    material.iridescenceFactor = shareOf(*iridescence, "iridescenceFactor", 0);
+    material.iridescenceIor = std::max(numberOf(*iridescence, "iridescenceIor", 1.3), 1.0f);
+    material.iridescenceThicknessMinimum = std::max(numberOf(*iridescence, "iridescenceThicknessMinimum", 100), 0.0f);
+    material.iridescenceThicknessMaximum = std::max(numberOf(*iridescence, "iridescenceThicknessMaximum", 400), 0.0f);
+    material.iridescence = textureUse(source, *iridescence, "iridescenceTexture");
+    material.iridescenceThickness = textureUse(source, *iridescence, "iridescenceThicknessTexture");
+}
+
+void readDiffuseTransmission(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* diffuse = findExtension(json, "KHR_materials_diffuse_transmission");
+    if (diffuse == nullptr) return;
+    material.diffuseTransmissionFactor = shareOf(*diffuse, "diffuseTransmissionFactor", 0);
+    material.diffuseTransmissionColorFactor =
+        glm::min(colorOf(*diffuse, "diffuseTransmissionColorFactor", glm::vec3(1)), 1.0f);
+    material.diffuseTransmission = textureUse(source, *diffuse, "diffuseTransmissionTexture");
+    material.diffuseTransmissionColor = textureUse(source, *diffuse, "diffuseTransmissionColorTexture");
+}
+
 AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::string& label) {
     if (name == "OPAQUE") return AlphaMode::opaque;
     if (name == "MASK") return AlphaMode::mask;
@@ -244,6 +274,11 @@ Material readMaterial(Source& source, std::size_t index) {
     material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
     if (findExtension(json, "KHR_materials_pbrSpecularGlossiness") == nullptr) readReflectance(source, json, material);
     readTransmission(source, json, material);
+    if (const nlohmann::json* dispersion = findExtension(json, "KHR_materials_dispersion"))
+        material.dispersion = std::max(numberOf(*dispersion, "dispersion", 0), 0.0f);
+    readDiffuseTransmission(source, json, material);
+    readAnisotropy(source, json, material);
+    readIridescence(source, json, material);
     readClearcoat(source, json, material);
     readSheen(source, json, material);
     return material;
