@@ -233,11 +233,12 @@ void defineImages(py::module_& package) {
 void defineScenes(py::module_& package) {
     py::class_<OpenScene>(package, "Scene",
                           "A glTF scene that is loaded once for many renders; accepted in place of a path.")
-        .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
+        .def(py::init([](const std::filesystem::path& path, const std::string& variant, const Listener& progress) {
                  const py::gil_scoped_release unlocked;
-                 return OpenScene{defocus::Scene::load(path, listening(progress))};
+                 return OpenScene{defocus::Scene::load(path, listening(progress), variant)};
              }),
-             "path"_a, py::kw_only(), "progress"_a = py::none(), "Reads a .gltf or .glb file.")
+             "path"_a, py::kw_only(), "variant"_a = "", "progress"_a = py::none(),
+             "Reads a .gltf or .glb file, with a variant of its materials if one is named.")
         .def_static(
             "school_of_fish",
             [](int fishCount, int trianglesPerFish, const Listener& progress) {
@@ -253,6 +254,9 @@ void defineScenes(py::module_& package) {
         .def_property_readonly("nodes", [](const OpenScene& scene) { return scene.info.nodes; })
         .def_property_readonly(
             "clips", [](const OpenScene& scene) { return scene.info.clips; }, "Names of the animations.")
+        .def_property_readonly(
+            "variants", [](const OpenScene& scene) { return scene.info.variants; },
+            "Names of the variants of materials.")
         .def_property_readonly(
             "triangles", [](const OpenScene& scene) { return scene.info.triangles; },
             "Number of triangles of all meshes, each mesh counted once.")

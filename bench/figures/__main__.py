@@ -12,6 +12,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "concepts": "draw docs/concepts, the figures of docs/concepts.md",
     "lens": "render bench/results/lens, with the page that shows it",
     "first-pictures": "render docs/first-pictures.jpg",
+    "materials": "render docs/materials.jpg: Khronos' feature models beside the pictures of their authors",
     "artefacts": "render known artefacts of image-space methods for a report",
     "cycles": "compare lit, textured scenes with Blender's Cycles",
     "copies": "write a glTF scene of many copies of another, a load for the benches",

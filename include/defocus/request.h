@@ -45,6 +45,7 @@ struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
     bool strict = false;            // true: missing or damaged parts of the file, such as textures, throw Error
+    std::string variant;            // name of a variant of the file's materials; empty: the default materials
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
@@ -60,6 +61,9 @@ struct Request {
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
     Shadows shadows = Shadows::automatic;
+    // true: adds the light that is reflected several times between the microfacets of rough surfaces. glTF's materials
+    // have single scattering, so rough metals lose light.
+    bool multipleScattering = false;
     std::optional<double> lightAngle;   // angular diameter of directional lights. Default: from each light
     std::optional<double> lightRadius;  // radius of point and spot lights. Default: from each light
 

@@ -23,16 +23,19 @@ struct SceneInfo {
     std::string name;
     std::vector<std::string> cameras;  // empty string for an unnamed camera
     std::vector<std::string> nodes;
-    std::vector<std::string> clips;    // names of animations
-    std::uint64_t triangles = 0;       // sum over all meshes, independent of the number of instances
-    std::vector<std::string> ignored;  // parts of the file that are not drawn, and the reason; one line each
+    std::vector<std::string> clips;     // names of animations
+    std::vector<std::string> variants;  // names of the variants of materials
+    std::uint64_t triangles = 0;        // sum over all meshes, independent of the number of instances
+    std::vector<std::string> ignored;   // parts of the file that are not drawn, and the reason; one line each
 };
 
 // Immutable scene. Copies share their data. Any number of renderers and threads may use a scene concurrently.
 class DEFOCUS_API Scene {
 public:
     // Reads a glTF 2.0 file (.gltf or .glb). Throws Error, with the path in its message, if the file is invalid.
-    static Scene load(const std::filesystem::path& path, const Progress& progress = {});
+    // `variant`: name of a variant of its materials (KHR_materials_variants); empty: the default materials.
+    static Scene load(const std::filesystem::path& path, const Progress& progress = {},
+                      const std::string& variant = {});
     // Returns the built-in school of `fishCount` fish (1 … 10,000) with approximately `trianglesPerFish` triangles each
     // (200 … 10,000,000).
     static Scene schoolOfFish(int fishCount = 20, int trianglesPerFish = 90'000, const Progress& progress = {});

@@ -21,6 +21,7 @@ __all__: List[str]
 
 class Keywords(TypedDict, total=False):
     strict: Optional[bool]
+    variant: Optional[str]
     fish_count: Optional[int]
     triangles_per_fish: Optional[int]
     units: Optional[Union[float, Literal["auto", "m", "cm", "mm"]]]
@@ -36,6 +37,7 @@ class Keywords(TypedDict, total=False):
     ground: Optional[bool]
     hide: Optional[Union[List[str], str]]
     shadows: Optional[Literal["auto", "on", "off"]]
+    multiple_scattering: Optional[bool]
     light_angle: Optional[float]  # degrees
     light_radius: Optional[float]  # m
     camera: Optional[str]
@@ -177,7 +179,7 @@ class Statistics(NamedTuple):
     estimated_error: Optional[float]
 
 class Scene:
-    def __init__(self, path: Path, *, progress: Optional[Progress] = None) -> None: ...
+    def __init__(self, path: Path, *, variant: str = "", progress: Optional[Progress] = None) -> None: ...
     @staticmethod
     def school_of_fish(
         fish_count: int = 20, triangles_per_fish: int = 90_000, *, progress: Optional[Progress] = None
@@ -188,6 +190,8 @@ class Scene:
     def cameras(self) -> List[str]: ...
     @property
     def nodes(self) -> List[str]: ...
+    @property
+    def variants(self) -> List[str]: ...
     @property
     def clips(self) -> List[str]: ...
     @property

@@ -31,8 +31,11 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
     vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without the factor w: specularFactor
     vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
-    vec4 absorption;      // rgb: absorption coefficient (1/m)
-    vec4 coat;            // clear coat: coated fraction, roughness, normal scale
+    vec4 absorption;      // rgb: absorption coefficient (1/m); w: dispersion, 20 / Abbe number
+    vec4 coat;            // coated fraction, roughness, normal scale
     vec4 sheen;           // rgb: colour; w: roughness
-    vec4 uvRows[28];      // per texture: two rows of a 2×3 matrix; w of the first row: number of the UV set
+    vec4 anisotropy;      // strength; cosine and sine of the rotation
+    vec4 film;            // iridescence: factor, ior, min and max thickness (nm)
+    vec4 through;         // diffuse transmission: rgb colour; w: factor
+    vec4 uvRows[38];      // per texture: two rows of a 2×3 matrix; w of the first row: number of the UV set
 } material;

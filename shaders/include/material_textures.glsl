@@ -18,6 +18,11 @@ const ivec2 clearcoatRoughnessTexture = ivec2(textureUnits[10], 10);
 const ivec2 clearcoatNormalTexture = ivec2(textureUnits[11], 11);
 const ivec2 sheenColorTexture = ivec2(textureUnits[12], 12);
 const ivec2 sheenRoughnessTexture = ivec2(textureUnits[13], 13);
+const ivec2 anisotropyTexture = ivec2(textureUnits[14], 14);
+const ivec2 iridescenceTexture = ivec2(textureUnits[15], 15);
+const ivec2 iridescenceThicknessTexture = ivec2(textureUnits[16], 16);
+const ivec2 diffuseTransmissionTexture = ivec2(textureUnits[17], 17);
+const ivec2 diffuseTransmissionColorTexture = ivec2(textureUnits[18], 18);
 
 // Returns the texture coordinates of texture slot `slot`. `uvSets` holds both UV sets of the surface.
 vec2 uvOf(int slot, vec4 uvSets) {

@@ -21,7 +21,7 @@ layout(std140, binding = 6) uniform WaveBlock {
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
-layout(binding = 27) uniform sampler2D specularAlbedos;
+layout(binding = 33) uniform sampler2D specularAlbedos;
 
 // Returns the index within the frame of the lens sample that is shaded. Each including shader defines this function.
 float sampleNumber();
@@ -48,7 +48,17 @@ struct SurfacePoint {
     float coat;           // coated fraction of the surface
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit vector
-    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
+    // The next four members are set only if anisotropic.
+    vec3 stretch;         // unit vector along the surface in which highlights are stretched
+    vec3 across;          // unit vector along the surface, perpendicular to `stretch`
+    vec2 widths;          // α along `stretch` and `across`
+    vec3 mirror;          // normal at which the environment is mirrored
+    // The next three members are set only if iridescent.
+    float iridescence;    // fraction of the surface with a film
+    float film;           // thickness (nm)
+    vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
+    vec3 through;         // albedo of the diffuse light from behind; only if diffusesThrough
+    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
 };
 
 vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
@@ -60,6 +70,10 @@ struct LightSums {
     vec3 grazing;         // Σ E·(n·l)·D·V·g
     vec3 matt;            // Σ E·(n·l) / π
     vec3 sheen;           // Σ E·(n·l)·D·V of the sheen lobe
+    // The next two sums are for iridescent surfaces. F: the film's reflectance at v·h.
+    vec3 film;            // Σ E·(n·l)·D·V·F
+    vec3 beneathFilm;     // Σ E·(n·l)·(1 − max F) / π
+    vec3 behind;          // Σ E·max(−n·l, 0) / π; only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
@@ -158,6 +172,11 @@ float unmasked(float nl, float nv, float width2) {
     return nl / max(masking, 1e-4);
 }
 
+#include "include/anisotropy.glsl"
+#include "include/iridescence.glsl"
+
+float strongest(vec3 color) { return max(color.r, max(color.g, color.b)); }
+
 // Adds a light from the unit direction `toLight` to the sums; `illuminance` is divided by π. The half vector h occurs
 // only in cosines: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
 void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec3 toLight, vec3 illuminance) {
@@ -174,6 +193,8 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float width2 = lobe.width * lobe.width;
     float reflected = mix(ggx * unmasked(cosine, nv, width2), beckmann * unmasked(vh, lobe.shown + lobe.shownOfH * vh, width2), lobe.spread);
     float specular = 0.5 * sum2 * sum2 * reflected;
+    if (anisotropic && point.widths.x > 0.0)
+        specular = anisotropicReflection(point, cosine, nv, max(alpha2 - width2, 0.0), toLight);
     float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
@@ -183,6 +204,13 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     vec3 received = illuminance * specular;
     sums.specular += received;
     sums.grazing += received * g;
+    if (iridescent && point.iridescence > 0.0) {
+        vec3 reflectance = filmReflectance(vh, point.specular, material.film.y, point.film);
+        sums.film += received * reflectance;
+        sums.beneathFilm += illuminance * (matt * (1.0 - strongest(reflectance)));
+    }
+    if (diffusesThrough)
+        sums.behind += illuminance * (coarseLevel ? meanCosine(-dot(point.seen, toLight), cosine, point.spread) : max(-cosine, 0.0));
 }
 
 // Returns the illuminance over π of a point or spot light at `position` (KHR_lights_punctual), and sets the unit vector
@@ -206,20 +234,39 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // Returns the normal for diffuse lighting by the environment.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the directional albedo of the specular part: the fraction of a white environment that it reflects.
-vec3 specularAlbedo(SurfacePoint point, float nv) {
+// Returns the fraction of a white environment that the specular part reflects, as factors of F0 and F90.
+vec2 specularAlbedos2(SurfacePoint point, float nv) {
+    float roughness = anisotropic && point.widths.x > 0.0 ? isotropicRoughness(point) : point.roughness;
     vec2 size = vec2(textureSize(specularAlbedos, 0));
-    vec2 place = (vec2(sqrt(nv), point.roughness) * (size - 1.0) + 0.5) / size;
-    vec2 albedo = textureLod(specularAlbedos, place, 0.0).xy;
+    vec2 place = (vec2(sqrt(nv), roughness) * (size - 1.0) + 0.5) / size;
+    return textureLod(specularAlbedos, place, 0.0).xy;
+}
+
+// Returns F0, with the film of an iridescent surface.
+vec3 reflectanceOf(SurfacePoint point) {
+    return iridescent ? mix(point.specular, point.filmBase, point.iridescence) : point.specular;
+}
+
+// Returns the factor on single scattering that accounts for the light that is reflected several times (Turquin 2019,
+// Practical Multiple Scattering Compensation for Microfacet Models). `albedo`: specularAlbedos2(…).
+vec3 severalReflections(vec3 specular, vec2 albedo) {
+    return 1.0 + specular * (1.0 / max(albedo.x + albedo.y, 0.1) - 1.0);
+}
+
+// Returns the fraction of a white environment that the specular part reflects.
+vec3 specularAlbedo(SurfacePoint point, float nv) {
+    vec2 albedo = specularAlbedos2(point, nv);
+    vec3 several = multipleScattering ? severalReflections(reflectanceOf(point), albedo) : vec3(1.0);
     if (ownReflectance) albedo.y *= point.grazing;
-    return point.specular * albedo.x + albedo.y;
+    vec3 reflected = reflectanceOf(point) * albedo.x + albedo.y;
+    return multipleScattering ? reflected * several : reflected;
 }
 
 // Returns the fraction of light left for the layers beneath a layer that reflects `reflected`. For coloured
 // reflections, the strongest channel is used, so that the layers beneath don't get the complementary colour
 // (KHR_materials_specular).
 vec3 remaining(vec3 reflected) {
-    return ownReflectance ? vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b))) : 1.0 - reflected;
+    return ownReflectance || iridescent ? vec3(1.0 - strongest(reflected)) : 1.0 - reflected;
 }
 
 #include "include/sheen.glsl"
@@ -229,26 +276,31 @@ vec3 remaining(vec3 reflected) {
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
     if (environmentType == 0) return vec3(0.0);
     vec3 diffuse;
+    vec3 behind;
     vec3 reflection;
     if (environmentType == 3) {
         diffuse = environmentDiffuse(mattNormal(point));
+        if (diffusesThrough) behind = environmentDiffuse(-mattNormal(point));
         float width = point.roughness * point.roughness;
         float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
-        reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * environmentLevels);
+        reflection = environmentRadiance(reflect(-point.toEye, anisotropic ? point.mirror : point.normal), roughness * environmentLevels);
     } else if (environmentType == 2) {
         // A gradient depends only on the height (y) of a direction, here of the mirrored direction 2 (n·v) n − v. The
         // spread of the normals scales the mean height of mirrored directions by 1 − 2·spread. Diffuse reflection
         // scales the height by 2/3; mixing in 6·spread of the diffuse light therefore has the same mean height.
-        float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
+        float mirroredHeight = anisotropic ? reflect(-point.toEye, point.mirror).y : 2.0 * nv * point.normal.y - point.toEye.y;
         diffuse = gradientDiffuse(mattNormal(point).y);
+        if (diffusesThrough) behind = gradientDiffuse(-mattNormal(point).y);
         reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
     } else {
         diffuse = lighting.environment[0].rgb;
         reflection = diffuse;
+        behind = diffuse;
     }
     if (shadowed) diffuse -= point.hidden;
     vec3 specular = specularAlbedo(point, nv);
     vec3 light = point.diffuse * remaining(specular) * diffuse + specular * reflection;
+    if (diffusesThrough) light += point.through * remaining(specular) * behind;
     if (sheen) {
         float sheenShare = sheenAlbedo(nv, point.sheenRoughness);
         light = light * sheenRemaining(point, sheenShare) + point.sheen * sheenShare * diffuse;
@@ -262,7 +314,7 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
     float spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, nv, spread);
-    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     float sheenToEye = sheen ? sheenAlbedo(max(nv, 0.0), point.sheenRoughness) : 0.0;
     for (int i = 0; i < lightCount; ++i) {
         vec3 toLight = -lighting.lights[i].directionType.xyz;
@@ -282,9 +334,14 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     if (ownReflectance) {
         // Schlick: F = F0 + (F90 − F0)·g with g = (1 − cos θ)⁵, so 1 − F = (1 − F90) + (F90 − F0)·(1 − g).
         specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
-        float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
-        diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);
+        diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest(point.specular)) * sums.diffuse);
     }
+    if (iridescent) {
+        specular = mix(specular, sums.film, point.iridescence);
+        diffuse = mix(diffuse, point.diffuse * sums.beneathFilm, point.iridescence);
+    }
+    if (diffusesThrough) diffuse += point.through * remaining(specularAlbedo(point, max(nv, 0.0))) * sums.behind;
+    if (multipleScattering) specular *= severalReflections(reflectanceOf(point), specularAlbedos2(point, max(nv, 0.0)));
     vec3 radiance = diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
     if (transmissive) {
         vec3 transmitted = point.transmitted * remaining(specularAlbedo(point, max(nv, 0.0)));
@@ -308,6 +365,10 @@ vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
     coat.grazing = 1.0;
     coat.transmitted = vec3(0.0);
     coat.sheen = vec3(0.0);
+    coat.widths = vec2(0.0);
+    coat.mirror = coat.normal;
+    coat.iridescence = 0.0;
+    coat.through = vec3(0.0);
     vec3 share = point.coat * specularAlbedo(coat, max(dot(coat.normal, coat.toEye), 0.0));
     return uncoatedRadiance(point, position, occlusion) * (1.0 - share) + point.coat * uncoatedRadiance(coat, position, occlusion);
 }

@@ -1,7 +1,7 @@
 // Projection of shadow maps, for drawing and reading; see src/plan/visible/shadows.h. shadowMapCount: number of maps
 // for one point on each light; shadowPoints: number of points on each light.
 
-layout(binding = 24) uniform samplerBuffer shadowProjections;
+layout(binding = 30) uniform samplerBuffer shadowProjections;
 layout(location = 2) uniform int firstShadowSample;   // number of the lens sample of layer 0
 
 int shadowTexel(int layer, int slot) {

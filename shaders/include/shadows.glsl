@@ -20,7 +20,7 @@
 #include "include/shadow_projection.glsl"
 
 // Reversed depth; 0: empty. With tintedShadows, one channel per colour.
-layout(binding = 23) uniform sampler2DArray shadowMaps;
+layout(binding = 29) uniform sampler2DArray shadowMaps;
 
 struct Facet {
     vec3 place;     // position in m from the camera along the world's axes

@@ -48,6 +48,43 @@ void addSheen(inout SurfacePoint point) {
     point.sheenRoughness = material.sheen.w * materialTexel(sheenRoughnessTexture).a;
 }
 
+// Sets the direction and the widths of stretched highlights (KHR_materials_anisotropy).
+void addAnisotropy(inout SurfacePoint point) {
+    vec2 direction = vec2(1.0, 0.0);
+    float strength = material.anisotropy.x;
+    if (anisotropyTexture.x >= 0) {
+        vec3 texel = materialTexel(anisotropyTexture).xyz;
+        direction = 2.0 * texel.xy - 1.0;
+        strength *= texel.z;
+    }
+    direction = mat2(material.anisotropy.yz, vec2(-material.anisotropy.z, material.anisotropy.y)) * direction;
+    vec3 tangent = surface.tangent.xyz - point.normal * dot(point.normal, surface.tangent.xyz);
+    vec3 bitangent = cross(point.normal, tangent) * surface.tangent.w;
+    vec3 stretch = direction.x * tangent + direction.y * bitangent;
+    float width = point.roughness * point.roughness;
+    float length2 = dot(stretch, stretch);
+    if (length2 < 1e-12) strength = 0.0;
+    point.stretch = length2 < 1e-12 ? vec3(0.0) : stretch * inversesqrt(length2);
+    point.across = cross(point.normal, point.stretch);
+    point.widths = max(vec2(mix(width, 1.0, strength * strength), width), 1e-3);
+    point.mirror = strength > 0.0 ? stretchedNormal(point, strength) : point.normal;
+}
+
+// Sets the film of an iridescent surface. F0 must be set.
+void addFilm(inout SurfacePoint point) {
+    point.iridescence = material.film.x * materialTexel(iridescenceTexture).r;
+    point.film = mix(material.film.z, material.film.w, materialTexel(iridescenceThicknessTexture).g);
+    float cosine = max(dot(point.normal, point.toEye), 0.0);
+    point.filmBase = schlickBase(filmReflectance(cosine, point.specular, material.film.y, point.film), cosine);
+}
+
+// Moves a part of the diffuse light to light from behind (KHR_materials_diffuse_transmission).
+void addDiffuseTransmission(inout SurfacePoint point, float metallic) {
+    float share = material.through.w * materialTexel(diffuseTransmissionTexture).a;
+    point.through = (1.0 - metallic) * share * material.through.rgb * materialTexel(diffuseTransmissionColorTexture).rgb;
+    point.diffuse *= 1.0 - share;
+}
+
 float surfaceCoverage = 1.0;   // alpha of the surface over a transparent background
 
 #ifdef TRANSMISSIVE
@@ -87,6 +124,9 @@ vec3 shaded(vec3 baseColor) {
         point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
     }
     if (ownReflectance) addReflectance(point, baseColor, metallic);
+    if (anisotropic) addAnisotropy(point);
+    if (iridescent) addFilm(point);
+    if (diffusesThrough) addDiffuseTransmission(point, metallic);
     if (clearcoat) addCoat(point, normal);
     if (sheen) addSheen(point);
     addShadows(point, surface.position);

@@ -3,7 +3,7 @@
 #include "include/transmittance.glsl"
 
 // Copy of all layers from before this object was drawn: the background seen through the object.
-layout(binding = 22) uniform sampler2DArray backdrop;
+layout(binding = 28) uniform sampler2DArray backdrop;
 
 vec2 ndcThroughLens(vec3 viewPosition) {
     vec4 clip = throughLens(pinholePosition(viewPosition), vec2(1.0, 0.0), vec4(surface.lens, 0.0, 0.0));
@@ -31,9 +31,20 @@ vec4 seenBehind(vec3 offset, float roughness) {
 // straight behind the wall is visible. Through a volume, the background at the end of the refracted ray is visible.
 void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
     float share = transmittedShare(metallic);
+    if (diffusesThrough) point.through *= 1.0 - share;
     vec3 way = volumeThickness() * refract(-point.toEye, point.normal, material.transmission.z);
     vec4 behind = seenBehind(way, point.roughness * material.transmission.w);
     vec3 tint = transmittedTint(baseColor, length(way));
+    if (dispersive) {
+        // Red and blue have the refractive indices n ∓ (n − 1)·dispersion/40 (KHR_materials_dispersion).
+        float n = 1.0 / material.transmission.z;
+        for (int channel = 0; channel < 3; channel += 2) {
+            float ior = n + float(channel - 1) * 0.025 * (n - 1.0) * material.absorption.w;
+            vec3 ofChannel = volumeThickness() * refract(-point.toEye, point.normal, 1.0 / max(ior, 1.0));
+            behind[channel] = seenBehind(ofChannel, point.roughness * material.transmission.w)[channel];
+            tint[channel] = transmittedTint(baseColor, length(ofChannel))[channel];
+        }
+    }
     point.diffuse *= 1.0 - share;
     point.transmitted = share * tint * behind.rgb;
     surfaceCoverage = 1.0 - share * (1.0 - behind.a) * max(tint.r, max(tint.g, tint.b));

@@ -5,7 +5,7 @@
 #include "include/surface_light.glsl"
 
 // surfaceOut of the previous layer; its w is 0 before the first layer, and < 0 if the previous layer has no surface.
-layout(binding = 25) uniform sampler2DArray frontLayer;
+layout(binding = 31) uniform sampler2DArray frontLayer;
 
 // Signed blur (px) of the surface in this pixel, the blur's change per pixel to the right and up, and reversed depth.
 layout(location = 1) out vec4 surfaceOut;

@@ -33,6 +33,7 @@ RenderSettings renderSettings(const Request& request) {
     settings.levelVertices = request.levelVertices;
     settings.thresholds = givenThresholds(request);
     settings.shadows = request.shadows;
+    settings.multipleScattering = request.multipleScattering;
     settings.cocTolerance = request.cocTolerance;
     settings.keepAll = request.keepAll;
     return settings;

@@ -25,7 +25,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
-    {"float", "environmentLighting", "1.0"},  // factor on the environment's lighting of surfaces
+    {"float", "environmentLighting", "1.0"},  // scale of the environment's light on surfaces
+    {"bool", "multipleScattering", "false"},
     {"int", "lightCount", "0"},
     {"int", "maxLights", "1"},         // length of the lights' uniform arrays
     {"bool", "usesOwnBlur", "false"},  // surfaces have blur modifiers
@@ -43,6 +44,10 @@ constexpr ShaderConstant constants[] = {
     {"bool", "ownReflectance", "false"},
     {"bool", "clearcoat", "false"},
     {"bool", "sheen", "false"},
+    {"bool", "anisotropic", "false"},
+    {"bool", "iridescent", "false"},
+    {"bool", "dispersive", "false"},
+    {"bool", "diffusesThrough", "false"},  // KHR_materials_diffuse_transmission
     {"bool", "emissive", "false"},
     {"bool", "localLights", "false"},
     {"bool", "doubleSided", "false"},
@@ -55,7 +60,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "levelColorRange", "false"},
     {"bool", "uvTransforms", "false"},
     {"int", "textureCount", "1"},
-    {"int[14]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
+    {"int[19]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
     {"bool", "coarseShare", "false"},                       // blend of two levels: draws the coarser level's pixels
     {"bool", "fineShare", "false"},                         // blend of two levels: draws the finer level's pixels

@@ -74,8 +74,8 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
 // Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);
 
-// Decodes a PNG or JPEG in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error messages.
-// `take` is called with the pixel count before memory is allocated; it may throw.
+// Decodes a PNG, JPEG or WebP in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error
+// messages. `take` is called with the pixel count before memory is allocated; it may throw.
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
                            const std::function<void(std::uint64_t pixels)>& take = {});
 

@@ -50,10 +50,11 @@ constexpr std::array<Format, 7> formats = {{
 }};
 
 std::optional<std::string_view> formatOf(std::span<const std::byte> encoded) {
+    const std::string_view begin(reinterpret_cast<const char*>(encoded.data()),
+                                 std::min<std::size_t>(encoded.size(), 16));
     for (const Format& format : formats)
-        if (encoded.size() >= format.magic.size() &&
-            std::memcmp(encoded.data(), format.magic.data(), format.magic.size()) == 0)
-            return format.name;
+        if (begin.starts_with(format.magic)) return format.name;
+    if (begin.starts_with("RIFF") && begin.size() >= 12 && begin.substr(8, 4) == "WEBP") return "webp";
     return std::nullopt;
 }
 
@@ -197,6 +198,16 @@ void linearise(Image& image, bool encoded, bool straightAlpha) {
     });
 }
 
+// Divides colours by alpha. OpenImageIO 2.4 premultiplies WebP images despite the request for straight alpha.
+void straighten(TextureImage& image) {
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const int alpha = image.rgba[i + 3];
+        if (alpha == 0 || alpha == 255) continue;
+        for (std::size_t c = i; c < i + 3; ++c)
+            image.rgba[c] = static_cast<std::uint8_t>(std::min((image.rgba[c] * 255 + alpha / 2) / alpha, 255));
+    }
+}
+
 // Opened image file whose rows are read as linear, premultiplied colours.
 class ColourFile {
 public:
@@ -204,7 +215,7 @@ public:
         const std::vector<std::byte> encoded = readFile(path);
         if (encoded.empty()) fail("cannot read {}: the file is empty", name_);
         const auto format = formatOf(encoded);
-        if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name_);
+        if (!format) fail("{}: not an image in a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)", name_);
         file_ = openImage(encoded, *format, name_);
         channels_ = colourChannels(file_.spec, name_);
     }
@@ -340,7 +351,7 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
                            const std::function<void(std::uint64_t pixels)>& take) {
     const auto format = formatOf(encoded);
-    if (format != "png" && format != "jpeg") fail("{}: neither a PNG nor a JPEG image", name);
+    if (format != "png" && format != "jpeg" && format != "webp") fail("{}: not a PNG, JPEG or WebP image", name);
     OpenImage file = openImage(encoded, *format, name);
     if (take) take(std::uint64_t(file.spec.width) * std::uint64_t(file.spec.height));
     std::vector<int> channels = colourChannels(file.spec, name);
@@ -352,6 +363,7 @@ TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string
     texture.rgba.assign(pixels * 4, 255);
     for (std::size_t i = 0; i < pixels; ++i)
         std::copy_n(values.data() + i * channels.size(), channels.size(), texture.rgba.data() + i * 4);
+    if (format == "webp") straighten(texture);
     return texture;
 }
 

@@ -25,8 +25,9 @@ struct RenderSettings {
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds = {};
     Shadows shadows = Shadows::automatic;
-    double cocTolerance = 0.5;  // px, > 0: max error of a circle of confusion that is interpolated inside a triangle
-    bool keepAll = false;       // disables culling; the image stays the same
+    bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
+    double cocTolerance = 0.5;        // px, maximum error of interpolating C inside a triangle, > 0
+    bool keepAll = false;             // disables culling; the image stays the same
 };
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

@@ -93,20 +93,21 @@ Ignored replacedNormalsNote(std::size_t count) {
     return {"vertex normals", "zero length, NaN or infinite; replaced by the average of the adjacent faces", count};
 }
 
-int normalMapUvSet(std::span<const Primitive> primitives, std::span<const Material> materials) {
+int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials) {
     for (const Primitive& primitive : primitives) {
         if (primitive.material < 0) continue;
         const Material& material = materials[static_cast<std::size_t>(primitive.material)];
-        for (const TextureUse* use : {&material.normal, &material.clearcoatNormal})
+        for (const TextureUse* use : {&material.normal, &material.clearcoatNormal, &material.anisotropy})
             if (use->used()) return use->uvSet;
+        if (material.isAnisotropic()) return 0;
     }
     return -1;
 }
 
 VertexBlock withMissingAttributes(VertexBlock block, std::span<std::vector<std::uint32_t>* const> indices,
-                                  int normalMapUvs) {
+                                  int tangentUvs) {
     if (block.vertices.normals.empty()) block = flatShaded(block, indices);
-    if (normalMapUvs >= 0 && block.vertices.tangents.empty()) block = withTangents(block, indices, normalMapUvs);
+    if (tangentUvs >= 0 && block.vertices.tangents.empty()) block = withTangents(block, indices, tangentUvs);
     return block;
 }
 

@@ -20,13 +20,14 @@ std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint
 // Returns the note for users about `count` normals that repairAttributes replaced.
 Ignored replacedNormalsNote(std::size_t count);
 
-// Returns the texture coordinate set of the first normal map among the primitives; −1 without normal maps.
-int normalMapUvSet(std::span<const Primitive> primitives, std::span<const Material> materials);
+// Returns the texture coordinate set along which the first normal map or anisotropic material of the primitives needs
+// tangents; −1 without such a material.
+int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials);
 
-// Adds flat normals if normals are missing, as glTF requires. Adds missing tangents for a normal map that uses the
-// texture coordinate set `normalMapUvs` (0 or 1; −1: no normal map). Updates `indices`.
+// Adds flat normals if normals are missing, as glTF requires. Adds missing tangents along the texture
+// coordinate set `tangentUvs` (0 or 1; −1: no tangents). Updates `indices`.
 VertexBlock withMissingAttributes(VertexBlock block, std::span<std::vector<std::uint32_t>* const> indices,
-                                  int normalMapUvs);
+                                  int tangentUvs);
 
 // Returns the label of the first node or object with a non-finite world matrix, such as "node 'Door'"; empty if all are
 // finite. Finite local matrices can multiply to infinity.

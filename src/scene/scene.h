@@ -92,6 +92,29 @@ struct Material {
     TextureUse sheenColor;      // sRGB-encoded
     TextureUse sheenRoughness;  // linear; uses A
 
+    // KHR_materials_anisotropy. The rotation turns the direction of stretched highlights, counter-clockwise from the
+    // tangent.
+    float anisotropyStrength = 0.0f;
+    float anisotropyRotation = 0.0f;  // rad
+    TextureUse anisotropy;            // linear; direction in RG, strength in B
+
+    // KHR_materials_iridescence: a thin film on the surface.
+    float iridescenceFactor = 0.0f;
+    float iridescenceIor = 1.3f;                 // ≥ 1
+    float iridescenceThicknessMinimum = 100.0f;  // nm
+    float iridescenceThicknessMaximum = 400.0f;  // nm; also the thickness without a texture
+    TextureUse iridescence;                      // linear; uses R
+    TextureUse iridescenceThickness;             // linear; uses G
+
+    // KHR_materials_dispersion: 20 divided by the Abbe number; 0: none.
+    float dispersion = 0.0f;
+
+    // KHR_materials_diffuse_transmission.
+    float diffuseTransmissionFactor = 0.0f;
+    glm::vec3 diffuseTransmissionColorFactor{1.0f};
+    TextureUse diffuseTransmission;       // linear; uses A
+    TextureUse diffuseTransmissionColor;  // sRGB-encoded
+
     // Returns whether surfaces behind this material are visible through it by transmission.
     [[nodiscard]] bool transmits() const { return !unlit && transmissionFactor > 0; }
     // Returns whether the dielectric reflectance may differ from glTF's default of 4 %.
@@ -100,17 +123,37 @@ struct Material {
                           specular.used() || specularColor.used());
     }
     [[nodiscard]] bool hasClearcoat() const { return !unlit && clearcoatFactor > 0; }
+    [[nodiscard]] bool isAnisotropic() const { return !unlit && anisotropyStrength > 0; }
+    [[nodiscard]] bool isIridescent() const { return !unlit && iridescenceFactor > 0; }
+    [[nodiscard]] bool isDispersive() const { return transmits() && dispersion > 0 && thicknessFactor > 0; }
+    [[nodiscard]] bool transmitsDiffusely() const { return !unlit && diffuseTransmissionFactor > 0; }
     [[nodiscard]] bool hasSheen() const { return !unlit && sheenColorFactor != glm::vec3(0); }
 };
 
-inline constexpr std::size_t materialTextureCount = 14;
+inline constexpr std::size_t materialTextureCount = 19;
 
 // Returns pointers to all textures of a material (const or not) in the order of the texture slots in
 // shaders/include/material_textures.glsl.
 auto textureUses(auto& m) -> std::array<decltype(&m.baseColor), materialTextureCount> {
-    return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
-            &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,
-            &m.clearcoatRoughness, &m.clearcoatNormal,   &m.sheenColor,   &m.sheenRoughness};
+    return {&m.baseColor,
+            &m.metallicRoughness,
+            &m.normal,
+            &m.occlusion,
+            &m.emissive,
+            &m.specular,
+            &m.specularColor,
+            &m.transmission,
+            &m.thickness,
+            &m.clearcoat,
+            &m.clearcoatRoughness,
+            &m.clearcoatNormal,
+            &m.sheenColor,
+            &m.sheenRoughness,
+            &m.anisotropy,
+            &m.iridescence,
+            &m.iridescenceThickness,
+            &m.diffuseTransmission,
+            &m.diffuseTransmissionColor};
 }
 
 // ---- lights and environment ---------------------------------------------------------------------
@@ -229,6 +272,8 @@ struct Scene {
     std::optional<Environment> environment;  // nullopt: see environmentOrDefault
     double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
     std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
+    std::vector<std::string> variants;       // names of the variants of materials (KHR_materials_variants)
+    std::string variant;                     // chosen variant; empty: the default materials
     std::vector<std::string> extensions;     // glTF extensions that the file uses, sorted
     std::vector<Ignored> ignored;
 };

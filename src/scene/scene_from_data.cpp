@@ -134,7 +134,7 @@ Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
     block = compacted(block, lists);
     const std::size_t replaced = repairAttributes(block, lists);
     if (replaced > 0) scene.ignored.push_back(replacedNormalsNote(replaced));
-    append(mesh, withMissingAttributes(std::move(block), lists, normalMapUvSet(mesh.primitives, scene.materials)));
+    append(mesh, withMissingAttributes(std::move(block), lists, tangentUvSet(mesh.primitives, scene.materials)));
     mesh.blurBounds = boundsOf(mesh.vertices.blurs);
     return mesh;
 }
@@ -303,7 +303,8 @@ Scene sceneFromData(const SceneData& data) {
     each("instance", data.instances, [&](const auto& label, const auto& part) { addInstance(label, part, scene); });
     each("camera", data.cameras, [&](const auto& label, const auto& part) { addCamera(label, part, scene); });
     each("light", data.lights, [&](const auto& label, const auto& part) { addLight(label, part, scene); });
-    if (const std::string placed = placedAtInfinity(scene); !placed.empty()) refuse("the transform of {} is not finite", placed);
+    if (const std::string placed = placedAtInfinity(scene); !placed.empty())
+        refuse("the transform of {} is not finite", placed);
     return scene;
 }
 

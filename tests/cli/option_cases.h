@@ -59,6 +59,10 @@ inline std::string movingBall(bool lamp, bool pane = false) {
     }
     builder.mesh(nlohmann::json::array({board}),
                  {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
+    builder.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "Green"}}};
+    builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+        {{"variants", {0}}, {"material", builder.json.value("materials", nlohmann::json::array()).size()}}};
+    builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}});
     builder.json["cameras"] = {
         {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
         {{"name", "Near"},
@@ -122,6 +126,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     static const std::map<std::string, OptionCase> table = {
         {"scene", {{"ball.glb"}, {}, true}},
         {"strict", {{"--strict"}, {}, true}},
+        {"variant", {{"--variant", "Green"}, {}}},
         {"fishCount", {{"--fish", "3"}, {}, true}},
         {"trianglesPerFish", {{"--fish-triangles", "1500"}, {}, true}},
         {"units", {{"--units", "cm"}, {"--fstop", "0.5"}}},
@@ -136,6 +141,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"background", {{"--background", "none"}, {}}},
         {"ground", {{"--ground"}, {"--camera", "auto"}}},
         {"shadows", {{"--shadows", "off"}, {"--ground", "--camera", "auto"}}},
+        {"multipleScattering", {{"--multiple-scattering"}, {}}},
         {"lightAngle", {{"--light-angle", "40"}, {"--ground", "--camera", "auto"}}},
         {"lightRadius", {{"--light-radius", "0.5"}, {"--ground", "--camera", "auto"}}},
         {"camera", {{"--camera", "Near"}, {}}},

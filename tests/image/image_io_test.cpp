@@ -337,7 +337,7 @@ TEST(Texture, otherFormatsAndGarbageAreRefused) {
     const ScratchFolder folder;
     writeImage(folder / "a.exr", gradient(2, 2, 3));
     EXPECT_EQ(messageOf<Error>([&] { decodeTexture(readFile(folder / "a.exr"), "image 3"); }),
-              "image 3: neither a PNG nor a JPEG image");
+              "image 3: not a PNG, JPEG or WebP image");
     EXPECT_THROW(decodeTexture({}, "nothing"), Error);
 }
 

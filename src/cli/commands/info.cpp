@@ -169,6 +169,7 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     for (const AnimationClip& clip : scene.clips)
         json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}, {"channels", clip.channels.size()}});
     for (const Skin& skin : scene.skins) json["skins"].push_back({{"name", skin.name}, {"joints", skin.joints.size()}});
+    json["variants"] = scene.variants;
     json["extensions"] = scene.extensions;
     for (const Ignored& ignored : scene.ignored)
         json["ignored"].push_back({{"what", ignored.what}, {"reason", ignored.reason}, {"count", ignored.count}});
@@ -307,6 +308,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
                                           : fmt::format("{}: {}", entry.what, entry.reason));
     lines("lights", lights, "none (a three-light set-up is used, unless everything is unlit)");
     lines("clips", clips, "none");
+    if (!scene.variants.empty()) line("variants", fmt::format("{}", fmt::join(scene.variants, ", ")));
     lines("skins", skins, "none");
     line("extensions", scene.extensions.empty() ? "none" : fmt::format("{}", fmt::join(scene.extensions, ", ")));
     lines("ignored", ignored, "nothing");

@@ -73,9 +73,9 @@ Matrix4 lookAt(const Vector3& position, const Vector3& target, const Vector3& up
     return {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1};
 }
 
-Scene Scene::load(const std::filesystem::path& path, const Progress& progress) {
+Scene Scene::load(const std::filesystem::path& path, const Progress& progress, const std::string& variant) {
     if (path.empty()) throw UsageError("no scene given; give the path of a .gltf or .glb file");
-    const auto scene = std::make_shared<engine::Scene>(engine::loadGltf(path, progress));
+    const auto scene = std::make_shared<engine::Scene>(engine::loadGltf(path, progress, variant));
     engine::setScale({}, *scene);
     return Scene(scene);
 }
@@ -104,6 +104,7 @@ SceneInfo Scene::info() const {
     info.cameras = namesOf(scene.cameras);
     info.nodes = namesOf(scene.nodes);
     info.clips = namesOf(scene.clips);
+    info.variants = scene.variants;
     for (const engine::Mesh& mesh : scene.meshes) info.triangles += mesh.triangleCount();
     for (const engine::Ignored& entry : scene.ignored)
         info.ignored.push_back(entry.count > 1

@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint64_t keptPixelBytes = 3 * 16;
 
 bool sameScene(const Request& a, const Request& b) {
-    return a.scene == b.scene &&
+    return a.scene == b.scene && a.variant == b.variant &&
            (!a.scene.empty() || (a.fishCount == b.fishCount && a.trianglesPerFish == b.trianglesPerFish));
 }
 

@@ -36,6 +36,10 @@ std::string withoutAnimation(const SettingContext& context) {
     return context.scene.clips.empty() ? "the scene has no animation" : "";
 }
 
+std::string withoutVariant(const SettingContext& context) {
+    return context.request.variant == context.scene.variant ? "" : "the scene was loaded without this variant";
+}
+
 std::string withoutShadows(const SettingContext& context) {
     const Request& request = context.request;
     const bool shadows = request.shadows == Shadows::on || (request.shadows == Shadows::automatic && request.ground);

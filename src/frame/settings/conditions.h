@@ -18,6 +18,7 @@ std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
 std::string withoutEnvironment(const SettingContext& context);
 std::string withoutAnimation(const SettingContext& context);
+std::string withoutVariant(const SettingContext& context);
 std::string withoutShadows(const SettingContext& context);
 std::string withoutBlur(const SettingContext& context);
 std::string withoutBlurOrExposure(const SettingContext& context);

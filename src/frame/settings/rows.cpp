@@ -97,6 +97,12 @@ Rows sceneRows() {
         rows::boolean("strict", "--strict", MEMBER(strict),
                       "Refuse a scene with missing or damaged parts, such as textures, instead of drawing the rest")
             .effect(SettingEffect::run),
+        rows::words(SettingKind::text, "variant", "--variant", "NAME", MEMBER(variant),
+                    "Variant of the scene's materials (KHR_materials_variants), as listed by 'defocus info'. Default: "
+                    "the materials without a variant")
+            .example("Red")
+            .inShot("/variant")
+            .unused(withoutVariant),
         rows::integer("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school")
             .excludes({"scene"})
             .inShot("/fish/count"),
@@ -162,6 +168,10 @@ Rows sceneRows() {
             "shadows", "--shadows", {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
             MEMBER(shadows), "Soft shadows of the lights and the environment. auto: only with --ground")
             .inShot("/shadows"),
+        rows::boolean("multipleScattering", "--multiple-scattering", MEMBER(multipleScattering),
+                      "Add the light that is reflected several times between the microfacets of rough surfaces. glTF's "
+                      "materials have single scattering, so rough metals lose light")
+            .inShot("/multipleScattering"),
         rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
                      "Angular diameter of directional lights in degrees; larger lights give softer shadows. Default: "
                      "0.53 (the sun) for lights in the file")

@@ -167,7 +167,7 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
 
 Scene loadScene(const Request& request, const Progress& progress) {
     if (!request.scene.empty()) {
-        Scene scene = loadGltf(request.scene, progress);
+        Scene scene = loadGltf(request.scene, progress, request.variant);
         if (const std::vector<std::string> damage = damageWarnings(scene); request.strict && !damage.empty())
             fail("{}: {}; leave out --strict to draw the rest", request.scene.string(), damage.front());
         return scene;

@@ -63,7 +63,9 @@ void addMaterials(Hasher& hasher, const Scene& scene) {
                    m.occlusionStrength, m.alphaMode, m.alphaCutoff, m.doubleSided, m.unlit, m.ior, m.specularFactor,
                    m.specularColorFactor, m.transmissionFactor, m.thicknessFactor, m.attenuationDistance,
                    m.attenuationColor, m.clearcoatFactor, m.clearcoatRoughnessFactor, m.clearcoatNormalScale,
-                   m.sheenColorFactor, m.sheenRoughnessFactor);
+                   m.sheenColorFactor, m.sheenRoughnessFactor, m.anisotropyStrength, m.anisotropyRotation,
+                   m.iridescenceFactor, m.iridescenceIor, m.iridescenceThicknessMinimum, m.iridescenceThicknessMaximum,
+                   m.dispersion, m.diffuseTransmissionFactor, m.diffuseTransmissionColorFactor);
         for (const TextureUse* use : textureUses(m)) addTextureUse(hasher, *use);
     }
     for (const Texture& t : scene.textures)

@@ -75,7 +75,7 @@ void AovPass::drawWireframe() {
     constexpr float nothing[4] = {};
     glClearNamedFramebufferfv(wireTarget_.name(), GL_COLOR, 0, nothing);
     edges_.prepare(pinhole_, frame_);
-    constexpr GLuint coloursUnit = 26;  // texture unit in shaders/aov/wireframe.frag
+    constexpr GLuint coloursUnit = 32;  // texture unit in shaders/aov/wireframe.frag
     levelColours_.attach(coloursUnit);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);
@@ -95,8 +95,7 @@ Image levelColourMap(const Image& level) {
     Image colours(level.width, level.height, 3);
     for (std::size_t i = 0; i < level.pixels.size(); ++i) {
         const float value = level.pixels[i];
-        const glm::vec3 colour =
-            value < 0 ? glm::vec3(0) : viridis(std::clamp(value / coarsestShownLevel, 0.0f, 1.0f));
+        const glm::vec3 colour = value < 0 ? glm::vec3(0) : viridis(std::clamp(value / coarsestShownLevel, 0.0f, 1.0f));
         for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
     }
     return colours;

@@ -163,6 +163,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
         if (condition) defines_.emplace_back(name, "true");
     };
     set(plan.usesOwnBlur, "usesOwnBlur");
+    set(plan.settings.multipleScattering, "multipleScattering");
     set(plan.coc.chromatic > 0, "chromatic");
     set(plan.usesCocControls, "cocControls");
     set(plan.usesCocControls && plan.coc.aberrates(), "aberrations");
@@ -286,7 +287,7 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
                           static_cast<GLintptr>(firstSample / blockSamples * blockBytes * 2), blockBytes * 2);
     bindWave(firstSample);
     if (environmentMap_) environmentMap_.attach(5);
-    specularAlbedos_.attach(27);
+    specularAlbedos_.attach(33);
 }
 
 void FrameUniforms::bindWave(std::uint32_t sample) const {

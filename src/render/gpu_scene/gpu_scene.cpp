@@ -298,6 +298,15 @@ void GpuScene::prepareMaterial(int index) {
         slots.slots[12] = texture(m.sheenColor, true);
         slots.slots[13] = texture(m.sheenRoughness, false);
     }
+    if (m.isAnisotropic()) slots.slots[14] = texture(m.anisotropy, false);
+    if (m.isIridescent()) {
+        slots.slots[15] = texture(m.iridescence, false);
+        slots.slots[16] = texture(m.iridescenceThickness, false);
+    }
+    if (m.transmitsDiffusely()) {
+        slots.slots[17] = texture(m.diffuseTransmission, false);
+        slots.slots[18] = texture(m.diffuseTransmissionColor, true);
+    }
 }
 
 int GpuMaterialTextures::unit(std::size_t slot) const {
@@ -340,9 +349,15 @@ GpuMaterial GpuScene::materialBlock(int index) const {
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * world_->scene->metresPerUnit;
     block.absorption =
-        glm::vec4(-glm::log(glm::max(material.attenuationColor, minAttenuation)) / static_cast<float>(distance), 0);
+        glm::vec4(-glm::log(glm::max(material.attenuationColor, minAttenuation)) / static_cast<float>(distance),
+                  material.dispersion);
     block.coat = {material.clearcoatFactor, material.clearcoatRoughnessFactor, material.clearcoatNormalScale, 0};
     block.sheen = glm::vec4(material.sheenColorFactor, material.sheenRoughnessFactor);
+    block.anisotropy = {material.anisotropyStrength, std::cos(material.anisotropyRotation),
+                        std::sin(material.anisotropyRotation), 0};
+    block.film = {material.iridescenceFactor, material.iridescenceIor, material.iridescenceThicknessMinimum,
+                  material.iridescenceThicknessMaximum};
+    block.through = glm::vec4(material.diffuseTransmissionColorFactor, material.diffuseTransmissionFactor);
     const auto uses = textureUses(material);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const glm::mat3& m = uses[i]->uvTransform;

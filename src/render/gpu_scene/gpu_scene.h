@@ -100,6 +100,9 @@ struct GpuMaterial {
     glm::vec4 absorption;
     glm::vec4 coat;
     glm::vec4 sheen;
+    glm::vec4 anisotropy;
+    glm::vec4 film;
+    glm::vec4 through;
     std::array<glm::vec4, 2 * materialTextureCount> uvRows;
 };
 

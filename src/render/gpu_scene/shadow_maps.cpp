@@ -10,8 +10,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint mapsUnit = 23;  // texture unit in shaders/include/shadows.glsl
-constexpr GLuint projectionsUnit = 24;
+constexpr GLuint mapsUnit = 29;  // texture unit in shaders/include/shadows.glsl
+constexpr GLuint projectionsUnit = 30;
 constexpr GLint firstSampleLocation = 2;
 constexpr GLint slotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 

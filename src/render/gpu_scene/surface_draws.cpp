@@ -73,7 +73,7 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int materialIndex, std::uint32_t level,
                              SurfaceLook look) {
-    constexpr std::size_t normalSlots[] = {2, 11};
+    constexpr std::size_t tangentSlots[] = {2, 11, 14};
     constexpr std::size_t transmissionSlots[] = {7, 8};
     constexpr std::size_t metallicSlot = 1;
     const bool shaded = look == SurfaceLook::lit || look == SurfaceLook::seenThrough;
@@ -94,12 +94,12 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     bool transformed = false;
     bool bumped = false;
     for (std::size_t i = 0; i < uses.size(); ++i) {
-        const bool ofNormals = std::ranges::count(normalSlots, i) > 0;
+        const bool ofTangents = std::ranges::count(tangentSlots, i) > 0;
         const bool ofTransmission = std::ranges::count(transmissionSlots, i) > 0;
         const bool wanted = shaded ? transmits || !ofTransmission
                                    : (i == 0 && masked) || ((i == metallicSlot || ofTransmission) && letsLightPass);
-        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofNormals || mesh.tangents);
-        bumped |= used && ofNormals;
+        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofTangents || mesh.tangents);
+        bumped |= used && ofTangents;
         textured |= used;
         transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
         units[i] = used ? textures.unit(i) : -1;
@@ -109,8 +109,9 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
         defines.emplace_back("textureCount", std::to_string(textures.count()));
         defines.emplace_back("textureUnits", fmt::format("int[]({})", fmt::join(units, ",")));
     }
-    if (bumped) defines.emplace_back("BUMPED", "");
     const bool lit = shaded && !material.unlit;
+    const bool anisotropic = lit && material.isAnisotropic() && mesh.tangents;
+    if (bumped || anisotropic) defines.emplace_back("BUMPED", "");
     const std::vector<PlacedLight>& lights = scene.world().lights;
     const bool hasLocalLights = lit && std::any_of(lights.begin(), lights.end(), local);
     if (hasLocalLights || transmits) defines.emplace_back("PLACED", "");
@@ -122,6 +123,10 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     set(lit && material.hasOwnReflectance(), "ownReflectance");
     set(lit && material.hasClearcoat(), "clearcoat");
     set(lit && material.hasSheen(), "sheen");
+    set(anisotropic, "anisotropic");
+    set(lit && material.isIridescent(), "iridescent");
+    set(transmits && material.isDispersive(), "dispersive");
+    set(lit && material.transmitsDiffusely(), "diffusesThrough");
     set(lit && level > 0, "coarseLevel");
     set(hasLocalLights, "localLights");
     set(static_cast<bool>(mesh.colors), "vertexColors");

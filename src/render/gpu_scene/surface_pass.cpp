@@ -9,8 +9,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // copies of all layers per frame
-constexpr GLuint backdropUnit = 22;      // texture unit in shaders/include/transmission.glsl
+constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 28;      // texture unit in shaders/include/transmission.glsl
 constexpr GLint shadowSlotLocation = 3;  // attribute location in shaders/shadows/caster.vert
 
 struct SampleSpan {

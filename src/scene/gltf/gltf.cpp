@@ -11,6 +11,7 @@
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
 #include "scene/gltf/texture.h"
+#include "scene/gltf/variants.h"
 #include "scene/units.h"
 
 namespace defocus::engine {
@@ -93,16 +94,19 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
         gltf::fault(source.document, "the transform of {} is not finite", placed);
     scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
+    scene.variants = gltf::variantNames(source.document);
     scene.ignored = std::move(source.ignored);
     return scene;
 }
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
-    gltf::Source source = gltf::openSource(path, progress);
+Scene loadGltf(const std::filesystem::path& path, const Progress& progress, const std::string& variant) {
+    gltf::Source source = gltf::openSource(path, variant, progress);
     try {
-        return readScene(source, path, progress);
+        Scene scene = readScene(source, path, progress);
+        scene.variant = variant;
+        return scene;
     } catch (const nlohmann::json::exception& exception) {
         // Reached only if checkSchema has missed an error in the JSON.
         gltf::fault(source.document, "not valid glTF: {}", exception.what());

@@ -9,12 +9,15 @@
 // scenes, all nodes.
 
 #include <filesystem>
+#include <string>
 
 #include "core/progress.h"
 #include "scene/scene.h"
 
 namespace defocus::engine {
 
-Scene loadGltf(const std::filesystem::path& path, const Progress& progress = {});
+// Draws primitives with the materials of `variant` (KHR_materials_variants); empty: their default materials. Throws
+// Error, with the names of all variants, if the file has no such variant.
+Scene loadGltf(const std::filesystem::path& path, const Progress& progress = {}, const std::string& variant = {});
 
 }  // namespace defocus::engine

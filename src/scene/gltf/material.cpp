@@ -1,5 +1,6 @@
 // Sources: glTF 2.0 specification, materials (3.9). Extensions: KHR_texture_transform, KHR_materials_unlit,
-// _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _clearcoat and _sheen.
+// _emissive_strength, _pbrSpecularGlossiness, _ior, _specular, _transmission, _volume, _dispersion,
+// _diffuse_transmission, _clearcoat, _sheen, _anisotropy and _iridescence.
 #include "scene/gltf/material.h"
 
 #include <fmt/ranges.h>
@@ -86,6 +87,10 @@ glm::dvec3 colorOf(const nlohmann::json& json, const char* name) {
     return color;
 }
 
+float alphaOf(const nlohmann::json& json) {
+    return json.contains("diffuseFactor") ? toFloat(json["diffuseFactor"][3].get<double>()) : 1.0f;
+}
+
 // Returns the metalness m for diffuse colour d and specular colour s: the solution of b = d·(1 − max s) / ((1 − 0.04)(1
 // − m)) and s = 0.04·(1 − m) + b·m with base colour b, where colours are replaced by their brightness. `left` is 1 −
 // max s. Source: Khronos, "Convert between workflows", KHR_materials_pbrSpecularGlossiness.
@@ -101,27 +106,41 @@ double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double
     return std::clamp((root - b) / (2 * dielectricReflectance), 0.0, 1.0);
 }
 
-// Converts a specular-glossiness material to the closest metallic-roughness material. The conversion is exact if
-// diffuse and specular colours are the same grey, or if the specular colour is 0.04. Materials with a specular texture
-// are treated as dielectrics.
-void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
+// Converts a material with a specular-glossiness texture, without loss (KHR_materials_specular, "Conversion from
+// specular-glossiness"): refractive index 0 stands for a reflectance that equals the specular colour. readTextures
+// replaces the metallic-roughness texture, which is the specular-glossiness texture here.
+void readSpecularGlossinessTexture(Source& source, const nlohmann::json& json, Material& material) {
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
-    glm::dvec3 specular = colorOf(json, "specularFactor");
-    if (json.contains("specularGlossinessTexture")) {
-        ignore(source, "specular-glossiness texture", "not supported; drawn as a dielectric");
-        specular = glm::dvec3(dielectricReflectance);
-    }
+    material.baseColorFactor = glm::vec4(glm::vec3(diffuse), alphaOf(json));
+    material.metallicFactor = 0;
+    material.ior = 0;
+    material.specularColorFactor = glm::vec3(colorOf(json, "specularFactor"));
+    material.specularColor = textureUse(source, json, "specularGlossinessTexture");
+    material.metallicRoughness = material.specularColor;
+}
+
+// Converts a specular-glossiness material without such a texture to the closest metallic-roughness material. The
+// conversion is exact if diffuse and specular colours are the same grey, or if the specular colour is 0.04.
+void readSpecularGlossinessFactors(const nlohmann::json& json, Material& material) {
+    const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
+    const glm::dvec3 specular = colorOf(json, "specularFactor");
     const double left = 1 - std::max({specular.r, specular.g, specular.b});
     const double metalness = metalnessOf(diffuse, specular, left);
     const glm::dvec3 fromDiffuse = diffuse * (left / (1 - dielectricReflectance) / std::max(1 - metalness, minShare));
     const glm::dvec3 fromSpecular =
         (specular - dielectricReflectance * (1 - metalness)) / std::max(metalness, minShare);
     const glm::dvec3 base = glm::clamp(glm::mix(fromDiffuse, fromSpecular, metalness * metalness), 0.0, 1.0);
-    const double alpha = json.contains("diffuseFactor") ? json["diffuseFactor"][3].get<double>() : 1.0;
-    material.baseColorFactor = {toFloat(base.r), toFloat(base.g), toFloat(base.b), toFloat(alpha)};
+    material.baseColorFactor = glm::vec4(glm::vec3(base), alphaOf(json));
     material.metallicFactor = toFloat(metalness);
+}
+
+void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
     material.roughnessFactor = toFloat(1 - std::clamp(json.value("glossinessFactor", 1.0), 0.0, 1.0));
     material.baseColor = textureUse(source, json, "diffuseTexture");
+    if (json.contains("specularGlossinessTexture"))
+        readSpecularGlossinessTexture(source, json, material);
+    else
+        readSpecularGlossinessFactors(json, material);
 }
 
 glm::vec3 colorOf(const nlohmann::json& json, const char* name, const glm::vec3& otherwise) {
@@ -180,6 +199,35 @@ void readSheen(Source& source, const nlohmann::json& json, Material& material) {
     material.sheenRoughness = textureUse(source, *sheen, "sheenRoughnessTexture");
 }
 
+void readAnisotropy(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* anisotropy = findExtension(json, "KHR_materials_anisotropy");
+    if (anisotropy == nullptr) return;
+    material.anisotropyStrength = shareOf(*anisotropy, "anisotropyStrength", 0);
+    material.anisotropyRotation = numberOf(*anisotropy, "anisotropyRotation", 0);
+    material.anisotropy = textureUse(source, *anisotropy, "anisotropyTexture");
+}
+
+void readIridescence(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* iridescence = findExtension(json, "KHR_materials_iridescence");
+    if (iridescence == nullptr) return;
+    material.iridescenceFactor = shareOf(*iridescence, "iridescenceFactor", 0);
+    material.iridescenceIor = std::max(numberOf(*iridescence, "iridescenceIor", 1.3), 1.0f);
+    material.iridescenceThicknessMinimum = std::max(numberOf(*iridescence, "iridescenceThicknessMinimum", 100), 0.0f);
+    material.iridescenceThicknessMaximum = std::max(numberOf(*iridescence, "iridescenceThicknessMaximum", 400), 0.0f);
+    material.iridescence = textureUse(source, *iridescence, "iridescenceTexture");
+    material.iridescenceThickness = textureUse(source, *iridescence, "iridescenceThicknessTexture");
+}
+
+void readDiffuseTransmission(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* diffuse = findExtension(json, "KHR_materials_diffuse_transmission");
+    if (diffuse == nullptr) return;
+    material.diffuseTransmissionFactor = shareOf(*diffuse, "diffuseTransmissionFactor", 0);
+    material.diffuseTransmissionColorFactor =
+        glm::min(colorOf(*diffuse, "diffuseTransmissionColorFactor", glm::vec3(1)), 1.0f);
+    material.diffuseTransmission = textureUse(source, *diffuse, "diffuseTransmissionTexture");
+    material.diffuseTransmissionColor = textureUse(source, *diffuse, "diffuseTransmissionColorTexture");
+}
+
 AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::string& label) {
     if (name == "OPAQUE") return AlphaMode::opaque;
     if (name == "MASK") return AlphaMode::mask;
@@ -225,8 +273,13 @@ Material readMaterial(Source& source, std::size_t index) {
     material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);
     material.doubleSided = json.value("doubleSided", false);
     material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
-    readReflectance(source, json, material);
+    if (findExtension(json, "KHR_materials_pbrSpecularGlossiness") == nullptr) readReflectance(source, json, material);
     readTransmission(source, json, material);
+    if (const nlohmann::json* dispersion = findExtension(json, "KHR_materials_dispersion"))
+        material.dispersion = std::max(numberOf(*dispersion, "dispersion", 0), 0.0f);
+    readDiffuseTransmission(source, json, material);
+    readAnisotropy(source, json, material);
+    readIridescence(source, json, material);
     readClearcoat(source, json, material);
     readSheen(source, json, material);
     return material;

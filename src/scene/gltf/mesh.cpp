@@ -218,7 +218,7 @@ private:
         for (Primitive& primitive : primitives) lists.push_back(&primitive.indices);
         dropped_ += dropUnplaced(source_, all.vertices.positions, lists);
 
-        VertexBlock block = finish(compacted(all, lists), lists, normalMapUvSet(primitives, materials_), what);
+        VertexBlock block = finish(compacted(all, lists), lists, tangentUvSet(primitives, materials_), what);
         takeBudget(source_, block.vertices.count(), sizeof(glm::vec3) * 4, what);
         const std::uint32_t base = append(mesh, block);
         for (Primitive& primitive : primitives)
@@ -235,7 +235,7 @@ private:
     }
 
     // Repairs the attributes, and adds normals if they are missing, and tangents if they are missing and needed.
-    VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
+    VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int tangentUv,
                        const std::string& what) {
         const std::size_t replaced = repairAttributes(block, lists);
         if (replaced > 0) {
@@ -247,7 +247,7 @@ private:
             for (const std::vector<std::uint32_t>* list : lists) corners += list->size();
             takeBudget(source_, corners, sizeof(glm::vec3) * 2, what);
         }
-        return withMissingAttributes(std::move(block), lists, normalMapUv);
+        return withMissingAttributes(std::move(block), lists, tangentUv);
     }
 
     void readMorphWeights(Mesh& mesh, const tinygltf::Mesh& from, const std::string& label) {

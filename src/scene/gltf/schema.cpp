@@ -96,7 +96,11 @@ constexpr Property accessorProperties[] = {nameProperty,
 
 constexpr Property dracoProperties[] = {required({"bufferView", Kind::index, "bufferViews"}),
                                         required({"attributes", Kind::indexMap})};
-constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", dracoProperties)};
+constexpr Property variantMappingProperties[] = {required(numbers("variants", 0)),
+                                                 required({"material", Kind::index, "materials"})};
+constexpr Property primitiveVariantsProperties[] = {required(objects("mappings", variantMappingProperties))};
+constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", dracoProperties),
+                                            object("KHR_materials_variants", primitiveVariantsProperties)};
 constexpr Property primitiveProperties[] = {required({"attributes", Kind::indexMap, "accessors"}),
                                             {"indices", Kind::index, "accessors"},
                                             {"material", Kind::index, "materials"},
@@ -148,7 +152,25 @@ constexpr Property sheenProperties[] = {numbers("sheenColorFactor", 3),
                                         object("sheenColorTexture", textureInfoProperties),
                                         {"sheenRoughnessFactor", Kind::number},
                                         object("sheenRoughnessTexture", textureInfoProperties)};
-constexpr Property materialExtensions[] = {object("KHR_materials_clearcoat", clearcoatProperties),
+constexpr Property anisotropyProperties[] = {{"anisotropyStrength", Kind::number},
+                                             {"anisotropyRotation", Kind::number},
+                                             object("anisotropyTexture", textureInfoProperties)};
+constexpr Property iridescenceProperties[] = {{"iridescenceFactor", Kind::number},
+                                              {"iridescenceIor", Kind::number},
+                                              {"iridescenceThicknessMinimum", Kind::number},
+                                              {"iridescenceThicknessMaximum", Kind::number},
+                                              object("iridescenceTexture", textureInfoProperties),
+                                              object("iridescenceThicknessTexture", textureInfoProperties)};
+constexpr Property dispersionProperties[] = {{"dispersion", Kind::number}};
+constexpr Property diffuseTransmissionProperties[] = {{"diffuseTransmissionFactor", Kind::number},
+                                                      object("diffuseTransmissionTexture", textureInfoProperties),
+                                                      numbers("diffuseTransmissionColorFactor", 3),
+                                                      object("diffuseTransmissionColorTexture", textureInfoProperties)};
+constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", anisotropyProperties),
+                                           object("KHR_materials_diffuse_transmission", diffuseTransmissionProperties),
+                                           object("KHR_materials_dispersion", dispersionProperties),
+                                           object("KHR_materials_iridescence", iridescenceProperties),
+                                           object("KHR_materials_clearcoat", clearcoatProperties),
                                            object("KHR_materials_emissive_strength", emissiveStrengthProperties),
                                            object("KHR_materials_ior", iorProperties),
                                            object("KHR_materials_pbrSpecularGlossiness", specularGlossinessProperties),
@@ -171,8 +193,12 @@ constexpr Property imageProperties[] = {
     nameProperty, {"uri", Kind::string}, {"mimeType", Kind::string}, {"bufferView", Kind::index, "bufferViews"}};
 constexpr Property samplerProperties[] = {
     nameProperty, {"magFilter", Kind::size}, {"minFilter", Kind::size}, {"wrapS", Kind::size}, {"wrapT", Kind::size}};
-constexpr Property textureProperties[] = {
-    nameProperty, {"sampler", Kind::index, "samplers"}, {"source", Kind::index, "images"}};
+constexpr Property webpProperties[] = {{"source", Kind::index, "images"}};
+constexpr Property textureExtensions[] = {object("EXT_texture_webp", webpProperties)};
+constexpr Property textureProperties[] = {nameProperty,
+                                          {"sampler", Kind::index, "samplers"},
+                                          {"source", Kind::index, "images"},
+                                          object("extensions", textureExtensions)};
 
 // ---- hierarchy ----------------------------------------------------------------------------------
 
@@ -240,7 +266,10 @@ constexpr Property animationProperties[] = {nameProperty, required(objects("chan
 
 // ---- root ---------------------------------------------------------------------------------------
 
-constexpr Property rootExtensions[] = {object("KHR_lights_punctual", lightsProperties)};
+constexpr Property variantProperties[] = {required({"name", Kind::string})};
+constexpr Property variantsProperties[] = {required(objects("variants", variantProperties))};
+constexpr Property rootExtensions[] = {object("KHR_lights_punctual", lightsProperties),
+                                       object("KHR_materials_variants", variantsProperties)};
 constexpr Property rootProperties[] = {
     {"extensionsUsed", Kind::strings},        {"extensionsRequired", Kind::strings},
     objects("accessors", accessorProperties), objects("animations", animationProperties),

@@ -10,21 +10,37 @@
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/schema.h"
 #include "scene/gltf/structure.h"
+#include "scene/gltf/variants.h"
 
 namespace defocus::engine::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> supportedExtensions = {
-    "EXT_camera_physical",        "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",        "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_node_visibility",        "KHR_texture_transform",
+constexpr std::array<std::string_view, 24> supportedExtensions = {
+    "EXT_camera_physical",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
 };
 
 // Extensions that do not change the picture: metadata about the file.
@@ -34,15 +50,10 @@ constexpr std::array<std::string_view, 2> metadataExtensions = {"KHR_xmp", "KHR_
 struct Fallback {
     std::string_view extension;
     std::string_view look;
-    bool mayBeRequired;  // true: a file that requires the extension is drawn, because its geometry is complete
 };
-constexpr std::array<Fallback, 6> fallbacks = {{
-    {"KHR_materials_iridescence", "not supported; drawn without iridescence", true},
-    {"KHR_materials_anisotropy", "not supported; highlights are round", true},
-    {"KHR_materials_variants", "not supported; drawn in the default variant", true},
-    {"KHR_texture_basisu", "not supported; the texture's fallback image is used if there is one", false},
-    {"EXT_texture_webp", "not supported; the texture's fallback image is used if there is one", false},
-    {"MSFT_texture_dds", "not supported; the texture's fallback image is used if there is one", false},
+constexpr std::array<Fallback, 2> fallbacks = {{
+    {"KHR_texture_basisu", "not supported; the texture's fallback image is used if there is one"},
+    {"MSFT_texture_dds", "not supported; the texture's fallback image is used if there is one"},
 }};
 
 const Fallback* fallbackOf(std::string_view extension) {
@@ -61,8 +72,7 @@ void checkExtensions(Source& source) {
                std::ranges::find(metadataExtensions, name) != metadataExtensions.end();
     };
     for (const std::string& name : stringsOf(source.document.json, "extensionsRequired")) {
-        const Fallback* fallback = fallbackOf(name);
-        if (!supported(name) && (fallback == nullptr || !fallback->mayBeRequired))
+        if (!supported(name))
             fault(source.document, "the file requires the extension {}, which is not supported", name);
     }
     const std::vector<std::string> used = stringsOf(source.document.json, "extensionsUsed");
@@ -70,6 +80,15 @@ void checkExtensions(Source& source) {
         if (supported(name)) continue;
         const Fallback* fallback = fallbackOf(name);
         ignore(source, "extension " + name, std::string(fallback != nullptr ? fallback->look : "not supported"));
+    }
+}
+
+// Gives textures without a core image the image of EXT_texture_webp.
+void useWebpImages(Source& source) {
+    for (std::size_t i = 0; i < source.model.textures.size(); ++i) {
+        int& image = source.model.textures[i].source;
+        const nlohmann::json* webp = findExtension(source.document.json["textures"][i], "EXT_texture_webp");
+        if (image < 0 && webp != nullptr) image = webp->value("source", -1);
     }
 }
 
@@ -116,7 +135,7 @@ bool UnpackBudget::take(std::uint64_t count, std::uint64_t elementBytes) {
     return true;
 }
 
-Source openSource(const std::filesystem::path& path, const Progress& progress) {
+Source openSource(const std::filesystem::path& path, const std::string& variant, const Progress& progress) {
     Source source;
 
     // 1. Read the container and validate its JSON.
@@ -124,9 +143,11 @@ Source openSource(const std::filesystem::path& path, const Progress& progress) {
     source.budget.grant(source.document.fileBytes);
     checkSchema(source.document);
     checkExtensions(source);
+    if (!variant.empty()) chooseVariant(source.document, variant);
 
     // 2. Convert the JSON to tinygltf structures.
     source.model = readStructure(source.document);
+    useWebpImages(source);
 
     // 3. Read the buffers and decompress buffer views.
     readBuffers(source, progress);

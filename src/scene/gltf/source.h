@@ -55,8 +55,8 @@ struct Source {
 };
 
 // Reads and checks a file: container, schema, extensions, structure, buffers, compressed buffer views and accessor
-// ranges. Throws Error if a check fails.
-Source openSource(const std::filesystem::path& path, const Progress& progress);
+// ranges. Throws Error if a check fails. Primitives have the materials of `variant`, unless it is empty.
+Source openSource(const std::filesystem::path& path, const std::string& variant, const Progress& progress);
 
 // Returns the bytes of a buffer view. Throws Error if its buffer has no data or is too short.
 std::span<const std::byte> viewBytes(const Source& source, int view);

@@ -1,7 +1,10 @@
 // Source: glTF 2.0 specification, textures (3.8).
 #include "scene/gltf/texture.h"
 
+#include <cmath>
+#include <map>
 #include <mutex>
+#include <utility>
 
 #include "core/parallel.h"
 #include "image/image_io.h"
@@ -89,6 +92,46 @@ std::vector<bool> usedImages(const Source& source, const std::vector<Material>& 
     return used;
 }
 
+// Returns an image whose roughness (G) is 1 − glossiness, the product of the factor and the texture's alpha.
+TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
+    TextureImage rough = glossy;
+    for (std::size_t i = 0; i < rough.rgba.size(); i += 4) {
+        const double roughness = 255 - glossinessFactor * glossy.rgba[i + 3];
+        rough.rgba[i] = rough.rgba[i + 2] = rough.rgba[i + 3] = 255;
+        rough.rgba[i + 1] = static_cast<std::uint8_t>(std::lround(roughness));
+    }
+    return rough;
+}
+
+// Replaces the specular-glossiness textures that materials use as metallic-roughness textures. A material whose texture
+// was removed becomes a dielectric.
+void convertGlossiness(Source& source, std::vector<Material>& materials, Textures& textures) {
+    std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → texture
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        TextureUse& use = materials[i].metallicRoughness;
+        const nlohmann::json* extension =
+            findExtension(source.document.json["materials"][i], "KHR_materials_pbrSpecularGlossiness");
+        if (extension == nullptr || !extension->contains("specularGlossinessTexture")) continue;
+        if (!use.used()) {  // draw a dielectric rather than a mirror
+            materials[i].ior = Material().ior;
+            continue;
+        }
+        float& factor = materials[i].roughnessFactor;
+        const auto [place, added] = converted.try_emplace({use.texture, factor}, int(textures.textures.size()));
+        if (added) {
+            Texture texture = textures.textures[static_cast<std::size_t>(use.texture)];
+            const auto image = static_cast<std::size_t>(texture.image);
+            takeBudget(source, textures.images[image].rgba.size(), 1, textures.names[image] + ": pixels");
+            texture.image = static_cast<int>(textures.images.size());
+            textures.images.push_back(roughnessOf(textures.images[image], 1.0 - static_cast<double>(factor)));
+            textures.names.push_back(textures.names[image] + " (roughness)");
+            textures.textures.push_back(texture);
+        }
+        use.texture = place->second;
+        factor = 1;
+    }
+}
+
 }  // namespace
 
 Textures readTextures(Source& source, std::vector<Material>& materials, const Progress& progress) {
@@ -135,6 +178,7 @@ Textures readTextures(Source& source, std::vector<Material>& materials, const Pr
     for (Material& material : materials)
         for (TextureUse* use : textureUses(material))
             if (use->used() && result.textures[static_cast<std::size_t>(use->texture)].image < 0) *use = {};
+    convertGlossiness(source, materials, result);
     return result;
 }
 

@@ -143,6 +143,15 @@ void materialRows(const Material& material) {
                  &material.clearcoatRoughness);
     }
     if (material.hasSheen()) colorRow("Sheen", material.sheenColorFactor, material.sheenColor);
+    if (material.isAnisotropic())
+        valueRow("Anisotropy", fmt::format("{:.3g}", material.anisotropyStrength), &material.anisotropy);
+    if (material.isIridescent())
+        valueRow("Thin film",
+                 fmt::format("{:.3g}, up to {:g} nm", material.iridescenceFactor, material.iridescenceThicknessMaximum),
+                 &material.iridescence);
+    if (material.transmitsDiffusely())
+        valueRow("Diffuse transmission", fmt::format("{:.3g}", material.diffuseTransmissionFactor),
+                 &material.diffuseTransmission);
     if (material.doubleSided) valueRow("Sides", "both");
 }
 

@@ -235,17 +235,6 @@ TEST(GltfMorph, targetsAndWeightsAreKept) {
     EXPECT_TRUE(scene.ignored.empty());
 }
 
-TEST(GltfMaterial, requiredLooksAreLeftOutWithAWarning) {
-    GltfBuilder builder;
-    builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}}});
-    builder.json["extensionsUsed"] = {"KHR_materials_iridescence"};
-    builder.json["extensionsRequired"] = {"KHR_materials_iridescence"};
-    const Scene scene = builder.load();
-    EXPECT_EQ(scene.meshes.size(), 1u);
-    ASSERT_EQ(scene.ignored.size(), 1u);
-    EXPECT_EQ(scene.ignored[0].what, "extension KHR_materials_iridescence");
-}
-
 TEST(GltfMaterial, factorsAndModes) {
     GltfBuilder builder;
     builder.json["materials"] = {
@@ -327,6 +316,44 @@ TEST(GltfMaterial, layersOfTheExtensions) {
     EXPECT_FALSE(plain.transmits() || plain.hasClearcoat() || plain.hasSheen() || plain.hasOwnReflectance());
 }
 
+TEST(GltfMaterial, filmsStretchedHighlightsAndLightFromBehind) {
+    GltfBuilder builder;
+    builder.json["extensionsRequired"] = {"KHR_materials_anisotropy", "KHR_materials_iridescence",
+                                          "KHR_materials_dispersion", "KHR_materials_diffuse_transmission"};
+    builder.json["materials"] = {
+        {{"extensions",
+          {{"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.25}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 0.75},
+             {"iridescenceIor", 1.5},
+             {"iridescenceThicknessMinimum", 200},
+             {"iridescenceThicknessMaximum", 300}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+           {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
+           {"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.25}, {"diffuseTransmissionColorFactor", {1, 0.5, 0}}}}}}},
+        {{"extensions",
+          {{"KHR_materials_anisotropy", nlohmann::json::object()},
+           {"KHR_materials_iridescence", nlohmann::json::object()},
+           {"KHR_materials_dispersion", nlohmann::json::object()},
+           {"KHR_materials_diffuse_transmission", nlohmann::json::object()}}}}};
+    const Scene scene = builder.load();
+    EXPECT_TRUE(scene.ignored.empty());
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.anisotropyStrength, 0.5f);
+    EXPECT_EQ(m.anisotropyRotation, 1.25f);
+    EXPECT_EQ(m.iridescenceFactor, 0.75f);
+    EXPECT_EQ(m.iridescenceIor, 1.5f);
+    EXPECT_EQ(m.iridescenceThicknessMinimum, 200.0f);
+    EXPECT_EQ(m.iridescenceThicknessMaximum, 300.0f);
+    EXPECT_TRUE(m.isDispersive());
+    EXPECT_EQ(m.diffuseTransmissionFactor, 0.25f);
+    EXPECT_EQ(m.diffuseTransmissionColorFactor, glm::vec3(1, 0.5f, 0));
+    const Material& plain = scene.materials.at(1);
+    EXPECT_FALSE(plain.isAnisotropic() || plain.isIridescent() || plain.isDispersive() || plain.transmitsDiffusely());
+}
+
 // For grey diffuse and specular colours d and s, a metallic-roughness material with the same reflection exists: s =
 // 0.04·(1 − m) + b·m and d·(1 − s) = (1 − 0.04)·b·(1 − m), with base colour b and metalness m.
 TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
@@ -366,6 +393,54 @@ TEST(GltfMaterial, specularGlossinessKeepsColours) {
     const Material gold = materialOf({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.77, 0.34}}});
     EXPECT_LT(glm::distance(gold.baseColorFactor, glm::vec4(1, 0.77f, 0.34f, 1)), 1e-5f);
     EXPECT_NEAR(gold.metallicFactor, 1, 1e-6);
+}
+
+// Returns two triangles. The first has materials for variants Day and Night, the second only for Night.
+GltfBuilder dayAndNight() {
+    GltfBuilder builder;
+    const int positions = builder.positions(unitTriangle);
+    const auto mapping = [](std::vector<int> variants, int material) {
+        return nlohmann::json{{"variants", std::move(variants)}, {"material", material}};
+    };
+    const auto primitive = [&](const nlohmann::json& mappings) {
+        return nlohmann::json{{"attributes", {{"POSITION", positions}}},
+                              {"material", 0},
+                              {"extensions", {{"KHR_materials_variants", {{"mappings", mappings}}}}}};
+    };
+    builder.mesh({primitive({mapping({0}, 1), mapping({1}, 2)}), primitive(nlohmann::json::array({mapping({1}, 1)}))});
+    builder.json["extensionsUsed"] = {"KHR_materials_variants"};
+    builder.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "Day"}}, {{"name", "Night"}}};
+    builder.json["materials"] = {{{"name", "plain"}}, {{"name", "first"}}, {{"name", "second"}}};
+    return builder;
+}
+
+TEST(GltfVariant, givesPrimitivesItsMaterials) {
+    const ScratchFolder folder;
+    GltfBuilder::save(folder / "a.glb", dayAndNight().glb());
+    const auto materialsOf = [&](const std::string& variant) {
+        const Scene scene = loadGltf(folder / "a.glb", {}, variant);
+        EXPECT_TRUE(scene.ignored.empty());
+        EXPECT_EQ(scene.variants, (std::vector<std::string>{"Day", "Night"}));
+        EXPECT_EQ(scene.variant, variant);
+        std::vector<int> materials;
+        for (const Primitive& primitive : scene.meshes.at(0).primitives) materials.push_back(primitive.material);
+        return materials;
+    };
+    EXPECT_EQ(materialsOf(""), (std::vector<int>{0, 0}));
+    EXPECT_EQ(materialsOf("Day"), (std::vector<int>{1, 0}));
+    EXPECT_EQ(materialsOf("Night"), (std::vector<int>{2, 1}));
+}
+
+TEST(GltfVariant, thatDoesNotExistIsRefusedWithTheListOfAll) {
+    const ScratchFolder folder;
+    GltfBuilder::save(folder / "a.glb", dayAndNight().glb());
+    try {
+        static_cast<void>(loadGltf(folder / "a.glb", {}, "Dusk"));
+        FAIL();
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("there is no variant 'Dusk'; the file has: Day, Night"), std::string::npos) << text;
+    }
 }
 
 TEST(GltfScene, theDefaultSceneIsTakenWithItsNodesOnly) {

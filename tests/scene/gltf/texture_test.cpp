@@ -94,7 +94,7 @@ TEST(GltfTexture, pixelsAreCountedBeforeTheyAreDecoded) {
 }
 
 TEST(GltfTexture, unsupportedFormatsFallBackToTheSource) {
-    for (const char* extension : {"KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds"}) {
+    for (const char* extension : {"KHR_texture_basisu", "MSFT_texture_dds"}) {
         GltfBuilder builder = texturedTriangle({{"extensions", {{extension, {{"source", 0}}}}}, {"source", 1}});
         builder.json["extensionsUsed"] = {extension};
         builder.json["images"] = {{{"bufferView", builder.view(Bytes{1, 2, 3, 4})}, {"mimeType", "image/other"}}};
@@ -110,6 +110,86 @@ TEST(GltfTexture, unsupportedFormatsFallBackToTheSource) {
         for (const Ignored& note : without.ignored)
             EXPECT_NE((note.what + note.reason).find(extension), std::string::npos) << note.what << ": " << note.reason;
     }
+}
+
+// Lossless WebP with 3 × 2 pixels, from ffmpeg's libwebp encoder.
+const Bytes& webp() {
+    static const Bytes bytes = {0x52, 0x49, 0x46, 0x46, 0x4a, 0,    0,    0,    0x57, 0x45, 0x42, 0x50, 0x56, 0x50,
+                                0x38, 0x4c, 0x3d, 0,    0,    0,    0x2f, 0x02, 0x40, 0,    0x10, 0x2f, 0x40, 0x98,
+                                0x6d, 0xb4, 0xff, 0x38, 0xcf, 0xea, 0x5c, 0xa7, 0x41, 0x26, 0x6d, 0x53, 0x59, 0xf5,
+                                0x7f, 0x75, 0xaa, 0x46, 0x10, 0x40, 0x52, 0x0e, 0x9b, 0xec, 0x8f, 0x30, 0xd3, 0x02,
+                                0x81, 0x24, 0xb4, 0xcd, 0x56, 0x0f, 0x40, 0x7f, 0x5b, 0xbb, 0x3b, 0x64, 0x01, 0x02,
+                                0x01, 0xca, 0x58, 0xf1, 0xc0, 0x27, 0x11, 0xfd, 0x8f, 0x77, 0,    0};
+    return bytes;
+}
+
+// Colours are straight, up to their rounding at low alpha.
+TEST(GltfTexture, webpWithoutFallbackIsRead) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});
+        builder.json[list] = {"EXT_texture_webp"};
+        builder.json["images"] = {{{"bufferView", builder.view(webp())}, {"mimeType", "image/webp"}}};
+        const Scene scene = builder.load();
+        EXPECT_TRUE(scene.ignored.empty());
+        ASSERT_TRUE(scene.materials.at(0).baseColor.used());
+        const TextureImage& image = scene.images.at(0);
+        ASSERT_EQ(image.width, 3);
+        ASSERT_EQ(image.height, 2);
+        const std::vector<std::uint8_t> expected = {200, 10,  20, 255, 0,   255, 0,   255, 0, 0, 255, 255,
+                                                    200, 100, 50, 128, 255, 255, 255, 64,  0, 0, 0,   0};
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(image.rgba[i], expected[i], expected[i / 4 * 4 + 3] < 255 ? 2 : 0) << i;
+    }
+}
+
+TEST(GltfTexture, webpFallsBackToTheSource) {
+    GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}, {"source", 1}});
+    builder.json["extensionsUsed"] = {"EXT_texture_webp"};
+    builder.json["images"] = {{{"bufferView", builder.view(Bytes{1, 2, 3, 4})}, {"mimeType", "image/webp"}}};
+    builder.add("images", {{"bufferView", builder.view(redPng())}, {"mimeType", "image/png"}});
+    const Scene scene = builder.load();
+    EXPECT_TRUE(scene.ignored.empty());
+    EXPECT_EQ(scene.images.at(0).rgba, (std::vector<std::uint8_t>{200, 10, 20, 255}));
+}
+
+TEST(GltfTexture, damagedWebpIsLeftOut) {
+    for (const std::size_t size : {12, 20, 40}) {
+        GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});
+        Bytes part = webp();
+        part.resize(size);
+        builder.json["images"] = {{{"bufferView", builder.view(part)}, {"mimeType", "image/webp"}}};
+        const Scene scene = builder.load();
+        expectOnlyFactors(scene);
+        expectNote(scene, true, "image 0");
+    }
+}
+
+// F0 is the texture's colour times specularFactor, and roughness is 1 − glossinessFactor · alpha.
+TEST(GltfTexture, ofSpecularAndGlossinessIsReflectanceAndRoughness) {
+    GltfBuilder builder = texturedTriangle({{"source", 0}});
+    const Bytes png = buildPng(2, 1, 8, PngColour::rgba, {200, 100, 50, 255, 10, 20, 30, 51});
+    builder.json["images"] = {{{"bufferView", builder.view(png)}, {"mimeType", "image/png"}}};
+    builder.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+        {"diffuseFactor", {0.25, 0.5, 0.125, 0.5}},
+        {"specularFactor", {1, 0.5, 0.25}},
+        {"glossinessFactor", 0.5},
+        {"specularGlossinessTexture", {{"index", 0}}}};
+    const Scene scene = builder.load();
+    EXPECT_TRUE(scene.ignored.empty());
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.baseColorFactor, glm::vec4(0.25f, 0.5f, 0.125f, 0.5f));
+    EXPECT_FALSE(material.baseColor.used());
+    EXPECT_EQ(material.metallicFactor, 0.0f);
+    EXPECT_EQ(material.ior, 0.0f) << "the reflectance without colour is 1";
+    EXPECT_EQ(material.specularColorFactor, glm::vec3(1, 0.5f, 0.25f));
+    const auto imageOf = [&](const TextureUse& use) {
+        return scene.images.at(
+            static_cast<std::size_t>(scene.textures.at(static_cast<std::size_t>(use.texture)).image));
+    };
+    EXPECT_EQ(imageOf(material.specularColor).rgba[4], 10);
+    ASSERT_TRUE(material.metallicRoughness.used());
+    EXPECT_NEAR(material.roughnessFactor * imageOf(material.metallicRoughness).rgba[1] / 255, 1 - 0.5, 0.003);
+    EXPECT_NEAR(material.roughnessFactor * imageOf(material.metallicRoughness).rgba[5] / 255, 1 - 0.5 * 0.2, 0.003);
 }
 
 TEST(GltfTexture, withoutAnImageIsLeftOut) {
