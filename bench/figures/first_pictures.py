@@ -17,7 +17,7 @@ from figures.command import ROOT, add_program, parser_of, path, run
 SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBottle.glb", "bike.glb",
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
           "AlphaBlendModeTest.glb", "NegativeScaleTest.glb", "InterpolationTest.glb", "skull.glb", "hammer.glb", "mountain.glb",
-          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the built-in school
+          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the built-in school of fish
 FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px on the sheet

@@ -37,7 +37,7 @@ layout(location = 2) uniform uint firstTile;       // first tile whose list is i
 layout(location = 3) uniform uint recordCapacity;
 // Max motion of a surface in the image (px), along a segment, for one shading point; 0: one point per segment.
 layout(location = 5) uniform float shadingStep;
-// A job is the work of a workgroup: one tile and one line of each of the tile's pixels. Mesa's software driver ends the
+// A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends the
 // loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
 layout(location = 6) uniform uint maxRounds;      // approximate max loop iterations per dispatch; 0: unlimited
 // x: 1 runs deferred jobs, 0 all tiles and lines. Indices into `ranges`: y: first deferred job to run; z: start of the

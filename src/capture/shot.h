@@ -26,7 +26,7 @@ inline constexpr int maxFrame = 9'999'999;
 // A point in world space, or the name of a node. The centre of the node is used, which may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
-// Keys of a lens value, in the unit of lens/lens_fields.h. A single key is a constant value.
+// Keyframes of a lens parameter, in the unit given in lens/lens_fields.h. A single key means a constant value.
 struct LensTrack {
     std::vector<Key<double>> keys;
     Easing easing = Easing::smooth;

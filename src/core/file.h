@@ -68,7 +68,7 @@ private:
 // Removes the temporary files of all PendingFile objects of this process, for exits that run no destructors.
 void removePendingFiles();
 
-// Removes a temporary file that a killed process left behind. Does nothing while a process still writes the file.
+// Removes a temporary file that a killed process left behind. Does nothing while a process is still writing the file.
 void removeAbandoned(const std::filesystem::path& temporary);
 
 // Throws Error if no file can be created at `path`, so that a long job fails at its start instead of its end.

@@ -107,7 +107,7 @@ public:
     ~HeadlessContext() override { close(); }
 
     // Creates a context on one display. Returns an empty string on success; otherwise cleans up and returns the reason
-    // of the failure.
+    // for the failure.
     std::string open(const Candidate& candidate) {
         const std::string reason = tryOpen(candidate);
         if (!reason.empty()) close();

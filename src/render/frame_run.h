@@ -27,7 +27,7 @@ public:
     // blocks (Method::sumsBlocks), and motion must not need one pose per sample. A time limit needs a current GL
     // context.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
-    // Draws one wave of samples. Returns false once the frame is complete.
+    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }

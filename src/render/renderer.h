@@ -33,7 +33,7 @@ struct RenderStats {
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
     std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources
-    std::uint32_t wave = 0;             // lens samples per wave K
+    std::uint32_t wave = 0;             // number of lens samples drawn together
     std::string layerFormat;            // format of the layers, e.g. "rgba16f"
     std::string device;
     std::string driver;

@@ -47,7 +47,7 @@ struct FishPattern {
     glm::vec3 belly{0.8f};
     float bellyEdge = -0.35f;  // height of the belly colour's edge, from −1 at the belly to 1 at the back
     glm::vec3 rear{0.5f};      // colour of the rear half
-    float rearStart = 2.0f;    // position `a` of the rear half's start; above 1: no rear half
+    float rearStart = 2.0f;    // start of the rear half along the body, 0 at the nose to 1 at the tail; above 1: none
     float rearSoftness = 0.15f;
     float rearSlant = 0.0f;
     glm::vec3 face{0.5f};

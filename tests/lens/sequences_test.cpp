@@ -59,7 +59,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes at a corner of the square: the parts of a pixel that the edge of an object in focus hides.
+// Returns boxes at a corner of the unit square. They stand for the parts of a pixel that an object in focus covers.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 8; ++x)

@@ -50,8 +50,8 @@ inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     return glm::ivec2(glm::floor(place));
 }
 
-// Returns the tolerance for a decoded code: half the step to the next code, since drivers approximate the decoding by
-// polynomials.
+// Returns the tolerance for the linear value of an 8-bit sRGB value: half the step to the next value, since drivers
+// approximate sRGB decoding with polynomials.
 inline double decodingError(int code) {
     return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
 }

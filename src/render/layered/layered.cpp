@@ -168,8 +168,8 @@ private:
         stats_.trianglesDrawn += pinholes_.trianglesDrawn / pinholeCount_ * passes;
     }
 
-    // Returns whether the environment is drawn into the layers of the sum. Environments other than maps are composited
-    // when the layers are added.
+    // Returns whether the environment is drawn into the accumulated layers. Environments that are not maps are
+    // composited when the layers are added.
     [[nodiscard]] bool drawsSky() const {
         return !plan_.needsAlpha && scene_.world().environment.type == EnvironmentType::map;
     }

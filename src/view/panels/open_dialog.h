@@ -69,7 +69,7 @@ struct OpenDialog {
 // Opens a dialog in the folder of the current scene.
 void openSceneDialog(OpenDialog& dialog, const ViewState& state);
 
-// Draws the window's own browser if it is open. Returns the scene once the user has chosen one.
+// Draws the built-in file browser if it is open. Returns the path of the scene once the user has chosen one.
 std::optional<std::filesystem::path> drawOpenDialog(OpenDialog& dialog, const ViewState& state, float scale);
 
 }  // namespace defocus::engine

@@ -127,7 +127,7 @@ std::uint32_t ViewPicture::minSamples() const {
     return std::min(first().samples(), sides_.back()->image.samples());
 }
 
-// Creates renderers for sides with a new method. Returns whether any side has changed.
+// Creates renderers for the sides of the comparison whose method has changed. Returns whether any side has changed.
 bool ViewPicture::prepareSides(const PictureRequest& request) {
     const auto same = [](const std::unique_ptr<Side>& side, const PictureSide& wanted) {
         return side->shows == wanted;

@@ -35,7 +35,7 @@ struct FrameBudget {
 // meet the budget, or up one rung if twice the time would fit. In between, keeps the rung, so that the quality doesn't
 // flicker.
 inline FrameBudget adapted(FrameBudget budget, double measured) {
-    constexpr double tooSlow = 1.15;  // max measured time relative to the budget
+    constexpr double tooSlow = 1.15;  // a frame above this multiple of the budget takes too long
     constexpr double roomToClimb = 0.42;
     if (measured > tooSlow * budget.milliseconds) {
         const double doublings = std::log2(measured / budget.milliseconds);

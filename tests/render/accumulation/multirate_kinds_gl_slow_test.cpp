@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Blended surfaces, environment maps and lenses with limited blur look the same with multirate as with the
+// Blended surfaces, environment maps and lenses with a blur limit look the same with method multirate as with method
 // accumulation.
 TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
     SKIP_ON_SECOND_DRIVER();

@@ -67,7 +67,7 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
     expectBoxesHoldWhatIsSeen(*fiveSpheres());
 }
 
-// The bounds of boxes also hold for a pinhole, whose plan omits the lens.
+// The bounds of what is visible of a box also hold for a pinhole camera, whose plan has no lens.
 TEST(LensSight, boxesHoldWhatAPinholeSees) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;
