@@ -4,10 +4,16 @@
 // triangle doesn't grow with the blur. A limit saves only triangles outside the image that their blur would extend into
 // it. It also makes levels of detail finer.
 //
-// Held constant: camera, lens, size, lens samples, renderer and process. Variants run alternately; the fastest run of
-// each variant counts. CPU is the time of all threads, which depends less on other load. `work` is the heat map of
-// --aov work: triangles that touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles
-// whose bounds over the complete lens cover a pixel. A stochastic rasteriser tests all swept triangles.
+//   defocus_foreground_bench [--stochastic]   --stochastic: method "stochastic" alone
+//
+// Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
+// is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
+// touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
+// lens cover a pixel. A rasteriser that tests a triangle at every sample of these bounds tests all of the latter.
+//
+// Then method "stochastic" itself, with C linear inside triangles as published: time, and the number of triangles that
+// it tests for each ray, which is the paper's measure of work. It bounds each ray's part of the lens, and it stops
+// behind the nearest hit.
 
 #include <fmt/format.h>
 
@@ -17,8 +23,10 @@
 #include <ctime>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "plan/lens_cells/swept_work.h"
@@ -32,6 +40,7 @@ using namespace defocus;
 using namespace defocus::engine;
 
 constexpr int runs = 5;
+constexpr int stochasticRuns = 3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Row {
@@ -100,16 +109,70 @@ void measure(const Figure& figure) {
         print(frame, rows[i], rows[i / figure.limits.size() * figure.limits.size()]);
 }
 
-int run() {
+void measureStochastic(const Figure& figure) {
+    Request options;
+    options.scene = std::string(DEFOCUS_SOURCE_DIR "/") + figure.scene;
+    options.size.width = 192;
+    options.size.height = 144;
+    options.time = figure.time;
+    options.shutter = figure.shutter;
+    options.samples = 16;
+    options.lod = LodMode::off;
+    PreparedFrame frame = prepareFrame(options);
+    fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
+               frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
+    std::vector<Row> rows;
+    // A limit is in px, so the same blur has a smaller limit in a smaller image.
+    for (const double of512 : figure.limits) {
+        const double limit = of512 * frame.view.width / 512;
+        View view = frame.view;
+        view.lens.foregroundLimit = limit;
+        rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
+    }
+    RendererOptions linear;  // as in preset munkberg2012: divided triangles would add work to the limits alone
+    linear.settings = {{"coc-interpolation", "linear"}};
+    const auto renderer = methodNamed("stochastic").make(frame.world, linear);
+    std::vector<double> tests(rows.size());
+    for (int i = 0; i < stochasticRuns; ++i)
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            renderer->start(rows[row].plan);
+            while (renderer->advance()) {
+            }
+            rows[row].milliseconds = std::min(rows[row].milliseconds, renderer->stats().renderMilliseconds);
+            for (const MethodFigure& each : renderer->stats().figures)
+                if (each.name == "triangles tested per ray") tests[row] = each.value;
+        }
+    fmt::print("{:>10} {:>10} {:>7} {:>14} {:>7} {:>10} {:>7}\n", "limit, px", "frame, ms", "ratio", "tests per ray",
+               "ratio", "swept", "ratio");
+    const double sweptWithout = workSummary(sweptWork(rows[0].plan, frame.world), 1).mean;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const double swept = workSummary(sweptWork(rows[row].plan, frame.world), 1).mean;
+        fmt::print("{:>10} {:>10.0f} {:>7.2f} {:>14.1f} {:>7.2f} {:>10.1f} {:>7.2f}\n",
+                   std::isinf(rows[row].limit) ? "none" : fmt::format("{:.0f}", rows[row].limit),
+                   rows[row].milliseconds, rows[0].milliseconds / rows[row].milliseconds, tests[row],
+                   tests[0] / tests[row], swept, sweptWithout / swept);
+    }
+}
+
+int run(bool stochasticOnly) {
     const auto context = createHeadlessContext();
     fmt::print("{}, {}\n", context->device(), context->driver());
-    measure({"meshes/thicket.gltf", 0, 0, {infinity, 64, 8, 0}});
-    measure({"meshes/chess.glb", 0.06, 1.0 / 50, {infinity, 8, 0}});
+    const Figure thicket = {"meshes/thicket.gltf", 0, 0, {infinity, 64, 8, 0}};
+    const Figure chess = {"meshes/chess.glb", 0.06, 1.0 / 50, {infinity, 8, 0}};
+    for (const Figure& figure : {thicket, chess}) {
+        if (!stochasticOnly) measure(figure);
+        measureStochastic(figure);
+    }
     return 0;
 }
 
 }  // namespace
 
-int main() {
-    return defocus::engine::runBench("defocus_foreground_bench", run);
+int main(int argc, char** argv) {
+    return defocus::engine::runBench("defocus_foreground_bench", [&] {
+        const std::string_view option = argc > 1 ? argv[1] : "";
+        if (argc > 2 || (argc == 2 && option != "--stochastic"))
+            defocus::engine::fail("usage: defocus_foreground_bench [--stochastic]");
+        return run(option == "--stochastic");
+    });
 }

@@ -2,6 +2,7 @@
 // time. With countsOnly, counts the triangles of each tile; otherwise fills the tiles' triangle lists.
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "lens_space/triangles.glsl"
 
 layout(local_size_x = 256) in;
@@ -30,6 +31,7 @@ struct Area {
 void add(inout Area area, vec4 clip, float aspect) {
     vec2 place = clip.xy / clip.z;
     vec2 reach = abs(clip.w / clip.z) * vec2(1.0, aspect);
+    if (aberrations) reach += aberrationReach(place);
     area.minimum = min(area.minimum, place - reach);
     area.maximum = max(area.maximum, place + reach);
 }
@@ -50,18 +52,37 @@ void add(inout Area area, vec4 corners[3], float aspect) {
     }
 }
 
-// Returns true if the entire lens sees the triangle's back (Munkberg, Toth and Akenine-Möller 2012, Appendix A). A
-// margin covers rounding errors.
-bool facesAway(vec4 p[3], float aspect) {
-    vec3 n0 = cross(p[1].xyz, p[2].xyz);
-    vec3 n1 = cross(p[2].xyz, p[0].xyz);
-    vec3 n2 = cross(p[0].xyz, p[1].xyz);
+// Returns (Nx, Ny, det) of src/plan/visible/lens_facing.h as a trilinear function of three triangles: the polar form.
+vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
+    vec2 slope = vec2(0.0);
+    for (int i = 0; i < 3; ++i) slope += a[i].w * cross(b[(i + 1) % 3].xyz, c[(i + 2) % 3].xyz).xy;
+    return vec3(slope, dot(a[0].xyz, cross(b[1].xyz, c[2].xyz)));
+}
+
+float overLens(vec3 coefficients, float aspect) { return coefficients.z + length(coefficients.xy * vec2(1.0, aspect)); }
+
+// Returns a bound of rounding errors of the determinant.
+float roundingOf(vec4 p[3]) {
     vec3 a = abs(p[0].xyz);
     vec3 b = abs(p[1].xyz);
     vec3 c = abs(p[2].xyz);
-    float size = dot(a, b.yzx * c.zxy + b.zxy * c.yzx);
-    vec2 slope = p[0].w * n0.xy + p[1].w * n1.xy + p[2].w * n2.xy;
-    return dot(p[0].xyz, n0) + length(slope * vec2(1.0, aspect)) < -1e-6 * size;
+    return 1e-6 * dot(a, b.yzx * c.zxy + b.zxy * c.yzx);
+}
+
+// Returns true if the entire lens sees the triangle's back (Munkberg, Toth and Akenine-Möller 2012, Equation 5 and
+// Appendix A).
+bool facesAway(vec4 p[3], float aspect) { return overLens(polarForm(p, p, p), aspect) < -roundingOf(p); }
+
+// Returns true if the entire lens sees the triangle's back while the corners and C move linearly from `p` to `q`
+// (Equations 7 and 8): each Bernstein coefficient over time is negative.
+bool facesAway(vec4 p[3], vec4 q[3], float aspect) {
+    vec3 second = (polarForm(q, p, p) + polarForm(p, q, p) + polarForm(p, p, q)) / 3.0;
+    vec3 third = (polarForm(p, q, q) + polarForm(q, p, q) + polarForm(q, q, p)) / 3.0;
+    float largest = max(max(overLens(polarForm(p, p, p), aspect), overLens(second, aspect)),
+                        max(overLens(third, aspect), overLens(polarForm(q, q, q), aspect)));
+    vec4 bound[3];
+    for (int i = 0; i < 3; ++i) bound[i] = max(abs(p[i]), abs(q[i]));
+    return largest < -roundingOf(bound);
 }
 
 void main() {
@@ -70,6 +91,8 @@ void main() {
     uvec4 triangle = triangles[index];
     float aspect = float(imageSize.x) / float(imageSize.y);
     vec4 corners[3] = vec4[3](clips[triangle.x], clips[triangle.y], clips[triangle.z]);
+    // With aberrations, the lens shear isn't linear in the lens point.
+    bool mayCull = draws[triangle.w].doubleSided == 0u && !aberrations;
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);
     if (moving) {
@@ -80,11 +103,13 @@ void main() {
         float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
         float maximum = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
         if (maximum < near) return;
+        if (mayCull && facesAway(corners, later, aspect)) return;
         add(area, later, aspect);
         if (minimum < near) area = Area(vec2(-1.0), vec2(1.0));
     } else {
         if (area.minimum.x > area.maximum.x) return;
-        if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
+        if (mayCull && facesAway(corners, aspect)) return;
+        if (aberrations && min(min(corners[0].z, corners[1].z), corners[2].z) < frame.projection.z) area = Area(vec2(-1.0), vec2(1.0));
     }
     // A margin of 0.001 px covers rounding errors.
     vec2 size = vec2(imageSize);

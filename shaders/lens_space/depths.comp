@@ -2,6 +2,7 @@
 // triangle extends in front of the near plane.
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "lens_space/triangles.glsl"
 
 layout(local_size_x = 256) in;

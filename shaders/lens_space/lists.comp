@@ -2,6 +2,7 @@
 // otherwise writes the records' indices to the groups' ranges of the list.
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "lens_space/triangles.glsl"
 #include "lens_space/records.glsl"
 #include "lens_space/groups.glsl"

@@ -1,6 +1,7 @@
 // Rays of each pixel. There are rayVariants sets (variants) of rays, each well distributed over lens and pixel. The
 // pixels of a square of up to 8 × 8 pixels use different sets, in a different order in each square
-// (src/render/lens_space/ray_sets.h).
+// (src/render/lens_space/ray_sets.h). Point samples are then changed in each pixel, so that each has its own points on
+// the lens, in the pixel and in time.
 
 struct Ray {
     // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the
@@ -35,8 +36,23 @@ uint variantOf(uvec2 pixel) {
     return (order ^ mixedBits((pixel.x >> 3u) + mixedBits(pixel.y >> 3u))) & (rayVariants - 1u);
 }
 
-// Returns ray number `ray` of the wave for a pixel.
-Ray rayOf(uint ray, uvec2 pixel) { return rays[(firstRay + ray) * rayVariants + variantOf(pixel)]; }
+// Returns `x` in [0, 1) with bits flipped by `flips` (digital shift; Kollig and Keller 2002, Efficient Multidimensional
+// Sampling). Points of a net in base 2 remain a net.
+float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
+
+// Returns ray number `ray` of the wave for a pixel. A point sample passes through a random one of the lens points that
+// all sets have for this ray. These points lie in the same small part of the lens.
+Ray rayOf(uint ray, uvec2 pixel) {
+    uint first = (firstRay + ray) * rayVariants;
+    Ray own = rays[first + variantOf(pixel)];
+    if (lineSamples) return own;
+    uint bits = mixedBits(pixel.x + mixedBits(pixel.y + 0x9e3779b9u));
+    own.lensAndPixel.xy = rays[first + (mixedBits(bits + firstRay + ray) & (rayVariants - 1u))].lensAndPixel.xy;
+    own.lensAndPixel.z = shifted(own.lensAndPixel.z + 0.5, mixedBits(bits + 0x85157af5u)) - 0.5;
+    own.lensAndPixel.w = shifted(own.lensAndPixel.w + 0.5, mixedBits(bits + 0xd3833e80u)) - 0.5;
+    own.values.x = shifted(own.values.x, mixedBits(bits + 0x4f1bbcddu));
+    return own;
+}
 
 // Returns the image position of a pixel's ray, in normalised device coordinates.
 vec2 placeOf(Ray ray, uvec2 pixel) { return 2.0 * (vec2(pixel) + 0.5 + ray.lensAndPixel.zw) / vec2(imageSize) - 1.0; }

@@ -6,6 +6,7 @@
 #include "lens_space/triangles.glsl"
 #include "lens_space/rays.glsl"
 #include "lens_space/records.glsl"
+#include "lens_space/record_rays.glsl"
 #include "lens_space/groups.glsl"
 
 layout(local_size_x = 256) in;
@@ -27,12 +28,10 @@ void main() {
     if (index >= groups[group].count) return;
     uint at = list[groups[group].first + index];
     Record record = records[at];
-    uint pixelCount = uint(imageSize.x * imageSize.y);
-    uint inImage = record.ray % pixelCount;
-    uvec2 pixel = uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
-    Ray ray = rayOf(record.ray / pixelCount, pixel);
+    uvec2 pixel = pixelOf(record);
+    Ray ray = rayOf(numberOf(record), pixel);
     vec2 place = placeOf(ray, pixel);
-    vec2 lens = lineSamples ? record.place * ray.lensAndPixel.xy : ray.lensAndPixel.xy;
+    vec2 lens = lensPointOf(record, ray);
     vec4 light = lightOf(record, ray, lens, place) * record.weight;
     records[at] = Record(floatBitsToUint(light.r), floatBitsToUint(light.g), light.b, light.a);
 }

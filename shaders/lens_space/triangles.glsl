@@ -16,6 +16,7 @@ struct Draw {
     uint endRay;
     uint group;         // group of surfaces with the same shader
     uint doubleSided;
+    uint seeThrough;    // 1: surfaces are cut out or blended, so rays may go on behind them
 };
 
 const uint noTriangle = 0xffffffffu;
@@ -44,7 +45,20 @@ vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
         q = clip.xy + clip.w * lens - clip.z * place;
     else
         q = clip.xy + frame.coc.x * lens + clip.z * (frame.coc.y * lens - place);
+    // Astigmatism and coma make C a function of the lens point, with two components.
+    if (aberrations) {
+        float w = max(clip.z, frame.projection.z);
+        q += w * aberration(clip.xy / w, lens);
+    }
     return q;
+}
+
+// Returns the max image offset by aberrations over all lens points, in normalised device coordinates, for a vertex at
+// image position `ndc`.
+vec2 aberrationReach(vec2 ndc) {
+    vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
+    float radius = length(ndc * perAspect);
+    return vec2(abs(frame.cocOther.z) * radius * radius + 3.0 * abs(frame.cocOther.w) * radius) / perAspect;
 }
 
 // Returns the edge functions of a triangle; component i belongs to the edge opposite to corner i.
@@ -63,12 +77,15 @@ float minDepthOf(uvec3 vertices) {
     return minimum;
 }
 
+// Returns the depth w at which a ray meets the plane of a triangle. `edges`: the triangle's edge functions.
+float depthOnPlane(vec3 edges, vec4 a, vec4 b, vec4 c) { return dot(edges / (edges.x + edges.y + edges.z), vec3(a.z, b.z, c.z)); }
+
 // Returns the depth w at which a ray hits the triangle; 0 for a miss or a hit in front of the near plane.
 float depthMet(vec4 a, vec4 b, vec4 c, bool doubleSided, vec2 lens, vec2 place) {
     vec3 e = edgeFunctions(a, b, c, lens, place);
     bool met = all(greaterThanEqual(e, vec3(0.0))) || (doubleSided && all(lessThanEqual(e, vec3(0.0))));
     float sum = e.x + e.y + e.z;
     if (!met || sum == 0.0) return 0.0;
-    float w = dot(e / sum, vec3(a.z, b.z, c.z));
+    float w = depthOnPlane(e, a, b, c);
     return w >= frame.projection.z ? w : 0.0;
 }

@@ -101,7 +101,7 @@ bool changes(Interval interval, uint triangle, vec4 depth) {
     return cursor < interval.last;
 }
 
-void addSegment(Interval interval, uint triangle, OnLine line) {
+void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     vec4 depth = vec4(line.sums, line.determinant);
     if (!(interval.last > interval.first) || !changes(interval, triangle, depth)) return;
     nextList = uint(segmentCapacity) - current;

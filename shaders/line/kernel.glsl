@@ -2,6 +2,7 @@
 // the tile's pixels.
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "lens_space/triangles.glsl"
 #include "lens_space/rays.glsl"
 #include "lens_space/records.glsl"
@@ -43,6 +44,8 @@ layout(location = 6) uniform uint maxRounds;      // approximate max loop iterat
 // x: 1 runs deferred jobs, 0 all tiles and lines. Indices into `ranges`: y: first deferred job to run; z: start of the
 // saved states; w: position for storing deferred jobs.
 layout(location = 7) uniform uvec4 jobs;
+
+layout(location = 8) uniform uint binSize;         // max triangles of a tile, the nearest ones; 0: unlimited
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;

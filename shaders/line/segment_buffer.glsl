@@ -1,8 +1,15 @@
-// Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Hidden segments and
-// segments with a negligible fraction of the line's light are dropped. If the buffer is full, a new segment is merged
-// with a segment that it continues on the same surface. Without such a segment, the segment with the smallest fraction
-// of the light is dropped. A final sweep along the line finds the nearest segments. Where segments intersect, the sweep
-// switches between them only at an end of a segment.
+// Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Each incoming segment
+// passes these steps in order:
+//   occlusion   it is dropped if a stored segment hides it, and removes stored segments that it hides;
+//   merge       it is joined with a stored segment that it continues, if the distance of the colours, the difference of
+//               the depths, the orientations and the slopes agree;
+//   length      it is dropped if it is too short;
+//   eviction    if the buffer is full, the shortest segment is dropped, stored or incoming.
+// The paper gives no thresholds; the constants below are ours. A final sweep along the line finds the nearest segments.
+// Where segments intersect, the sweep switches between them only at an end of a segment.
+//
+// shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth stand beside it.
+// The paper stores a segment in 16 bits; this division of the data is ours.
 
 struct Piece {
     float first;
@@ -12,12 +19,26 @@ struct Piece {
     uint nextTriangle;   // triangle in the next part
 };
 
-const float minLight = 1.0 / 4096.0;       // min fraction of the line's light; smaller segments are dropped
-const float continuation = 1e-3;             // max gap in p between a segment and its continuation
-const float sameDepth = 0.02;                // max relative difference of 1/w at the gap
+struct Segment {
+    vec2 ends;        // positions p
+    vec2 depths;      // 1/w at both ends
+    uint triangle;
+    bool front;       // orientation: shows the triangle's front
+    vec3 color;       // light in the middle of the segment, each in [0, 1]; only with light of vertices
+};
 
-shared vec4 segments[threads * uint(segmentCapacity)];         // p at both ends, 1/w at both ends
-shared uint segmentTriangles[threads * uint(segmentCapacity)];
+const float minLength = 1.0 / 512.0;         // of the line's length
+const float sameColor = 1.0 / 16.0;          // max difference of a colour channel
+const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
+const float sameSlope = 0.02;                // max relative difference of 1/w by the slopes, over the joined segment
+const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;   // max gap in p between a segment and its continuation
+
+const uint slots = threads * uint(segmentCapacity);
+shared vec2 longEnds[shortIntervals ? 1u : slots];
+shared uint endsAndColors[slots];            // lower half: both ends, if short; upper half: colour
+shared vec2 segmentDepths[slots];
+shared uint segmentTriangles[slots];         // bit 31: shows the triangle's back
+const uint backBit = 0x80000000u;
 uint segmentCount = 0u;
 vec2 lineSides;
 float lost = 0.0;
@@ -25,33 +46,97 @@ uint lostSegments = 0u;
 uint merged = 0u;
 float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment over the entire line
 
+#ifdef LIGHTS_VERTICES
+layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
+
+// Returns the light of a triangle at position p of the line, mapped to [0, 1].
+vec3 colorAt(uint triangle, OnLine line, bool front, float p) {
+    vec3 edges = line.edgesAt0 + p * line.edgeSlopes;
+    vec3 weights = edges / (edges.x + edges.y + edges.z);
+    uvec3 at = 2u * triangles[triangle].xyz + (front ? 0u : 1u);
+    vec3 light = max(weights.x * lights[at.x].rgb + weights.y * lights[at.y].rgb + weights.z * lights[at.z].rgb, vec3(0.0));
+    return light / (1.0 + light);
+}
+#else
+vec3 colorAt(uint triangle, OnLine line, bool front, float p) { return vec3(0.0); }
+#endif
+
 uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // adjacent threads access adjacent elements
 
 void beginLine(vec2 sides) { lineSides = sides; }
 
-float inverseDepthAt(vec4 segment, float p) {
-    return mix(segment.z, segment.w, clamp((p - segment.x) / (segment.y - segment.x), 0.0, 1.0));
+float lineLength() { return 1.0 + lineSides.x; }
+
+uint shortEnd(float p) { return uint(clamp(round((p + lineSides.x) / lineLength() * 255.0), 0.0, 255.0)); }
+float fromShortEnd(uint end) { return end == 255u ? 1.0 : float(end) / 255.0 * lineLength() - lineSides.x; }
+
+// Returns the ends with the precision of the buffer.
+vec2 storedEnds(vec2 ends) {
+    return shortIntervals ? vec2(fromShortEnd(shortEnd(ends.x)), fromShortEnd(shortEnd(ends.y))) : ends;
+}
+
+void store(uint i, Segment segment) {
+    uint at = slotOf(i);
+    uvec3 color = uvec3(round(segment.color * vec3(31.0, 63.0, 31.0)));
+    uint bits = (color.r << 11u | color.g << 5u | color.b) << 16u;
+    if (shortIntervals) bits |= shortEnd(segment.ends.y) << 8u | shortEnd(segment.ends.x);
+    else longEnds[at] = segment.ends;
+    endsAndColors[at] = bits;
+    segmentDepths[at] = segment.depths;
+    segmentTriangles[at] = segment.triangle | (segment.front ? 0u : backBit);
+}
+
+Segment load(uint i) {
+    uint at = slotOf(i);
+    uint bits = endsAndColors[at];
+    vec2 ends = shortIntervals ? vec2(fromShortEnd(bits & 255u), fromShortEnd((bits >> 8u) & 255u)) : longEnds[at];
+    uint triangle = segmentTriangles[at];
+    return Segment(ends, segmentDepths[at], triangle & ~backBit, (triangle & backBit) == 0u,
+                   vec3(bits >> 27u, (bits >> 21u) & 63u, (bits >> 16u) & 31u) / vec3(31.0, 63.0, 31.0));
+}
+
+float lengthOf(Segment segment) { return (segment.ends.y - segment.ends.x) / lineLength(); }
+
+float inverseDepthAt(Segment segment, float p) {
+    return mix(segment.depths.x, segment.depths.y, clamp((p - segment.ends.x) / (segment.ends.y - segment.ends.x), 0.0, 1.0));
 }
 
 // Returns true if segment `a` covers all of segment `b` and is not farther at both ends of `b`.
-bool hides(vec4 a, vec4 b) {
-    return a.x <= b.x && a.y >= b.y && inverseDepthAt(a, b.x) >= b.z && inverseDepthAt(a, b.y) >= b.w;
+bool hides(Segment a, Segment b) {
+    return a.ends.x <= b.ends.x && a.ends.y >= b.ends.y && inverseDepthAt(a, b.ends.x) >= b.depths.x &&
+           inverseDepthAt(a, b.ends.y) >= b.depths.y;
 }
 
-void drop(vec4 segment) {
-    lost += lightBetween(segment.x, segment.y, lineSides);
+void drop(Segment segment) {
+    lost += lightBetween(segment.ends.x, segment.ends.y, lineSides);
     ++lostSegments;
 }
 
-bool mergedInto(uint i, vec4 segment, uint triangle) {
-    vec4 other = segments[slotOf(i)];
-    if (triangles[segmentTriangles[slotOf(i)]].w != triangles[triangle].w) return false;
-    bool after = abs(segment.x - other.y) < continuation && abs(segment.z - other.w) < sameDepth * other.w;
-    bool before = abs(segment.y - other.x) < continuation && abs(segment.w - other.z) < sameDepth * other.z;
+float slopeOf(Segment segment) { return (segment.depths.y - segment.depths.x) / max(segment.ends.y - segment.ends.x, 1e-6); }
+
+// Returns true if the colours of two segments agree. Without light of vertices, segments have no colour, and their
+// object and material must be the same.
+bool sameColors(Segment a, Segment b) {
+    if (!lightsVertices) return triangles[a.triangle].w == triangles[b.triangle].w;
+    return all(lessThanEqual(abs(a.color - b.color), vec3(sameColor)));
+}
+
+bool mergedInto(uint i, Segment segment) {
+    Segment other = load(i);
+    if (!sameColors(segment, other)) return false;
+    bool after = abs(segment.ends.x - other.ends.y) <= continuation &&
+                 abs(segment.depths.x - other.depths.y) <= sameDepth * other.depths.y;
+    bool before = abs(segment.ends.y - other.ends.x) <= continuation &&
+                  abs(segment.depths.y - other.depths.x) <= sameDepth * other.depths.x;
     if (!after && !before) return false;
-    segments[slotOf(i)] = after ? vec4(other.x, segment.y, other.z, segment.w) : vec4(segment.x, other.y, segment.z, other.w);
-    // The triangle with the longer segment provides the shading for both segments.
-    if (segment.y - segment.x > other.y - other.x) segmentTriangles[slotOf(i)] = triangle;
+    if (segment.front != other.front) return false;
+    float both = segment.ends.y - segment.ends.x + other.ends.y - other.ends.x;
+    if (abs(slopeOf(segment) - slopeOf(other)) * both > sameSlope * max(other.depths.x, other.depths.y)) return false;
+    // The longer segment provides triangle and colour for both.
+    Segment result = lengthOf(segment) > lengthOf(other) ? segment : other;
+    result.ends = after ? vec2(other.ends.x, segment.ends.y) : vec2(segment.ends.x, other.ends.y);
+    result.depths = after ? vec2(other.depths.x, segment.depths.y) : vec2(segment.depths.x, other.depths.y);
+    store(i, result);
     ++merged;
     return true;
 }
@@ -65,50 +150,61 @@ bool mayChange(Interval interval, OnLine line) {
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
 }
 
-void addSegment(Interval interval, uint triangle, OnLine line) {
+void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     if (!(interval.last > interval.first)) return;
-    vec4 segment = vec4(interval.first, interval.last, inverseDepth(line, interval.first), inverseDepth(line, interval.last));
-    if (lightBetween(segment.x, segment.y, lineSides) < minLight) {
-        drop(segment);
-        return;
-    }
+    Segment segment;
+    segment.ends = storedEnds(vec2(interval.first, interval.last));
+    segment.depths = vec2(inverseDepth(line, interval.first), inverseDepth(line, interval.last));
+    segment.triangle = triangle;
+    segment.front = front;
+    segment.color = colorAt(triangle, line, front, 0.5 * (interval.first + interval.last));
     ownRounds += 3u * segmentCount;
+
+    // Occlusion
     for (uint i = 0u; i < segmentCount; ++i)
-        if (hides(segments[slotOf(i)], segment)) return;
-    if (segment.x <= -lineSides.x && segment.y >= 1.0) hidden = max(hidden, min(segment.z, segment.w));
+        if (hides(load(i), segment)) return;
+    if (segment.ends.x <= -lineSides.x && segment.ends.y >= 1.0) hidden = max(hidden, min(segment.depths.x, segment.depths.y));
     for (uint i = 0u; i < segmentCount;) {
-        if (!hides(segment, segments[slotOf(i)])) {
+        if (!hides(segment, load(i))) {
             ++i;
             continue;
         }
         --segmentCount;
-        segments[slotOf(i)] = segments[slotOf(segmentCount)];
-        segmentTriangles[slotOf(i)] = segmentTriangles[slotOf(segmentCount)];
+        store(i, load(segmentCount));
     }
-    if (segmentCount == uint(segmentCapacity)) {
-        uint minimum = 0u;
-        float minShare = 2.0;
-        for (uint i = 0u; i < segmentCount; ++i) {
-            vec4 other = segments[slotOf(i)];
-            if (mergedInto(i, segment, triangle)) return;
-            float share = lightBetween(other.x, other.y, lineSides);
-            if (share < minShare) {
-                minShare = share;
-                minimum = i;
-            }
-        }
-        if (lightBetween(segment.x, segment.y, lineSides) <= minShare) {
-            drop(segment);
-            return;
-        }
-        drop(segments[slotOf(minimum)]);
-        segments[slotOf(minimum)] = segment;
-        segmentTriangles[slotOf(minimum)] = triangle;
+
+    // Merge
+    for (uint i = 0u; i < segmentCount; ++i)
+        if (mergedInto(i, segment)) return;
+
+    // Length
+    if (lengthOf(segment) < minLength) {
+        segment.ends = vec2(interval.first, interval.last);
+        drop(segment);
         return;
     }
-    segments[slotOf(segmentCount)] = segment;
-    segmentTriangles[slotOf(segmentCount)] = triangle;
-    ++segmentCount;
+
+    // Eviction
+    if (segmentCount < uint(segmentCapacity)) {
+        store(segmentCount, segment);
+        ++segmentCount;
+        return;
+    }
+    uint shortest = 0u;
+    float shortestLength = 2.0;
+    for (uint i = 0u; i < segmentCount; ++i) {
+        float length = lengthOf(load(i));
+        if (length < shortestLength) {
+            shortestLength = length;
+            shortest = i;
+        }
+    }
+    if (lengthOf(segment) <= shortestLength) {
+        drop(segment);
+        return;
+    }
+    drop(load(shortest));
+    store(shortest, segment);
 }
 
 struct Part {
@@ -120,7 +216,7 @@ struct Part {
 Part partFrom(float p, Interval whole) {
     float last = whole.last;
     for (uint i = 0u; i < segmentCount; ++i) {
-        vec2 ends = segments[slotOf(i)].xy;
+        vec2 ends = load(i).ends;
         if (ends.x > p) last = min(last, ends.x);
         else if (ends.y > p) last = min(last, ends.y);
     }
@@ -128,10 +224,10 @@ Part partFrom(float p, Interval whole) {
     float middle = 0.5 * (p + last);
     float nearest = 0.0;
     for (uint i = 0u; i < segmentCount; ++i) {
-        vec4 segment = segments[slotOf(i)];
-        if (segment.x > p || segment.y <= p) continue;
+        Segment segment = load(i);
+        if (segment.ends.x > p || segment.ends.y <= p) continue;
         float here = inverseDepthAt(segment, middle);
-        uint other = segmentTriangles[slotOf(i)];
+        uint other = segment.triangle;
         if (here > nearest || (here == nearest && other < triangle)) {
             nearest = here;
             triangle = other;
@@ -172,10 +268,9 @@ void saveLine(uint at) {
     ranges[at + 2u] = uvec2(floatBitsToUint(hidden), 0u);
     for (uint i = 0u; i < segmentCount; ++i) {
         uint to = at + 3u + 3u * i;
-        vec4 segment = segments[slotOf(i)];
-        ranges[to] = floatBitsToUint(segment.xy);
-        ranges[to + 1u] = floatBitsToUint(segment.zw);
-        ranges[to + 2u] = uvec2(segmentTriangles[slotOf(i)], 0u);
+        ranges[to] = floatBitsToUint(load(i).ends);
+        ranges[to + 1u] = floatBitsToUint(segmentDepths[slotOf(i)]);
+        ranges[to + 2u] = uvec2(segmentTriangles[slotOf(i)], endsAndColors[slotOf(i)]);
     }
 }
 
@@ -187,8 +282,10 @@ void loadLine(uint at) {
     hidden = uintBitsToFloat(ranges[at + 2u].x);
     for (uint i = 0u; i < segmentCount; ++i) {
         uint from = at + 3u + 3u * i;
-        segments[slotOf(i)] = vec4(uintBitsToFloat(ranges[from]), uintBitsToFloat(ranges[from + 1u]));
+        if (!shortIntervals) longEnds[slotOf(i)] = uintBitsToFloat(ranges[from]);
+        segmentDepths[slotOf(i)] = uintBitsToFloat(ranges[from + 1u]);
         segmentTriangles[slotOf(i)] = ranges[from + 2u].x;
+        endsAndColors[slotOf(i)] = ranges[from + 2u].y;
     }
 }
 

@@ -150,7 +150,7 @@ void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
         bool front = (sides.xy & word) != uvec2(0u);
         OnLine line = keptOnLine(i, direction, place);
         if (!front) line = turned(line);
-        addSegment(seen(line, whole), kept[i].x, line);
+        addSegment(seen(line, whole), kept[i].x, line, front);
         if (front) sides.xy &= ~word;
         else sides.zw &= ~word;
     }
@@ -180,8 +180,9 @@ void main() {
     vec2 tileMax = 2.0 * vec2(corner + uint(tileSize)) / vec2(imageSize) - 1.0 + margin;
 
     beginLine(mine.values.xy);
-    uint end = tileEnds[tile];
     uint base = tile == firstTile ? 0u : tileEnds[tile - 1u];
+    uint end = tileEnds[tile];
+    if (binSize > 0u) end = min(end, base + binSize);
     uvec4 sides = uvec4(0u);
     uint state = jobs.z + (slot * threads + gl_LocalInvocationIndex) * (2u + stateSize);
     if (status != jobIsNew) {

@@ -4,9 +4,13 @@
 // have different fractions. Within a side, the density is 1 + a·(2t − 1), where t is the fraction of the unobstructed
 // area that lies nearer to the centre (src/lens/aperture.h).
 
+//
+// areaWeights: false weights parts by their length alone, without κ (Figure 4 of the paper).
+
 layout(location = 4) uniform vec2 lightOverRadius;   // a; obstructed fraction of the area
 
 float lightWithin(float radius) {
+    if (!areaWeights) return radius;
     float t = clamp((radius * radius - lightOverRadius.y) / (1.0 - lightOverRadius.y), 0.0, 1.0);
     return t * (1.0 - lightOverRadius.x + lightOverRadius.x * t);
 }
@@ -22,6 +26,7 @@ float lightBetween(float p1, float p2, vec2 sides) { return lightUpTo(p2, sides)
 // Returns the position p for which [p1, p] contains the fraction `share` of the light in [p1, p2], for a uniform disk.
 // The light up to p is proportional to p|p|, whose inverse is used.
 float placeOfShare(float p1, float p2, float share) {
+    if (!areaWeights) return mix(p1, p2, share);
     float q = mix(p1 * abs(p1), p2 * abs(p2), share);
     return clamp(sign(q) * sqrt(abs(q)), p1, p2);
 }

@@ -4,6 +4,7 @@
 // tests with bounds of u and v).
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "lens_space/triangles.glsl"
 #include "lens_space/rays.glsl"
 #include "lens_space/records.glsl"
@@ -16,6 +17,9 @@ layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 // Bounds of the lens points of each ray over all variants (rays.glsl): min (u, k·v), max (u, k·v).
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
+
+// Number of tests of a triangle by all rays of a workgroup; 64-bit, low word first.
+layout(std430, binding = 8) buffer TestBlock { uint tests[2]; };
 
 layout(location = 2) uniform uint firstTile;   // first tile whose list is in `entries`
 // Part of each tile's list that this dispatch tests: first entry, number of entries. Mesa's software driver ends the
@@ -37,8 +41,9 @@ void addPlaces(inout vec2 minimum, inout vec2 maximum, vec4 clip, vec4 lens) {
     vec2 place = clip.xy / clip.z;
     vec2 a = place + shear * lens.xy;
     vec2 b = place + shear * lens.zw;
-    minimum = min(minimum, min(a, b));
-    maximum = max(maximum, max(a, b));
+    vec2 reach = aberrations ? aberrationReach(place) : vec2(0.0);
+    minimum = min(minimum, min(a, b) - reach);
+    maximum = max(maximum, max(a, b) + reach);
 }
 
 bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileMin, vec2 tileMax) {
@@ -104,6 +109,10 @@ void main() {
             }
         }
         barrier();
+        if (gl_LocalInvocationIndex == 0u && keptCount > 0u) {
+            uint before = atomicAdd(tests[0], keptCount);
+            if (before + keptCount < before) atomicAdd(tests[1], 1u);
+        }
         for (uint i = 0u; i < keptCount; ++i) {
             uint slot = i * stride;
             vec4 corners[3] = vec4[3](keptCorners[slot], keptCorners[slot + 1u], keptCorners[slot + 2u]);

@@ -104,6 +104,9 @@ constexpr ShaderConstant constants[] = {
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
+    {"bool", "shortIntervals", "false"},  // stores the interval of a segment in 16 bits
+    {"bool", "areaWeights", "true"},      // weights parts of lines by κ
+    {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 
     // Circular

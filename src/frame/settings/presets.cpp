@@ -22,11 +22,13 @@ std::span<const Preset> presets() {
           {"lodMetric", "proportional"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
-        // Tzeng and others 2012. For their levels, blurThreshold is a ratio of edge length to blur. The paper gives no
-        // value; 0.25 is this program's choice.
+        // Tzeng and others 2012. blurThreshold is the score at which a level begins. The paper gives neither its value
+        // nor the size of a bin nor the number of lines per position: these are this program's choice.
         {"tzeng2012",
          "line samples with a buffer of fixed size (Tzeng et al. 2012)",
-         {{"method", "line:resolve=published,shading-step=0,shading=vertices,wheel=shared"},
+         {{"method",
+           "line:resolve=published,shading-step=0,interval-bits=16,lines-per-position=4,bin-size=1024,"
+           "shading=vertices,coc-interpolation=linear,wheel=shared"},
           {"lod", "nearest"},
           {"blurThreshold", "0.25"},
           {"lodMetric", "score"},
@@ -46,7 +48,7 @@ std::span<const Preset> presets() {
          {{"method", "layered:pinholes=1"}, {"lod", "off"}}},
         {"munkberg2012",
          "stochastic lens samples for each pixel (Munkberg et al. 2012)",
-         {{"method", "stochastic"}, {"lod", "off"}}},
+         {{"method", "stochastic:coc-interpolation=linear"}, {"lod", "off"}}},
     };
     return all;
 }

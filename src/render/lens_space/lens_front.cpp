@@ -11,6 +11,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
+constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
 constexpr std::uint32_t maxTilesAtOnce = 50'000;   // tiles per dispatch that a thread tests a triangle against
 constexpr std::uint32_t maxSortedAtOnce = 65'536;  // list length that one dispatch sorts in 136 · 256 iterations
@@ -33,33 +34,21 @@ std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coa
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
     if (plan.coc.chromatic > 0)
         fail("method {}: axial chromatic aberration is not supported; leave it out or choose accumulation", method);
-    if (plan.usesLens && plan.coc.aberrates())
-        fail("method {}: astigmatism and coma are not supported; leave them out or choose accumulation", method);
     if (plan.usesLens && plan.view.lens.catEye > 0)
         fail("method {}: a cat's eye is not supported; leave it out or choose accumulation", method);
     if (!plan.moments.empty() && world.shutter.perSample)
         fail("method {}: exact motion is not supported; give a number of motion segments or choose accumulation",
              method);
-    for (const ObjectPlan& object : plan.objects) {
-        if (object.refinement != Refinement::none)
-            fail(
-                "method {}: the controls of the blur are not linear within the triangles of object '{}'; leave them "
-                "out or choose accumulation",
-                method, object.name);
-        for (const Primitive& primitive : world.scene->meshes[static_cast<std::size_t>(object.mesh)].primitives) {
-            if (primitive.material < 0) continue;
-            const Material& material = world.scene->materials[static_cast<std::size_t>(primitive.material)];
-            if (material.alphaMode == AlphaMode::opaque) continue;
-            fail(
-                "method {}: object '{}' has the {} material '{}', but only opaque surfaces are supported; choose "
-                "accumulation",
-                method, object.name, material.alphaMode == AlphaMode::blend ? "alpha-blended" : "alpha-tested",
-                material.name);
-        }
-    }
 }
 
 }  // namespace
+
+std::uint64_t BinStatistics::entriesBeyond(std::uint32_t size) const {
+    std::uint64_t beyond = 0;
+    if (size > 0)
+        for (const std::uint32_t count : counts) beyond += std::max(count, size) - size;
+    return beyond;
+}
 
 void dispatchOver(std::uint64_t count) {
     constexpr std::uint64_t max = 65535;  // min GL_MAX_COMPUTE_WORK_GROUP_COUNT that OpenGL guarantees
@@ -68,18 +57,19 @@ void dispatchOver(std::uint64_t count) {
     glDispatchCompute(static_cast<GLuint>(std::min(needed, max)), static_cast<GLuint>((needed + max - 1) / max), 1);
 }
 
-LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
-                     std::filesystem::path shaderFolder)
+LensFront::LensFront(GpuScene& scene, LensFrontOptions options)
     : scene_(&scene),
-      tileSize_(tileSize),
-      lightsVertices_(lightsVertices),
-      entryBytes_(std::min(entryBytes, largestStorage())),
-      shaderFolder_(std::move(shaderFolder)),
+      tileSize_(options.tileSize),
+      lightsVertices_(options.lightsVertices),
+      entryBytes_(std::min(options.entryBytes, largestStorage())),
+      divides_(options.divides),
+      shaderFolder_(std::move(options.shaderFolder)),
+      divided_(shaderFolder_, lightsVertices_),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
     sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
     ShaderDefines defines;
-    if (lightsVertices_) defines.emplace_back("LIGHTS_VERTICES", "");
+    if (lightsVertices_) defines.emplace_back("lightsVertices", "true");
     trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
 }
 
@@ -101,10 +91,14 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     groupNumbers_.clear();
     vertexCount_ = 0;
     triangleCount_ = 0;
+    divided_.start(defines_);
     std::vector<GpuDraw> draws;
     for (std::uint32_t i = 0; i < plan.objects.size(); ++i)
         for (const LevelDraw* level : {&plan.objects[i].coarse, &plan.objects[i].fine})
             if (level->sampleCount > 0) addLevel(i, *level, draws);
+    const std::uint32_t posed = vertexCount_;
+    addDivisions();
+    ownBlurs_ = divided_.empty() ? Buffer() : Buffer(std::size_t{posed} * ownBlurBytes);
     draws_ = Buffer::of(std::span<const GpuDraw>(draws));
     clips_ = storage(std::uint64_t{vertexCount_} * clipBytes, "the frame's vertices");
     clipsAtEnd_ = moving ? Buffer(clips_.bytes()) : Buffer();
@@ -135,40 +129,67 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, std:
     const bool coarse = &level == &object.coarse;
     const Vertices vertices{objectIndex, level.level, vertexCount_,
                             world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level.level].vertexCount};
+    const std::uint32_t parts = divides_ ? partsOfEdges(object, level.triangleCount, plan_.settings.cocTolerance) : 1;
     for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
         const int material = mesh.primitives[p].material;
         const auto draw = static_cast<std::uint32_t>(draws.size());
-        draws.push_back({beginOf(object, level, coarse), endOf(object, level, coarse),
-                         groupOf(object.mesh, material, level.level),
-                         scene_->material(material).doubleSided ? 1u : 0u});
+        const std::uint32_t group = groupOf(object.mesh, material, level.level);
+        draws.push_back({beginOf(object, level, coarse), endOf(object, level, coarse), group,
+                         scene_->material(material).doubleSided ? 1u : 0u, groups_[group - 1].seeThrough() ? 1u : 0u});
         for (const IndexRun& run : indexRuns(world, object, scene_->mesh(object.mesh), level.level, p)) {
             if (run.count < 3) continue;
-            runs_.push_back({objectIndex, run.first, run.count / 3, vertices.first, draw});
-            triangleCount_ += run.count / 3;
+            runs_.push_back({objectIndex, run.first, run.count / 3, vertices.first, draw, parts});
+            triangleCount_ += run.count / 3 * parts * parts;
         }
     }
     vertices_.push_back(vertices);
     vertexCount_ += vertices.count;
 }
 
+// Assigns the vertices and triangles of divisions, after the vertices of all levels and the undivided triangles.
+void LensFront::addDivisions() {
+    std::uint32_t bases = 0;
+    std::uint32_t triangles = 0;
+    for (const Run& run : runs_)
+        if (run.parts == 1) triangles += run.triangles;
+    for (const Run& run : runs_) {
+        if (run.parts == 1) continue;
+        const DividedRun divided{bases, run.triangles, run.parts, vertexCount_, triangles};
+        divided_.add(divided);
+        bases += run.triangles;
+        triangles += static_cast<std::uint32_t>(divided.triangleCount());
+        vertexCount_ += static_cast<std::uint32_t>(divided.vertexCount());
+    }
+    if (divided_.empty()) return;
+    bases_ = storage(std::uint64_t{bases} * 4 * sizeof(std::uint32_t), "the triangles that are divided");
+}
+
 std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
     ShaderDefines defines = surfaceDefines(*scene_, scene_->mesh(mesh), material, level, SurfaceLook::lit);
     const std::string key = keyOf(defines) + std::to_string(material);
     const auto [entry, isNew] = groupNumbers_.try_emplace(key, static_cast<std::uint32_t>(groups_.size()) + 1);
-    if (isNew) groups_.push_back({std::move(defines), material});
+    if (isNew) groups_.push_back({std::move(defines), material, scene_->material(material).alphaMode});
     return entry->second;
 }
 
 void LensFront::makeTriangles() {
-    trianglesProgram_.use();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, triangles_.name());
+    // Triangles that are divided are no triangles of the frame, so they come before firstTriangles_ is cleared.
+    if (lightsVertices_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
+    convertRuns(bases_, true);
     if (lightsVertices_) {
         const GLuint none = ~0u;
         glClearNamedBufferData(firstTriangles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     }
+    convertRuns(triangles_, false);
+    divided_.makeTriangles(bases_);
+}
+
+void LensFront::convertRuns(const Buffer& target, bool divided) {
+    trianglesProgram_.use();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, target.name());
     std::uint32_t first = 0;
     for (const Run& run : runs_) {
+        if ((run.parts > 1) != divided) continue;
         const ObjectPlan& object = plan_.objects[run.object];
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene_->mesh(object.mesh).indices.name());
         glUniform1ui(0, run.first);
@@ -180,15 +201,20 @@ void LensFront::makeTriangles() {
         dispatchOver(run.triangles);
         first += run.triangles;
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void LensFront::pose(std::uint32_t part) {
     const bool moving = static_cast<bool>(clipsAtEnd_);
-    makeVertices(clips_, clipBytes, false, part, 0);
-    if (moving) makeVertices(clipsAtEnd_, clipBytes, false, part + 1, 0);
-    // Compute the lighting of moving surfaces at the middle of this part of the exposure.
+    const auto makeClips = [&](const Buffer& clips, std::uint32_t moment) {
+        makeVertices(clips, clipBytes, false, moment, 0);
+        divided_.makeClips(bases_, clips, ownBlurs_);
+    };
+    makeClips(clips_, part);
+    if (moving) makeClips(clipsAtEnd_, part + 1);
+    // Light moving surfaces at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
+    divided_.makeAttributes(bases_, attributes_);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     makeDepths();
     countTiles();
@@ -227,11 +253,15 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
         glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.name(),
                           static_cast<GLintptr>(vertices.first * vertexBytes),
                           static_cast<GLsizeiptr>(vertices.count * vertexBytes));
+        if (ownBlurs_ && !attributes)
+            glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 1, ownBlurs_.name(),
+                              static_cast<GLintptr>(vertices.first * ownBlurBytes),
+                              static_cast<GLsizeiptr>(vertices.count * ownBlurBytes));
         glBeginTransformFeedback(GL_POINTS);
         glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices.count));
         glEndTransformFeedback();
     }
-    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    for (GLuint point = 0; point < 2; ++point) glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, point, 0);
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
@@ -245,6 +275,7 @@ const Program& LensFront::vertexProgram(const Vertices& vertices, bool attribute
     if (mesh.colors) defines.emplace_back("vertexColors", "true");
     if (mesh.blurs) defines.emplace_back("vertexBlurs", "true");
     if (changesBlur(vertices) && !attributes) defines.emplace_back("blurMoves", "true");
+    if (ownBlurs_ && !attributes) defines.emplace_back("passesOwnBlur", "true");
     poseDefines(defines, poses_[vertices.object], mesh);
     const char* shader = attributes ? "lens_space/attributes.vert" : "lens_space/clip.vert";
     const auto [entry, isNew] = programs_.try_emplace(shader + keyOf(defines));
@@ -273,7 +304,8 @@ void LensFront::countTiles() {
     // Compute the offsets of the tiles' lists. A new band begins when the list of the next tile would exceed the memory
     // limit.
     bands_.clear();
-    statistics_ = {.tiles = tiles};
+    statistics_ = {};
+    statistics_.tiles = tiles;
     tilePlaces_.assign(tiles, 0);
     std::vector<std::uint32_t> ends(tiles, 0);
     const std::uint64_t max = entryBytes_ / sizeof(std::uint32_t);
@@ -292,6 +324,7 @@ void LensFront::countTiles() {
     }
     band.end = tiles;
     bands_.push_back(band);
+    statistics_.counts = std::move(counts);
     tileEnds_.update(0, tileEnds_.bytes(), ends.data());
     std::uint64_t largest = 0;
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
@@ -361,14 +394,18 @@ void LensFront::bindAttributes() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, attributes_.name());
 }
 
-void LensFront::bindVertexLight() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, vertexLight_.name());
+void LensFront::bindVertexLight(GLuint point) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, point, vertexLight_.name());
 }
 
-void LensFront::bindVertices() const {
+void LensFront::bindTests() const {
     bindTriangles();
     bindAttributes();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, draws_.name());
+}
+
+void LensFront::bindVertices() const {
+    bindTests();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, vertexLight_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, firstTriangles_.name());
 }
@@ -376,7 +413,7 @@ void LensFront::bindVertices() const {
 std::size_t LensFront::bytes() const {
     std::size_t total = objects_.bytes();
     for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &depths_, &firstTriangles_,
-                                 &vertexLight_, &tileCounts_, &tileEnds_, &entries_})
+                                 &vertexLight_, &tileCounts_, &tileEnds_, &entries_, &bases_, &ownBlurs_})
         total += buffer->bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;

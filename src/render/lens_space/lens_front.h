@@ -13,6 +13,7 @@
 #include "gl/program.h"
 #include "gl/target.h"
 #include "render/gpu_scene/surface_draws.h"
+#include "render/lens_space/divided_triangles.h"
 
 namespace defocus::engine {
 
@@ -20,6 +21,8 @@ namespace defocus::engine {
 struct ShadedGroup {
     ShaderDefines defines;
     int material = -1;
+    AlphaMode alphaMode = AlphaMode::opaque;
+    [[nodiscard]] bool seeThrough() const { return alphaMode != AlphaMode::opaque; }
 };
 
 // Tiles [first, end) whose lists fit into one buffer. Tiles are numbered row by row from the lower left.
@@ -31,17 +34,26 @@ struct TileBand {
 
 struct BinStatistics {
     std::uint32_t tiles = 0;
-    std::uint64_t entries = 0;      // list entries of all tiles
-    std::uint32_t largestTile = 0;  // max list entries of a tile
-    std::uint64_t bytes = 0;        // size of the lists of one band
+    std::uint64_t entries = 0;          // list entries of all tiles
+    std::uint32_t largestTile = 0;      // max list entries of a tile
+    std::uint64_t bytes = 0;            // of the lists of one band
+    std::vector<std::uint32_t> counts;  // list entries of each tile
+    // Returns the number of entries beyond the first `size` of each tile; 0 for size 0.
+    [[nodiscard]] std::uint64_t entriesBeyond(std::uint32_t size) const;
+};
+
+struct LensFrontOptions {
+    std::uint32_t tileSize = 0;   // px
+    bool lightsVertices = false;  // lighting is computed per vertex (RecordShading)
+    bool divides = true;          // divides triangles in which C bends; otherwise C is linear in each, as published
+    // Max memory for the lists: if all lists need more, the tiles are processed in several bands.
+    std::uint64_t entryBytes = 0;
+    std::filesystem::path shaderFolder;
 };
 
 class LensFront {
 public:
-    // `tileSize` is in px. `lightsVertices` says whether lighting is computed per vertex (RecordShading). `entryBytes`
-    // is the max memory for the lists: if all lists need more, the tiles are processed in several bands.
-    LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
-              std::filesystem::path shaderFolder);
+    LensFront(GpuScene& scene, LensFrontOptions options);
 
     // Collects the vertices and triangles of `plan`. `frame` must exist until the last wave. Throws Error, with the
     // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
@@ -55,9 +67,11 @@ public:
     // Binds vertices, triangles, draws, list ends and lists at the binding points in shaders/lens_space/.
     void bindTriangles() const;
     void bindAttributes() const;
-    void bindVertexLight() const;
+    void bindVertexLight(GLuint point = 3) const;
     // Binds the inputs and outputs of shaders/lens_space/shade_vertices.comp.
     void bindVertices() const;
+    // Binds the triangles, draws and attributes for shaders/lens_space/let_through.comp.
+    void bindTests() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
     // Returns the groups. Shaders number them from 1: number i is groups()[i − 1], and 0 is the sky.
@@ -77,6 +91,7 @@ private:
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
+        std::uint32_t parts = 1;  // of each edge
     };
     struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;
@@ -89,11 +104,15 @@ private:
         std::uint32_t endRay = 0;
         std::uint32_t group = 0;
         std::uint32_t doubleSided = 0;
+        std::uint32_t seeThrough = 0;
     };
 
     void addLevel(std::uint32_t object, const LevelDraw& level, std::vector<GpuDraw>& draws);
+    void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
     void makeTriangles();
+    // Converts the index ranges of the divided objects, or of the others, to triangles in `target`.
+    void convertRuns(const Buffer& target, bool divided);
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);
     [[nodiscard]] bool changesBlur(const Vertices& vertices) const;
@@ -107,7 +126,9 @@ private:
     std::uint32_t tileSize_;
     bool lightsVertices_;
     std::uint64_t entryBytes_;
+    bool divides_;
     std::filesystem::path shaderFolder_;
+    DividedTriangles divided_;
     FramePlan plan_;
     const FrameUniforms* frame_ = nullptr;
     ShaderDefines defines_;
@@ -126,6 +147,8 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
+    Buffer bases_;                         // undivided triangles of divided objects
+    Buffer ownBlurs_;                      // blur modifiers of the vertices; only with divided objects
     Buffer firstTriangles_, vertexLight_;  // only with per-vertex lighting
     Buffer depths_;                        // sort key of each triangle
     Buffer tileCounts_, tileEnds_, entries_;

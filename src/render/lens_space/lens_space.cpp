@@ -7,6 +7,7 @@
 #include "render/lens_space/ray_sum.h"
 #include "render/lens_space/record_buffer.h"
 #include "render/lens_space/record_shading.h"
+#include "render/lens_space/see_through.h"
 #include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
@@ -24,9 +25,11 @@ public:
         clock_.beginSetup();
         plan_ = plan;
         if (!front_) {
-            front_.emplace(scene_, kernel_->tileSize(), kernel_->lightsVertices(), options_.waveBytes,
-                           options_.shaderFolder);
+            front_.emplace(scene_, LensFrontOptions{kernel_->tileSize(), kernel_->lightsVertices(),
+                                                    options_.settings.at("coc-interpolation") == "divided",
+                                                    options_.waveBytes, options_.shaderFolder});
             shading_.emplace(scene_, options_.shaderFolder);
+            seeThrough_.emplace(options_.shaderFolder, kernel_->tileSize());
         }
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, 1);
@@ -40,6 +43,9 @@ public:
         defines.insert(defines.end(), rayDefines.begin(), rayDefines.end());
         kernel_->start(plan_, sets, defines);
         shading_->prepare(plan_, *front_, defines);
+        seeThrough_->prepare(plan_, *front_, defines);
+        searches_ = 0;
+        records_ = 0;
         stats_ = {};
         part_.reset();
         clock_.beginFrame();
@@ -62,6 +68,10 @@ public:
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, rays_.name());
         const std::uint64_t records = kernel_->find(*front_, wave);
         kernel_->bindRecords();
+        frame_.bind(first);
+        searches_ += seeThrough_->resolve(*front_, *shading_, records, first);
+        records_ += records;
+        frame_.bind(first);
         shading_->shade(*front_, records, first);
         kernel_->bindRecords();
         sum_->add(wave.count);
@@ -93,6 +103,9 @@ public:
                              {"triangles in the fullest tile", static_cast<double>(bins.largestTile)},
                              {"bytes of the tiles' lists", static_cast<double>(bins.bytes)},
                              {"bands of tiles", static_cast<double>(front_->bands().size())}};
+            if (searches_ > 0)
+                stats.figures.push_back({"see-through hits per shaded point",
+                                         static_cast<double>(searches_) / static_cast<double>(records_)});
         }
         kernel_->addTo(stats);
         return stats;
@@ -140,6 +153,9 @@ private:
     FrameUniforms frame_;
     std::optional<LensFront> front_;
     std::optional<RecordShading> shading_;
+    std::optional<SeeThrough> seeThrough_;
+    std::uint64_t searches_ = 0;  // rays that went on behind a hit, over all waves so far
+    std::uint64_t records_ = 0;
     std::optional<RaySum> sum_;
     glm::ivec2 sumSize_{0};
     Buffer rays_;
@@ -155,6 +171,15 @@ MethodSetting shadingSetting() {
             .standard = "surfaces",
             .description = "Where surfaces are shaded: at the rays' hit points, or at their vertices as published",
             .choices = {"surfaces", "vertices"}};
+}
+
+MethodSetting cocInterpolationSetting() {
+    return {.name = "coc-interpolation",
+            .standard = "divided",
+            .description =
+                "Circle of confusion inside a triangle: triangles in which it bends are divided, or it is "
+                "linear between the corners as published",
+            .choices = {"divided", "linear"}};
 }
 
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,

@@ -11,11 +11,12 @@ namespace defocus::engine {
 
 // Returns setting "shading" of the lens-space methods, which sets VisibilityKernel::lightsVertices().
 MethodSetting shadingSetting();
+// Returns setting "coc-interpolation" of the lens-space methods, which sets LensFrontOptions::divides.
+MethodSetting cocInterpolationSetting();
 
 // Returns a renderer that finds hits with `kernel`. `options.settings` must be complete. Renderer::start throws Error,
-// with the object or setting in its message, for unsupported features: blended and alpha-tested materials, blur
-// controls that vary nonlinearly inside triangles, axial chromatic aberration, astigmatism and coma, cat's eye, exact
-// motion.
+// with the setting in its message, for unsupported features: axial chromatic aberration, cat's eye, exact motion, and
+// those of the kernel.
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel);
 

@@ -23,11 +23,12 @@ public:
     // Shades `count` records of the wave that starts at ray `firstRay`. Rays, records and the frame's uniforms must be
     // bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
+    // Binds the textures and the uniforms of the material of a group, by index in LensFront::groups().
+    void bindMaterial(const LensFront& front, std::size_t group) const;
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     const Program& program(const char* shader, const ShaderDefines& defines, const ShaderDefines& more);
-    void bindMaterial(const LensFront& front, std::size_t group) const;
 
     GpuScene* scene_;
     std::filesystem::path shaderFolder_;

@@ -26,7 +26,7 @@ constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer 
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // bytes of shared memory per segment of a line
+constexpr std::uint32_t sharedBytes = 24;  // max shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
 // Element of the uniform block BoundBlock in shaders/line/kernel.glsl (std140).
@@ -54,17 +54,23 @@ public:
           exact_(options.settings.at("resolve") == "exact"),
           lightsVertices_(options.settings.at("shading") == "vertices"),
           turned_(options.settings.at("wheel") == "turned"),
+          shortIntervals_(options.settings.at("interval-bits") == "16"),
+          areaWeights_(options.settings.at("line-weights") == "area"),
+          linesPerPosition_(static_cast<std::uint32_t>(numberOf(options.settings, "lines-per-position"))),
+          binSize_(static_cast<std::uint32_t>(numberOf(options.settings, "bin-size"))),
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
         if (exact_ && segments_ != standardSegments)
             fail("method line: segments has an effect only with resolve=published; leave it out");
+        if (exact_ && shortIntervals_)
+            fail("method line: interval-bits has an effect only with resolve=published; leave it out");
     }
 
     [[nodiscard]] std::string name() const override { return "line"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
     [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
     [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t /*parts*/) const override {
-        return lineSets(plan, turned_).sets;
+        return lineSets(plan, turned_, linesPerPosition_).sets;
     }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {{"lineSamples", "true"}}; }
     [[nodiscard]] const char* addShader() const override { return "line/add.comp"; }
@@ -73,7 +79,9 @@ public:
     void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) override {
         if (!plan.moments.empty()) fail("method line: motion blur is not supported; choose stochastic or accumulation");
         imageSize_ = {plan.view.width, plan.view.height};
-        const LineSets lines = lineSets(plan, turned_);
+        if (plan.usesLens && plan.coc.aberrates())
+            fail("method line: astigmatism and coma bend the lines; leave them out or choose stochastic");
+        const LineSets lines = lineSets(plan, turned_, linesPerPosition_);
         bounds_.clear();
         for (std::uint32_t line = 0; line < rays.rays; ++line)
             bounds_.push_back({rays.lensBounds[line], lines.strips[line]});
@@ -85,6 +93,7 @@ public:
         maxRounds_ = currentIsSoftware() ? softwareRounds : 0;
         totals_ = {};
         lines_ = 0;
+        droppedEntries_ = 0;
         if (exact_) {
             build(capacity_);
             return;
@@ -105,6 +114,7 @@ public:
             std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
         boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
         records_.reserve(std::min(pixels * wave.count * expectedRecords, RecordBuffer::maxRecords()));
+        droppedEntries_ = front.statistics().entriesBeyond(binSize_);
         while (true) {
             const Counters counters = draw(front, wave);
             if (exact_ && counters.droppedSegments > 0 && capacity_ < maxCapacity) {
@@ -147,6 +157,8 @@ public:
         stats.figures.push_back({"dropped segments per line", perLine(totals_.droppedSegments)});
         stats.figures.push_back({"dropped share of the light", perLine(totals_.droppedLight) * double{lightUnit}});
         stats.figures.push_back({"merged segments per line", perLine(totals_.mergedSegments)});
+        if (binSize_ > 0)
+            stats.figures.push_back({"triangles beyond the size of a bin", static_cast<double>(droppedEntries_)});
     }
 
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
@@ -170,6 +182,9 @@ private:
         all.emplace_back("maxRays", std::to_string(blockSamples));
         all.emplace_back("maxShadingPoints", std::to_string(maxShadingPoints));
         all.emplace_back("segmentCapacity", std::to_string(segments));
+        if (shortIntervals_) all.emplace_back("shortIntervals", "true");
+        if (!areaWeights_) all.emplace_back("areaWeights", "false");
+        if (lightsVertices_) all.emplace_back("lightsVertices", "true");
         if (program_ && built_ == all) return;
         built_ = all;
         program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
@@ -225,6 +240,7 @@ private:
         program_.use();
         front.bindTriangles();
         bindRecords();
+        if (lightsVertices_ && !exact_) front.bindVertexLight(8);
         glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
         glUniform2i(0, imageSize_.x, imageSize_.y);
         glUniform1ui(1, wave.first);
@@ -233,6 +249,7 @@ private:
         glUniform2f(4, lightOverRadius_.x, lightOverRadius_.y);
         glUniform1f(5, shadingStep_);
         glUniform1ui(6, maxRounds_);
+        glUniform1ui(8, binSize_);
     }
 
     // Dispatches the kernel; `jobs` is the uniform of this name in shaders/line/kernel.glsl.
@@ -256,6 +273,10 @@ private:
     bool exact_;
     bool lightsVertices_;
     bool turned_;
+    bool shortIntervals_;
+    bool areaWeights_;
+    std::uint32_t linesPerPosition_;
+    std::uint32_t binSize_;
     std::uint32_t segments_;
     float shadingStep_;
     std::uint32_t capacity_ = firstCapacity;
@@ -269,6 +290,7 @@ private:
     std::uint32_t maxRounds_ = 0;  // max loop iterations of a shader invocation per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
+    std::uint64_t droppedEntries_ = 0;  // triangles beyond binSize_, summed over all tiles
 };
 
 }  // namespace
@@ -295,7 +317,31 @@ Method lineMethod() {
          .choices = {},
          .min = 0,
          .max = 64},
+        {.name = "interval-bits",
+         .standard = "64",
+         .description = "Bits for both ends of a segment in the buffer of --resolve published; 16 as published",
+         .choices = {"64", "16"},
+         .onlyWith = "resolve=published"},
+        {.name = "line-weights",
+         .standard = "area",
+         .description = "Weights of the parts of a line: by the lens area that they stand for (the factor κ of the "
+                        "paper), or by their length alone, which brightens the middle of a blurred point",
+         .choices = {"area", "length"}},
+        {.name = "lines-per-position",
+         .standard = "1",
+         .description = "Number of lines that share a position in the pixel",
+         .choices = {},
+         .min = 1,
+         .max = 64},
+        {.name = "bin-size",
+         .standard = "0",
+         .description = "Max number of triangles in the list of a tile of 8 x 8 px: the nearest ones are drawn, and "
+                        "--stats counts the others; 0: unlimited",
+         .choices = {},
+         .min = 0,
+         .max = 1'000'000},
         shadingSetting(),
+        cocInterpolationSetting(),
         {.name = "wheel",
          .standard = "turned",
          .description = "Line directions: rotated from pixel to pixel in an 8 x 8 pattern, or the same for all pixels "

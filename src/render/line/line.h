@@ -3,11 +3,11 @@
 // from which a triangle is visible (Tzeng, Patney, Davidson, Ebeida, Mitchell and Owens 2012, High-Quality Parallel
 // Depth-of-Field Using Line Samples).
 //
-// The published method stores a line's segments in a buffer of fixed size; heuristics drop or merge segments when the
-// buffer is full. Intersecting segments change order only at the end of a segment, and each segment is shaded once, at
-// its midpoint. By default, this implementation finds the visible intervals exactly, including intersections. The
-// number of shading points per interval depends on the parallax of its surface in pixels. Shading points are random, so
-// that textures are blurred too.
+// The published method stores a line's segments in a buffer of fixed size (shaders/line/segment_buffer.glsl).
+// Intersecting segments change order only at the end of a segment, and each segment is shaded once, at its midpoint. By
+// default, this implementation finds the visible intervals exactly, including intersections. The number of shading
+// points per interval depends on the parallax of its surface in pixels. Shading points are random, so that textures are
+// blurred too.
 
 #include "render/methods.h"
 

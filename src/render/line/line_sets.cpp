@@ -73,7 +73,7 @@ double apertureRim(const Aperture& aperture, double angle) {
     return (1 - aperture.bladeCurvature) * std::cos(blade / 2) / std::cos(fromMiddle) + aperture.bladeCurvature;
 }
 
-LineSets lineSets(const FramePlan& plan, bool turned) {
+LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition) {
     const Aperture aperture = plan.usesLens ? makeAperture(plan.view.lens) : Aperture{};
     if (aperture.image.rows > 0)
         fail("method line: aperture images are not supported; choose blades, or method stochastic");
@@ -92,6 +92,11 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
     std::vector<std::vector<WheelPoint>> wheels;
     for (std::uint32_t variant = 0; variant < sets.variants; ++variant)
         wheels.push_back(wheelPoints(plan.settings, variant, count));
+    const std::uint32_t positions = (count + linesPerPosition - 1) / linesPerPosition;
+    // Positions of a prefix of the sequence are well distributed. wheelPoints() sorts, so take every n-th point.
+    const auto positionOf = [&](std::uint32_t variant, std::uint32_t angle) {
+        return wheels[variant][angle % positions * count / positions].pixel;
+    };
     for (std::uint32_t line = 0; line < count; ++line) {
         float longest = 0;
         for (std::uint32_t variant = 0; variant < sets.variants; ++variant) {
@@ -108,7 +113,7 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
             const auto backward = static_cast<float>(behind / ahead);
             const glm::vec2 lens(way.x, aspect * way.y);
             sets.table[std::size_t{line} * sets.variants + variant] = {
-                glm::vec4(lens, glm::vec2(point.pixel) - 0.5f),
+                glm::vec4(lens, glm::vec2(positionOf(variant, order[line])) - 0.5f),
                 glm::vec4(backward, areaAt(ahead) / (areaAt(ahead) + areaAt(behind)), point.shading, 0)};
             glm::vec4& bounds = sets.lensBounds[line];
             for (const glm::vec2& end : {lens, -backward * lens})

@@ -26,7 +26,8 @@ struct LineSets {
 
 // Returns the lines for a plan. If `turned` is false, all pixels have the same wheel and positions, as published.
 // Throws Error if the lens has an aperture image.
-LineSets lineSets(const FramePlan& plan, bool turned);
+// `linesPerPosition` lines share each position in the pixel (Figure 2 of the paper); their angles are evenly spread.
+LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition = 1);
 
 // Returns the distance from the aperture's centre to its rim at `angle` in radians, without blade rotation and
 // anamorphic squeeze.

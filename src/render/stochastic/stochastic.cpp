@@ -1,5 +1,7 @@
 #include "render/stochastic/stochastic.h"
 
+#include <cmath>
+
 #include "render/lens_space/lens_space.h"
 #include "render/lens_space/record_buffer.h"
 
@@ -29,6 +31,9 @@ public:
         imageSize_ = {plan.view.width, plan.view.height};
         bounds_ = rays.lensBounds;
         boundBlock_ = Buffer(boundBytes);
+        const std::uint32_t none[2] = {0, 0};
+        tests_ = Buffer(sizeof none, none);
+        groups_ = 0;
         ShaderDefines all = defines;
         all.emplace_back("tileSize", std::to_string(pointTile));
         all.emplace_back("maxRays", std::to_string(blockSamples));
@@ -49,6 +54,7 @@ public:
             front.bindTriangles();
             bindRecords();
             glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, tests_.name());
             glUniform2i(0, imageSize_.x, imageSize_.y);
             glUniform1ui(1, wave.first);
             glUniform1ui(2, band.first);
@@ -58,11 +64,19 @@ public:
                 glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
             }
         }
+        groups_ += std::uint64_t{front.statistics().tiles} * wave.count;
         return records;
     }
 
     void bindRecords() const override { records_.bind(); }
-    void addTo(RenderStats&) const override {}
+    void addTo(RenderStats& stats) const override {
+        if (groups_ == 0) return;
+        std::uint32_t words[2] = {0, 0};
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        tests_.read(0, sizeof words, words);
+        const double tests = std::ldexp(static_cast<double>(words[1]), 32) + static_cast<double>(words[0]);
+        stats.figures.push_back({"triangles tested per ray", tests / static_cast<double>(groups_)});
+    }
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes(); }
 
 private:
@@ -73,13 +87,15 @@ private:
     ShaderDefines defines_;
     Program program_;
     Buffer boundBlock_;
+    Buffer tests_;              // TestBlock of shaders/stochastic/visible.comp
+    std::uint64_t groups_ = 0;  // workgroups so far: a ray of each pixel of a tile
     RecordBuffer records_;
 };
 
 }  // namespace
 
 Method stochasticMethod() {
-    const std::vector<MethodSetting> settings = {shadingSetting()};
+    const std::vector<MethodSetting> settings = {shadingSetting(), cocInterpolationSetting()};
     return {.name = "stochastic",
             .description = "lens space: different lens points for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,

@@ -16,31 +16,6 @@ std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
 
-double figureOf(const RenderStats& stats, const std::string& name) {
-    for (const MethodFigure& figure : stats.figures)
-        if (figure.name == name) return figure.value;
-    return std::nan("");
-}
-
-// Returns a ground that extends from behind the camera to far away, so that the near plane cuts it.
-std::unique_ptr<SmallWorld> groundUnderCamera() {
-    auto small = std::make_unique<SmallWorld>();
-    Mesh mesh = quad(0);
-    mesh.vertices.colors = {{1, 0.2f, 0.1f, 1}, {0.1f, 1, 0.2f, 1}, {0.2f, 0.1f, 1, 1}, {1, 1, 0.2f, 1}};
-    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
-    small->scene.meshes.push_back(mesh);
-    place(*small, 0,
-          glm::rotate(glm::scale(glm::translate(glm::dmat4(1), {0.1, -0.3, 0}), glm::dvec3(4)), -0.5 * std::numbers::pi,
-                      glm::dvec3(1, 0, 0)));
-    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.4f, 0.9f}, {}, {}, nullptr, 1};
-    small->view.width = 64;
-    small->view.height = 48;
-    small->view.lens.fStop = 0.5;
-    small->view.lens.focusDistance = 1.5;
-    finish(*small);
-    return small;
-}
-
 TEST_P(LensSpace, convergesToTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = twoSpheres();
@@ -143,23 +118,12 @@ TEST_P(LensSpace, meetsEachOfThousandsOfTrianglesInATile) {
 }
 
 TEST_P(LensSpace, refusesByName) {
-    const auto blended = twoSpheres();
-    blended->scene.materials[0].alphaMode = AlphaMode::blend;
-    blended->scene.materials[0].name = "Glass";
-    expectRefusal(GetParam(), *blended, "object 'Object 0' has the alpha-blended material 'Glass'");
-    const auto masked = twoSpheres();
-    masked->scene.materials[0].alphaMode = AlphaMode::mask;
-    expectRefusal(GetParam(), *masked, "alpha-tested");
     const auto coloured = twoSpheres();
     coloured->view.lens.axialChromaticAberration = 0.5;
     expectRefusal(GetParam(), *coloured, "axial chromatic aberration");
     const auto barrel = twoSpheres();
     barrel->view.lens.catEye = 0.5;
     expectRefusal(GetParam(), *barrel, "cat's eye");
-    const auto range = groundUnderCamera();
-    range->view.lens.focusRangeFront = 0.5;
-    range->view.lens.focusRangeBehind = 3;
-    expectRefusal(GetParam(), *range, "controls of the blur");
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line"));
@@ -195,7 +159,7 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_EQ(figureOf(stats, "dropped segments per line"), 0);
     const Image buffered = lensSpaceImage("line:resolve=published", *small, 16, &stats);
     EXPECT_LT(figureOf(stats, "dropped share of the light"), 1e-4);
-    EXPECT_EQ(figureOf(stats, "merged segments per line"), 0);
+    EXPECT_GT(figureOf(stats, "merged segments per line"), 0);  // the two triangles of a quad
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 

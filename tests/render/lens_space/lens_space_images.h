@@ -62,6 +62,31 @@ inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) 
     return small;
 }
 
+inline double figureOf(const RenderStats& stats, const std::string& name) {
+    for (const MethodFigure& figure : stats.figures)
+        if (figure.name == name) return figure.value;
+    return std::nan("");
+}
+
+// Returns a ground that extends from behind the camera to far away, so that the near plane cuts it.
+inline std::unique_ptr<SmallWorld> groundUnderCamera() {
+    auto small = std::make_unique<SmallWorld>();
+    Mesh mesh = quad(0);
+    mesh.vertices.colors = {{1, 0.2f, 0.1f, 1}, {0.1f, 1, 0.2f, 1}, {0.2f, 0.1f, 1, 1}, {1, 1, 0.2f, 1}};
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(mesh);
+    place(*small, 0,
+          glm::rotate(glm::scale(glm::translate(glm::dmat4(1), {0.1, -0.3, 0}), glm::dvec3(4)), -0.5 * std::numbers::pi,
+                      glm::dvec3(1, 0, 0)));
+    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.4f, 0.9f}, {}, {}, nullptr, 1};
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.fStop = 0.5;
+    small->view.lens.focusDistance = 1.5;
+    finish(*small);
+    return small;
+}
+
 inline void expectRefusal(const char* method, const SmallWorld& small, const std::string& part) {
     try {
         lensSpaceImage(method, small, 4);

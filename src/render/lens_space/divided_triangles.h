@@ -1,0 +1,55 @@
+#pragma once
+// Triangles that the lens-space methods divide, because the circle of confusion C bends inside them. Each triangle of
+// an object becomes n² small triangles, with C evaluated at their corners. All triangles of an object are divided
+// equally, so that no gaps open between them.
+
+#include <filesystem>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "plan/frame_plan.h"
+
+namespace defocus::engine {
+
+// Range of triangles that are divided into `parts`² each.
+struct DividedRun {
+    std::uint32_t firstBase = 0;  // index in the buffer of undivided triangles
+    std::uint32_t baseCount = 0;
+    std::uint32_t parts = 1;
+    std::uint32_t firstVertex = 0;    // of the division, in the frame
+    std::uint32_t firstTriangle = 0;  // of the division, in the frame
+
+    [[nodiscard]] std::uint64_t vertexCount() const { return std::uint64_t{baseCount} * (parts + 1) * (parts + 2) / 2; }
+    [[nodiscard]] std::uint64_t triangleCount() const { return std::uint64_t{baseCount} * parts * parts; }
+};
+
+// Returns the number of parts n ≤ 64 of each edge for which C deviates from linear by at most `tolerance` px. For an
+// object of `triangles` triangles, n is smaller if there would be more than 2 million small triangles.
+std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance);
+
+class DividedTriangles {
+public:
+    explicit DividedTriangles(std::filesystem::path shaderFolder, bool lightsVertices);
+
+    // Forgets all runs. `defines` are those of the front end.
+    void start(const ShaderDefines& defines);
+    void add(const DividedRun& run) { runs_.push_back(run); }
+    [[nodiscard]] bool empty() const { return runs_.empty(); }
+    // Writes the small triangles. The undivided triangles, the frame's triangles and, with light of vertices, the first
+    // triangle of each vertex must be bound at points 1, 2 and 3.
+    void makeTriangles(const Buffer& bases) const;
+    // Computes the vertices from the undivided ones in the same buffer.
+    void makeClips(const Buffer& bases, const Buffer& clips, const Buffer& ownBlurs) const;
+    void makeAttributes(const Buffer& bases, const Buffer& attributes) const;
+
+private:
+    void dispatch(const Program& program, const Buffer& bases, bool triangles) const;
+
+    std::filesystem::path shaderFolder_;
+    std::vector<DividedRun> runs_;
+    ShaderDefines defines_;
+    Program trianglesProgram_, clipsProgram_, attributesProgram_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,43 @@
+#pragma once
+// Cut-out and alpha-blended surfaces in the lens-space methods. After the visibility kernel, each ray that hits such a
+// surface stops there or goes on, by the surface's alpha at the hit (shaders/lens_space/let_through.comp). Rays that go
+// on find their next hit (behind.comp), until all rays have stopped.
+//
+// A line sample goes on as point samples: one at each shading point of the surface that lets it through. This is an
+// approximation of ours, because Tzeng et al. 2012 draw only opaque surfaces.
+
+#include "render/lens_space/lens_front.h"
+#include "render/lens_space/record_shading.h"
+
+namespace defocus::engine {
+
+class SeeThrough {
+public:
+    SeeThrough(std::filesystem::path shaderFolder, std::uint32_t tileSize);
+
+    // Prepares the programs for the groups of `front`. `defines` are those of the front end, the rays and the kernel.
+    void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
+    // Moves the hits of `count` records of the wave that starts at ray `firstRay` to the surfaces at which their rays
+    // stop. Rays, records and the frame's uniforms must be bound. Returns the number of searches for a next hit. Throws
+    // Error if the driver cannot search a tile's list at once.
+    std::uint64_t resolve(LensFront& front, const RecordShading& shading, std::uint64_t count, std::uint32_t firstRay);
+
+private:
+    struct Test {
+        std::size_t group = 0;  // index in LensFront::groups()
+        const Program* program = nullptr;
+    };
+
+    [[nodiscard]] std::uint32_t raysThatGoOn(const LensFront& front, const RecordShading& shading, std::uint64_t count,
+                                             std::uint32_t firstRay, bool first);
+
+    std::filesystem::path shaderFolder_;
+    std::uint32_t tileSize_;
+    glm::ivec2 imageSize_{0};
+    std::map<std::string, Program> programs_;
+    std::vector<Test> tests_;
+    const Program* behind_ = nullptr;
+    Buffer goOn_;
+};
+
+}  // namespace defocus::engine
