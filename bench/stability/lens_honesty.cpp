@@ -72,7 +72,7 @@ std::vector<std::string> honestyMethods() {
             const std::vector<std::string> max = {fmt::format("{:g}", setting.max)};
             const std::string also = setting.onlyWith.empty() ? "" : setting.onlyWith + ",";
             for (const std::string& choice : setting.choices.empty() ? max : setting.choices)
-                if (choice != setting.standard)
+                if (choice != setting.defaultValue)
                     list.push_back(fmt::format("{}:{}{}={}", method.name, also, setting.name, choice));
         }
     }

@@ -12,7 +12,7 @@ namespace {
 struct ShaderConstant {
     std::string_view type;  // GLSL type
     std::string_view name;
-    std::string_view standard;  // default value
+    std::string_view defaultValue;
     // Macro that is defined if the constant differs from its default; empty: no macro. Shaders use it to declare inputs
     // and outputs that depend on the constant, because `if` cannot remove declarations.
     std::string_view macro = {};
@@ -154,8 +154,8 @@ std::string shaderPreamble(const ShaderDefines& defines, const std::string& sour
     std::string declarations;
     for (const ShaderConstant& constant : constants) {
         const auto set = std::ranges::find(defines, constant.name, &ShaderDefines::value_type::first);
-        const std::string_view value = set != defines.end() ? std::string_view(set->second) : constant.standard;
-        if (!constant.macro.empty() && value != constant.standard)
+        const std::string_view value = set != defines.end() ? std::string_view(set->second) : constant.defaultValue;
+        if (!constant.macro.empty() && value != constant.defaultValue)
             macros += fmt::format("#define {}\n", constant.macro);
         // Declare only the constants that the source mentions: compilers take about 5 µs for each declaration.
         if (source.find(constant.name) == std::string::npos) continue;

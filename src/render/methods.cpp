@@ -53,7 +53,7 @@ std::vector<Method>& table() {
 
 std::string accepted(const MethodSetting& setting) {
     if (!setting.choices.empty()) return fmt::format("one of {}", fmt::join(setting.choices, ", "));
-    return fmt::format("{} from {:g} to {:g}", setting.whole ? "an integer" : "a number", setting.min, setting.max);
+    return fmt::format("{} from {:g} to {:g}", setting.integer ? "an integer" : "a number", setting.min, setting.max);
 }
 
 bool takes(const MethodSetting& setting, const std::string& value) {
@@ -62,7 +62,8 @@ bool takes(const MethodSetting& setting, const std::string& value) {
     double number = 0;
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
     const bool parsed = fault == std::errc() && end == value.data() + value.size() && std::isfinite(number);
-    return parsed && number >= setting.min && number <= setting.max && (!setting.whole || number == std::floor(number));
+    return parsed && number >= setting.min && number <= setting.max &&
+           (!setting.integer || number == std::floor(number));
 }
 
 const MethodSetting& settingNamed(std::string_view method, const std::vector<MethodSetting>& known,
@@ -126,7 +127,7 @@ MethodSettings completeSettings(std::string_view method, const std::vector<Metho
         if (!takes(setting, value)) fail("method {}: {} must be {}, not '{}'", method, name, accepted(setting), value);
     }
     MethodSettings complete = given;
-    for (const MethodSetting& setting : known) complete.try_emplace(setting.name, setting.standard);
+    for (const MethodSetting& setting : known) complete.try_emplace(setting.name, setting.defaultValue);
     return complete;
 }
 
@@ -146,7 +147,7 @@ std::string settingsText(const std::vector<MethodSetting>& known, const MethodSe
     std::string text;
     for (const MethodSetting& setting : known) {
         const auto found = settings.find(setting.name);
-        if (found == settings.end() || found->second == setting.standard) continue;
+        if (found == settings.end() || found->second == setting.defaultValue) continue;
         text += (text.empty() ? "" : ",") + setting.name + "=" + found->second;
     }
     return text;

@@ -18,12 +18,12 @@ namespace defocus::engine {
 
 struct MethodSetting {
     std::string name;                  // e.g. "far-components"; the command-line option is --far-components
-    std::string standard;              // default value, as text
+    std::string defaultValue;          // as text
     std::string description;           // for --help
     std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;
     double max = 0;
-    bool whole = true;          // numeric setting: the value must be an integer
+    bool integer = true;        // numeric setting: the value must be an integer
     std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
     bool ofTheScene = false;    // true: no value suits all scenes; benchmarks skip this setting
     bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt

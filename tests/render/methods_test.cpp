@@ -8,9 +8,9 @@ namespace defocus::engine {
 namespace {
 
 const std::vector<MethodSetting> known = {
-    {.name = "taps", .standard = "8", .description = "", .choices = {}, .min = 8, .max = 64},
-    {.name = "coc", .standard = "published", .description = "", .choices = {"published", "thin-lens"}},
-    {.name = "bias", .standard = "1", .description = "", .choices = {}, .min = 0, .max = 4, .whole = false},
+    {.name = "taps", .defaultValue = "8", .description = "", .choices = {}, .min = 8, .max = 64},
+    {.name = "coc", .defaultValue = "published", .description = "", .choices = {"published", "thin-lens"}},
+    {.name = "bias", .defaultValue = "1", .description = "", .choices = {}, .min = 0, .max = 4, .integer = false},
 };
 
 std::string faultOf(const MethodSettings& given) {

@@ -106,9 +106,9 @@ FrameFiles filesOf(const RenderArguments& arguments) {
     FrameFiles files{arguments.outputs,    arguments.sampleRange, arguments.tile, arguments.resume, {},
                      arguments.keepPartial};
     if (arguments.aovs.any())
-        files.whole = "--aov needs the whole image";
+        files.untiledReason = "--aov needs the whole image";
     else if (std::ranges::any_of(arguments.outputs, isStandardOutput))
-        files.whole = "standard output needs the whole image";
+        files.untiledReason = "standard output needs the whole image";
     return files;
 }
 

@@ -96,8 +96,8 @@ std::string markdownRow(const Setting& setting) {
 std::string methodRow(const Method& method, const MethodSetting& setting) {
     const std::string range = setting.choices.empty() ? fmt::format("{:g} to {:g}", setting.min, setting.max)
                                                       : fmt::format("{}", fmt::join(setting.choices, ", "));
-    return fmt::format("| `{}` | `--{}` | {} | `{}` | {} |\n", method.name, setting.name, cell(range), setting.standard,
-                       cell(setting.description));
+    return fmt::format("| `{}` | `--{}` | {} | `{}` | {} |\n", method.name, setting.name, cell(range),
+                       setting.defaultValue, cell(setting.description));
 }
 
 std::string markdown() {

@@ -53,7 +53,7 @@ CLI::Option* addRow(CLI::App& command, Request& request, const Setting& setting)
 
 std::string valuesOf(const MethodSetting& setting) {
     if (!setting.choices.empty()) return fmt::format("{}", fmt::join(setting.choices, "|"));
-    return setting.whole ? "N" : "R";
+    return setting.integer ? "N" : "R";
 }
 
 // Returns the default of a method setting for --help: one value, or a value for each method if the methods differ.
@@ -63,8 +63,8 @@ std::string defaultOf(const std::string& name) {
     for (const Method& method : methods())
         for (const MethodSetting& setting : method.settings) {
             if (setting.name != name) continue;
-            values.insert(setting.standard);
-            texts.push_back(fmt::format("{} for {}", setting.standard, method.name));
+            values.insert(setting.defaultValue);
+            texts.push_back(fmt::format("{} for {}", setting.defaultValue, method.name));
         }
     return values.size() == 1 ? *values.begin() : fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -196,7 +196,7 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.samples.has_value(),
             static_cast<bool>(order.takeRows),
             order.shortDraws || order.stop.timeLimit,
-            order.whole,
+            order.untiledReason,
             order.rows};
 }
 
@@ -235,7 +235,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     if (tiles && order.stop.given())
         refuseTiles(plan, limit_, "--target-error and --time-limit need the whole image; give --samples");
     if (tiles && order.samples) refuseTiles(plan, limit_, "--sample-range needs the whole image; use --tile instead");
-    if (tiles && !order.whole.empty()) refuseTiles(plan, limit_, order.whole);
+    if (tiles && !order.untiledReason.empty()) refuseTiles(plan, limit_, order.untiledReason);
     if (tiles || order.rows)
         return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
     TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);

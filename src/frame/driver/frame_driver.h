@@ -40,7 +40,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    std::string whole = {};                          // reason why tiles are forbidden; empty: tiles are allowed
+    std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
 
@@ -97,7 +97,7 @@ private:
         bool sums = false;
         bool hasSink = false;
         bool shortDraws = false;
-        std::string whole;
+        std::string untiledReason;
         std::optional<std::vector<RowRange>> rows;
         bool operator==(const Fit&) const = default;
     };

@@ -60,7 +60,7 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
             throw UsageError("--sample-range cannot be combined with --target-error or --time-limit; give --samples");
         if (!request.samples) throw UsageError("--sample-range requires a number of samples; give --samples");
         checkSampleRange(*files.samples, *request.samples);
-        if (!oneExr || !files.whole.empty())
+        if (!oneExr || !files.untiledReason.empty())
             fail("--sample-range writes sums of samples to a single EXR file; give one output, such as -o part.exr");
     }
     if (files.keepPartial && (files.samples || files.share))
@@ -73,7 +73,8 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
     if (files.samples) throw UsageError(option + " cannot be combined with --sample-range; give only one of them");
     if (stopSettings(request).given())
         throw UsageError(option + " cannot be combined with --target-error or --time-limit; give --samples");
-    if (!files.whole.empty()) throw UsageError(fmt::format("{} cannot be used here: {}", option, files.whole));
+    if (!files.untiledReason.empty())
+        throw UsageError(fmt::format("{} cannot be used here: {}", option, files.untiledReason));
     if (files.share && !oneExr)
         throw UsageError("--tile writes to a single EXR file; give one output, such as -o tile.exr");
 }
@@ -130,8 +131,8 @@ void FrameOutput::start(const Progress& progress) {
     check(files_, request);
     static_cast<void>(driver_.writeOptions());  // meter the exposure before the frame allocates memory
     wanted_ = {0, request.size.height};
-    parts_ = {.samples = files_.samples, .whole = files_.whole, .shortDraws = files_.keepPartial};
-    if (files_.whole.empty() && !files_.samples)
+    parts_ = {.samples = files_.samples, .untiledReason = files_.untiledReason, .shortDraws = files_.keepPartial};
+    if (files_.untiledReason.empty() && !files_.samples)
         parts_.takeRows = [this](const RowRange& rows, Image&& pixels) { takeRows(rows, std::move(pixels)); };
     const bool resumesTiles = files_.resume && fs::is_directory(tilesFolder());
     if (files_.samples || files_.share || resumesTiles) settings_ = driver_.settingsHash();

@@ -24,7 +24,7 @@ struct FrameFiles {
     std::optional<SampleRange> samples;          // write only the partial sums over these lens samples, for `merge`
     std::optional<TileShare> share;              // write only this share of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
-    std::string whole;                           // reason why tiles are forbidden; empty: tiles are allowed
+    std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
     bool keepPartial = false;                    // if the run stops, return the image of the samples so far
 };
 

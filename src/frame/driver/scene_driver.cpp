@@ -153,7 +153,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
             driver_.emplace(frame_.world,
                             DriverOptions{chosenMethod(request_), limitsOf(request_), shaderFolder_, keptPixelBytes});
         driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts.samples, parts.rows, parts.takeRows,
-                        parts.whole, parts.shortDraws});
+                        parts.untiledReason, parts.shortDraws});
     } catch (...) {
         driver_.reset();
         throw;

@@ -25,7 +25,7 @@ struct FrameParts {
     std::optional<SampleRange> samples = {};
     std::optional<std::vector<RowRange>> rows = {};
     RowSink takeRows = {};
-    std::string whole = {};
+    std::string untiledReason = {};
     bool shortDraws = false;
 };
 

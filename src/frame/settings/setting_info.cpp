@@ -36,14 +36,14 @@ SettingInfo infoOf(const engine::MethodSetting& setting) {
     info.option = "--" + setting.name;
     info.group = engine::groupTitle(engine::SettingGroup::method);
     info.kind = !setting.choices.empty() ? SettingKind::choice
-                : setting.whole          ? SettingKind::integer
+                : setting.integer        ? SettingKind::integer
                                          : SettingKind::number;
-    info.metavar.assign(1, setting.whole ? 'N' : 'R');
+    info.metavar.assign(1, setting.integer ? 'N' : 'R');
     info.min = setting.min;
     info.max = setting.max;
     info.choices = setting.choices;
     info.help = setting.description;
-    info.defaultValue = setting.standard;
+    info.defaultValue = setting.defaultValue;
     return info;
 }
 

@@ -201,7 +201,7 @@ void setMethod(Request& request, const std::string& text) {
     request.method = use.method->name;
     request.methodSettings.clear();
     for (const MethodSetting& setting : use.method->settings)
-        if (const std::string& value = use.settings.at(setting.name); value != setting.standard)
+        if (const std::string& value = use.settings.at(setting.name); value != setting.defaultValue)
             request.methodSettings[setting.name] = value;
 }
 

@@ -217,7 +217,7 @@ private:
 Method layeredMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "layers",
-         .standard = "8",
+         .defaultValue = "8",
          .description = "Maximum number of depth layers",
          .choices = {},
          .min = 1,

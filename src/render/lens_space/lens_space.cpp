@@ -168,14 +168,14 @@ private:
 
 MethodSetting shadingSetting() {
     return {.name = "shading",
-            .standard = "surfaces",
+            .defaultValue = "surfaces",
             .description = "Where surfaces are shaded: at the rays' hit points, or at their vertices as published",
             .choices = {"surfaces", "vertices"}};
 }
 
 MethodSetting cocInterpolationSetting() {
     return {.name = "coc-interpolation",
-            .standard = "divided",
+            .defaultValue = "divided",
             .description =
                 "Circle of confusion inside a triangle: triangles in which it bends are divided, or it is "
                 "linear between the corners as published",

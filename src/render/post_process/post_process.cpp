@@ -155,7 +155,7 @@ private:
 
 MethodSetting pinholesSetting() {
     return {.name = "pinholes",
-            .standard = "4",
+            .defaultValue = "4",
             .description =
                 "Number of pinhole images per frame, with different subpixel offsets for antialiasing; 1 as published. "
                 "For layered, each image has its own layers and an equal share of the lens samples",
@@ -164,9 +164,9 @@ MethodSetting pinholesSetting() {
             .max = 64};
 }
 
-MethodSetting transparencyBucketsSetting(const char* standard) {
+MethodSetting transparencyBucketsSetting(const char* defaultValue) {
     return {.name = "transparency-buckets",
-            .standard = standard,
+            .defaultValue = defaultValue,
             .description =
                 "Maximum number of depth groups in which alpha-blended surfaces are blurred separately from their "
                 "background; 0: blur surfaces and background together",

@@ -27,7 +27,7 @@ public:
 
 // Return settings that several methods share; `standard` is the default.
 MethodSetting pinholesSetting();
-MethodSetting transparencyBucketsSetting(const char* standard);
+MethodSetting transparencyBucketsSetting(const char* defaultValue);
 
 // Returns a renderer that blurs with `process`. `options.settings` must be complete. With a transparent background,
 // each pinhole image is blurred twice: its premultiplied radiance and its coverage. Each bucket of alpha-blended

@@ -250,33 +250,33 @@ std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
 Method scheuermannMethod() {
     const auto byHand = [](const char* name, const char* description, double max) {
         return MethodSetting{.name = name,
-                             .standard = "0",
+                             .defaultValue = "0",
                              .description = description,
                              .choices = {},
                              .min = 0,
                              .max = max,
-                             .whole = false,
+                             .integer = false,
                              .ofTheScene = true,
                              .keyed = true};
     };
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
-         .standard = "published",
+         .defaultValue = "published",
          .description =
              "Blur as a function of depth: linear between three planes as published, or as a thin lens blurs",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
-         .standard = "8",
+         .defaultValue = "8",
          .description = "Number of taps of the Poisson disk around each pixel; 8 as published",
          .choices = {},
          .min = 8,
          .max = maxTaps},
         {.name = "max-coc",
-         .standard = "published",
+         .defaultValue = "published",
          .description = "Maximum blur: 10 px as published, or unlimited",
          .choices = {"published", "unlimited"}},
         {.name = "bits",
-         .standard = "16",
+         .defaultValue = "16",
          .description =
              "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes as published",
          .choices = {"16", "8"}},

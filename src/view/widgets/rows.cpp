@@ -152,7 +152,7 @@ bool methodCombo(std::string& name) {
 void methodSettingRow(const MethodSetting& setting, std::string& value) {
     Setting row;
     row.kind = !setting.choices.empty() ? SettingKind::choice
-               : setting.whole          ? SettingKind::integer
+               : setting.integer        ? SettingKind::integer
                                         : SettingKind::number;
     row.choices = setting.choices;
     row.min = setting.min;

@@ -273,7 +273,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     registerMethod({.name = "blur",
                     .description = "",
                     .usesLensSamples = false,
-                    .settings = {{.name = "taps", .standard = "8", .description = "", .choices = {}, .max = 64}},
+                    .settings = {{.name = "taps", .defaultValue = "8", .description = "", .choices = {}, .max = 64}},
                     .make = {}});
     registerMethod({.name = "embree", .description = "", .needsGl = false, .settings = {}, .make = {}});
     const auto texts = [](const ConvergenceOptions& options) {
@@ -315,7 +315,7 @@ TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",
                     .description = "",
                     .usesLensSamples = false,
-                    .settings = {{.name = "taps", .standard = "8", .description = "", .choices = {}, .max = 64}},
+                    .settings = {{.name = "taps", .defaultValue = "8", .description = "", .choices = {}, .max = 64}},
                     .best = {{"taps", "64"}},
                     .make = {}});
     const World world;
