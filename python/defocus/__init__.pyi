@@ -116,7 +116,7 @@ class Keywords(TypedDict, total=False):
     near_components: Optional[int]
     far_components: Optional[int]
     resolution: Optional[Literal["full", "half", "quarter"]]
-    kernel: Optional[Literal["fitted", "published"]]
+    kernel: Optional[Literal["fitted", "rescaled", "published"]]
     kernel_taps: Optional[Literal["exact", "eight", "sets"]]
     storage: Optional[Literal["float", "half", "r10g10b10a2"]]
     fields: Optional[Literal["separate", "combined"]]
@@ -126,9 +126,14 @@ class Keywords(TypedDict, total=False):
     convolution: Optional[Literal["separable", "direct"]]
     layers: Optional[int]
     shading: Optional[Literal["surfaces", "vertices"]]
+    coc_interpolation: Optional[Literal["divided", "linear"]]
     resolve: Optional[Literal["exact", "published"]]
     segments: Optional[int]
     shading_step: Optional[int]
+    interval_bits: Optional[Literal["64", "16"]]
+    line_weights: Optional[Literal["area", "length"]]
+    lines_per_position: Optional[int]
+    bin_size: Optional[int]
     wheel: Optional[Literal["turned", "shared"]]
 
 # ---- end of keywords ----
