@@ -27,7 +27,7 @@ std::span<const Preset> presets() {
         {"tzeng2012",
          "line samples with a buffer of fixed size (Tzeng et al. 2012)",
          {{"method",
-           "line:resolve=published,shading-step=0,interval-bits=16,lines-per-position=4,bin-size=1024,"
+           "line:resolve=published,shading-step=0,interval-bits=16,lines-per-position=4,bin-size=65536,"
            "shading=vertices,coc-interpolation=linear,wheel=shared"},
           {"lod", "nearest"},
           {"blurThreshold", "0.25"},
