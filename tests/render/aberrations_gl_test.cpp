@@ -183,7 +183,7 @@ TEST_F(Aberrations, skyIsSeenThroughThem) {
 
 TEST_F(Aberrations, methodsThatCannotSaySo) {
     const View view = viewOf(3, 0);
-    for (const char* const method : {"stochastic", "line", "layered"})
+    for (const char* const method : {"line", "layered"})
         EXPECT_THROW(spotAt(view, {120, 80}, 2.2, method), Error) << method;
 }
 
