@@ -290,7 +290,7 @@ def lens_space_rows():
     rows = []
     for line in lines_of("llvmpipe-lens-space"):
         cells = [cell.strip() for cell in line.split("|")[1:-1]]
-        if len(cells) == 14 and cells[1].isdigit():
+        if len(cells) == 15 and cells[1].isdigit():
             rows.append([f"`{cells[0].removesuffix('.glb')}`", *(float(cell) for cell in cells[1:])])
     return rows
 
@@ -302,7 +302,7 @@ def lens_space_source(options, held_equal):
 def lens_space():
     rows = [[name, f"{triangles:,.0f}", f"{points / 1000:.2f} s", f"{lines / 1000:.2f} s", f"{ratio:.1f}", f"{buffered:.1f}",
              f"{rmse:.4f}", f"{few:.4f}", f"{line:.4f}", f"{published:.4f}"]
-            for name, triangles, points, lines, ratio, _, buffered, rmse, line, published, few, *_ in lens_space_rows()]
+            for name, triangles, points, lines, ratio, _, buffered, rmse, line, published, _, few, *_ in lens_space_rows()]
     return table(["model", "triangles", "256 points", "16 lines", "times as fast", "as published", "RMSE, 256 points", "64 points",
                   "16 lines", "as published"], rows) + lens_space_source(
         "160x160", "scene, camera, light, image size, process; the blur of the most blurred "
@@ -310,7 +310,7 @@ def lens_space():
 
 
 def strobes():
-    rows = [[row[0], *(f"{row[column]:.4f}" for column in (8, 11, 12, 13))] for row in lens_space_rows()]
+    rows = [[row[0], *(f"{row[column]:.4f}" for column in (8, 12, 13, 14))] for row in lens_space_rows()]
     return table(["RMSE, 16 lines", "pixels, turned wheels", "pixels, one wheel", "8 × 8 px, turned wheels", "8 × 8 px, one wheel"],
                  rows) + lens_space_source("160x160", "as above")
 

@@ -40,7 +40,8 @@ std::size_t momentCount(const FramePlan& plan) {
 std::string thresholdsText(const FramePlan& plan) {
     const LodThresholds& thresholds = plan.thresholds;
     if (plan.settings.metric == LodMetric::measured) return fmt::format("light threshold {:.4g}", thresholds.light);
-    if (plan.settings.metric == LodMetric::score) return fmt::format("blur threshold {:.4g}", thresholds.blur);
+    if (plan.settings.metric == LodMetric::score || plan.settings.metric == LodMetric::proportional)
+        return fmt::format("blur threshold {:.4g}", thresholds.blur);
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 

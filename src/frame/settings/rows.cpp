@@ -16,6 +16,7 @@
 #include "lens/lens_fields.h"
 #include "lens/lens_samples.h"
 #include "lod/pyramid/level_selection.h"
+#include "render/sampling/automatic_samples.h"
 #include "scene/units.h"
 
 namespace defocus::engine {

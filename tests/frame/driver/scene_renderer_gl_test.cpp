@@ -65,19 +65,20 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     EXPECT_NE(render(requests[0]).pixels, render(requests[8]).pixels);
 }
 
-// Levels of the preset jeong2011 differ from full detail. With blur and size thresholds of 0, they equal full detail.
+// Levels of the preset jeong2011 differ from full detail. With a blur threshold of 0, they equal full detail.
 TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     Request published = smallRequest();
     setSetting(published, "preset", "jeong2011");
+    published.lens.fStop = 0.3;
     Request sharp = published;
     sharp.lod = LodMode::off;
     const Image fullDetail = render(sharp);
     EXPECT_NE(render(published).pixels, fullDetail.pixels);
-    published.blurThreshold = published.sizeThreshold = 0;
+    published.blurThreshold = 0;
     EXPECT_EQ(render(published).pixels, fullDetail.pixels);
-    // Without depth of field, the size threshold alone does not select levels.
+    // Without depth of field, all objects are drawn at full detail.
     published.lens.dofEnabled = sharp.lens.dofEnabled = false;
-    published.blurThreshold = 0.25;
+    published.blurThreshold = 1000;
     EXPECT_EQ(render(published).pixels, render(sharp).pixels);
 }
 
