@@ -116,7 +116,7 @@ TEST_F(ViewTools, extensionsThatAreIgnoredAreListed) {
     writeTwoQuads(folder() / "quads.gltf");
     std::ifstream file(folder() / "quads.gltf");
     json document = json::parse(file);
-    document["extensionsUsed"] = {"KHR_materials_iridescence"};
+    document["extensionsUsed"] = {"KHR_audio_emitter"};
     std::ofstream(folder() / "shiny.gltf") << document;
     start({"shiny.gltf", "--size", "400x700"});
     ASSERT_TRUE(showsScene("shiny.gltf")) << textOf("stderr");
