@@ -46,8 +46,8 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
 double expectedSampleError(std::uint32_t sampleCount);
 
 // Level of an object whose circle of confusion is as large as its projected bounding box, for the metric `proportional`.
-// Jeong, Kim and Lee 2011 print no value. This one is the largest of 10 · 2ⁿ for which the levels raise the RMSE of the
-// built-in school at 32 samples by at most a tenth (bench/results/llvmpipe-proportional.txt).
+// Jeong, Kim and Lee 2011 print no value. This one is the largest of 10 · 2ⁿ for which the levels raise the FLIP of the
+// built-in school at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
