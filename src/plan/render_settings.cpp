@@ -7,7 +7,7 @@ void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double f
     settings.metric = chosenMetric(settings.metric, settings.thresholds);
     if (settings.metric == LodMetric::measured)
         settings.thresholds.light = factor * standard.light;
-    else if (settings.metric == LodMetric::score)
+    else if (settings.metric == LodMetric::score || settings.metric == LodMetric::proportional)
         settings.thresholds.blur = factor * standard.blur;
     else
         settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};

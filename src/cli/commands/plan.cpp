@@ -50,7 +50,7 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     // Leave out settings that don't affect a plan: method, environment and brightness.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
-                                         "layerFormat", "exposureTime", "iso"}));
+                                         "layerFormat", "exposureTime", "iso", "multipleScattering"}));
     addDeveloperSettings(*command, arguments->request, {"memory", "wave"});
     command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
     command->callback([arguments, &global] { runPlan(*arguments, global); });
