@@ -85,39 +85,6 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// A step of the line samples takes ten seconds and more, so the first of them is hardly done when the signal arrives.
-TEST_F(Stopping, aLongStepIsNotAwaited) {
-    const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",
-                         "--samples", "64",      "--keep-partial", "-o",      "a.exr"};
-    const End end = ended(words, SIGINT, 8);
-    EXPECT_EQ(end.code, 1);
-    EXPECT_LT(end.seconds, 2.5);
-    EXPECT_NE(end.said.find("of 64 samples: "), std::string::npos) << end.said;
-}
-
-TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
-    warmUp(costly);
-    Words words = costly;
-    words.insert(words.end(), {"--method", "stochastic", "--samples", "64", "--keep-partial", "-o", "a.exr"});
-    const End end = ended(words, SIGINT, 25);
-    EXPECT_EQ(end.code, 1);
-    EXPECT_LT(end.seconds, 2.5);
-    if (end.said.find("the image of these samples is written") == std::string::npos)
-        GTEST_SKIP() << "the machine is busy: no sample was complete. " << end.said;
-    Metadata metadata;
-    EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
-}
-
-// The time limit holds for any --wave, because a wave of 16 samples takes seconds.
-TEST_F(Stopping, theTimeLimitEndsALargeWave) {
-    warmUp(costly);
-    Words words = costly;
-    words.insert(words.end(), {"--time-limit", "2", "--wave", "16", "-o", "a.exr"});
-    const End end = ended(words);
-    EXPECT_EQ(end.code, 0) << end.said;
-    EXPECT_LT(end.seconds, 7);
-}
-
 // The frame of 64 samples, a block, takes more than ten seconds.
 TEST_F(Stopping, theTimeLimitEndsABlock) {
     warmUp(costly);
