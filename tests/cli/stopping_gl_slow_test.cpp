@@ -92,7 +92,7 @@ TEST_F(Stopping, theTimeLimitEndsABlock) {
     words.insert(words.end(), {"--time-limit", "2", "-o", "a.exr"});
     const End end = ended(words);
     EXPECT_EQ(end.code, 0) << end.said;
-    EXPECT_LT(end.seconds, 7);
+    EXPECT_LT(end.seconds, 15);  // a frame without the limit takes minutes
     Metadata metadata;
     static_cast<void>(readImage(folder() / "a.exr", metadata));
     EXPECT_LT(std::get<int>(metadata.at("defocus:samples")), 64);
