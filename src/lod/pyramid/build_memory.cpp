@@ -20,6 +20,10 @@ constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;
 
+// Pyramids that take at most this many bytes are always built. A limit that has no room for one of them has no room
+// for the program either, and the frame's memory budget then names the limit that is enough for everything.
+constexpr std::uint64_t smallBytes = 1u << 20;
+
 std::uint64_t attributeBytes(const Vertices& vertices) {
     const auto bytesOf = [](const auto&... arrays) { return (... + (arrays.empty() ? 0 : sizeof(arrays.front()))); };
     return bytesOf(vertices.positions, vertices.normals, vertices.tangents, vertices.uv0, vertices.uv1, vertices.colors,
@@ -60,7 +64,7 @@ std::uint64_t bytesToBuild(const Mesh& mesh, const PyramidOptions& options) {
 void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
     if (options.memoryLimit == 0) return;
     const std::uint64_t needed = bytesToBuild(mesh, options);
-    if (residentMemory() + needed <= options.memoryLimit) return;
+    if (needed <= smallBytes || residentMemory() + needed <= options.memoryLimit) return;
     giveBackFreedMemory();
     const std::uint64_t held = residentMemory();
     if (held + needed <= options.memoryLimit) return;

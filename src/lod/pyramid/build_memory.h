@@ -15,8 +15,8 @@ namespace defocus::engine {
 // (tests/lod/pyramid/build_memory_test.cpp).
 std::uint64_t bytesToBuild(const Mesh& mesh, const PyramidOptions& options);
 
-// Throws Error if the process would exceed options.memoryLimit while it builds the pyramid of `mesh`. The message says
-// which limit is enough.
+// Throws Error if the process would exceed options.memoryLimit while it builds the pyramid of `mesh`, unless that takes
+// at most 1 MiB. The message says which limit is enough.
 void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options);
 
 // Calls build(i, options) for each mesh, the mesh with the most triangles first, so that no core is left with a large

@@ -68,6 +68,12 @@ TEST(BuildMemory, boundIsProportionalToTheMesh) {
     EXPECT_LT(bytesToBuild(large, {}), 500 * large.triangleCount() + (16u << 20));
 }
 
+TEST(BuildMemory, aSmallMeshIsNotBlamedForALimitBelowTheProgramItself) {
+    PyramidOptions options = fullDetailOnly();
+    options.memoryLimit = 1;
+    EXPECT_EQ(buildPyramid(sphere(8, 4), options).levels.size(), 1u);
+}
+
 TEST(BuildMemory, tooLowALimitIsRefusedWithTheMinimum) {
     Mesh mesh = sphere(240, 120);
     mesh.name = "Globe";
