@@ -61,29 +61,28 @@ void FrameRun::startAutomatic(RenderSettings settings, Quality quality) {
 
 // Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
 // detail, and compares the images. Returns nullopt with --lod off, and if the measurement takes half of the time limit.
-std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings, const StopSettings& stop) {
+// The cheapest images come first, so that a short limit ends the measurement before it draws full detail.
+std::optional<LevelError> FrameRun::measuredLevels(const RenderSettings& settings, const StopSettings& stop) {
     if (settings.lod == LodMode::off) return {};
-    const auto drawn = [&]() -> std::optional<Image> {
-        renderer_->start(planned(settings));
+    const auto drawn = [&](const RenderSettings& with) -> std::optional<Image> {
+        renderer_->start(planned(with));
         while (advanceRenderer())
             if (stop.timeLimit && millisecondsSince(begin_) > 500 * *stop.timeLimit) return {};
         return renderer_->image();
     };
     const auto withThresholdsFor = [&](std::uint32_t samples) {
         RenderSettings levels = settings;
+        levels.sampleCount = LevelError::drawn;
         fixThresholds(levels, samples);
         return levels;
     };
-    settings.sampleCount = LevelError::drawn;
-    const RenderSettings coarse = withThresholdsFor(LevelError::coarse);
-    const RenderSettings fine = withThresholdsFor(LevelError::fine);
-    settings.lod = LodMode::off;
-    const std::optional<Image> full = drawn();
-    settings = coarse;
-    const std::optional<Image> atCoarse = full ? drawn() : std::nullopt;
-    settings = fine;
-    const std::optional<Image> atFine = atCoarse ? drawn() : std::nullopt;
-    if (!atFine) return {};
+    RenderSettings fullDetail = settings;
+    fullDetail.sampleCount = LevelError::drawn;
+    fullDetail.lod = LodMode::off;
+    const std::optional<Image> atCoarse = drawn(withThresholdsFor(LevelError::coarse));
+    const std::optional<Image> atFine = atCoarse ? drawn(withThresholdsFor(LevelError::fine)) : std::nullopt;
+    const std::optional<Image> full = atFine ? drawn(fullDetail) : std::nullopt;
+    if (!full) return {};
     return LevelError{encodedDifference(*full, *atCoarse), encodedDifference(*full, *atFine)};
 }
 

@@ -47,7 +47,7 @@ public:
 
 private:
     FramePlan planned(const RenderSettings& settings);
-    std::optional<LevelError> measuredLevels(RenderSettings settings, const StopSettings& stop);
+    std::optional<LevelError> measuredLevels(const RenderSettings& settings, const StopSettings& stop);
     bool advanceRenderer();
     void startAutomatic(RenderSettings settings, Quality quality);
     void startBlock(bool first);
