@@ -17,16 +17,20 @@ struct DividedRun {
     std::uint32_t firstBase = 0;  // index in the buffer of undivided triangles
     std::uint32_t baseCount = 0;
     std::uint32_t parts = 1;
-    std::uint32_t firstVertex = 0;    // of the division, in the frame
-    std::uint32_t firstTriangle = 0;  // of the division, in the frame
+    std::uint32_t firstVertex = 0;    // index of the division's first vertex in the frame
+    std::uint32_t firstTriangle = 0;  // index of the division's first triangle in the frame
 
     [[nodiscard]] std::uint64_t vertexCount() const { return std::uint64_t{baseCount} * (parts + 1) * (parts + 2) / 2; }
     [[nodiscard]] std::uint64_t triangleCount() const { return std::uint64_t{baseCount} * parts * parts; }
 };
 
-// Returns the number of parts n ≤ 64 of each edge for which C deviates from linear by at most `tolerance` px. For an
-// object of `triangles` triangles, n is smaller if there would be more than 2 million small triangles.
-std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance);
+// Max number of small triangles of a frame. Their vertices fit into the smallest buffer of the supported drivers
+// (Mesa's llvmpipe, 128 MiB).
+inline constexpr double maxSmallTriangles = 1'000'000;
+
+// Returns the number of parts n ≤ 64 into which each edge is divided, so that C deviates from linear by at most
+// `tolerance` px. n is smaller where the `triangles` triangles of the object would become more than `maxTriangles`.
+std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles);
 
 class DividedTriangles {
 public:

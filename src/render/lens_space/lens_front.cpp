@@ -93,9 +93,12 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     triangleCount_ = 0;
     divided_.start(defines_);
     std::vector<GpuDraw> draws;
+    const auto bent = std::ranges::count_if(
+        plan.objects, [](const ObjectPlan& object) { return object.refinement != Refinement::none; });
+    const double maxOfLevel = maxSmallTriangles / (2.0 * static_cast<double>(std::max<std::ptrdiff_t>(bent, 1)));
     for (std::uint32_t i = 0; i < plan.objects.size(); ++i)
         for (const LevelDraw* level : {&plan.objects[i].coarse, &plan.objects[i].fine})
-            if (level->sampleCount > 0) addLevel(i, *level, draws);
+            if (level->sampleCount > 0) addLevel(i, *level, maxOfLevel, draws);
     const std::uint32_t posed = vertexCount_;
     addDivisions();
     ownBlurs_ = divided_.empty() ? Buffer() : Buffer(std::size_t{posed} * ownBlurBytes);
@@ -122,14 +125,16 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     }
 }
 
-void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, std::vector<GpuDraw>& draws) {
+void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, double maxSmall,
+                         std::vector<GpuDraw>& draws) {
     const World& world = scene_->world();
     const ObjectPlan& object = plan_.objects[objectIndex];
     const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
     const bool coarse = &level == &object.coarse;
     const Vertices vertices{objectIndex, level.level, vertexCount_,
                             world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level.level].vertexCount};
-    const std::uint32_t parts = divides_ ? partsOfEdges(object, level.triangleCount, plan_.settings.cocTolerance) : 1;
+    const std::uint32_t parts =
+        divides_ ? partsOfEdges(object, level.triangleCount, plan_.settings.cocTolerance, maxSmall) : 1;
     for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
         const int material = mesh.primitives[p].material;
         const auto draw = static_cast<std::uint32_t>(draws.size());

@@ -107,7 +107,8 @@ private:
         std::uint32_t seeThrough = 0;
     };
 
-    void addLevel(std::uint32_t object, const LevelDraw& level, std::vector<GpuDraw>& draws);
+    // Adds the triangles of a level, which become at most `maxSmall` small ones if C bends inside them.
+    void addLevel(std::uint32_t object, const LevelDraw& level, double maxSmall, std::vector<GpuDraw>& draws);
     void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
     void makeTriangles();
