@@ -85,14 +85,47 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// The frame of 64 samples, a block, takes more than ten seconds.
+// A step of method line takes ten seconds or more, so the signal arrives within a step.
+TEST_F(Stopping, aLongStepIsNotAwaited) {
+    warmUp({"render", "--quiet", "--size", "512x384"});
+    const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",
+                         "--samples", "64",      "--keep-partial", "-o",      "a.exr"};
+    const End end = ended(words, SIGINT, 8);
+    EXPECT_EQ(end.code, 1);
+    EXPECT_LT(end.seconds, 2.5);
+    EXPECT_NE(end.said.find("of 64 samples: "), std::string::npos) << end.said;
+}
+
+TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
+    warmUp({"render", "--quiet", "--size", "512x384"});
+    const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "stochastic",
+                         "--samples", "128",     "--keep-partial", "-o",      "a.exr"};
+    const End end = ended(words, SIGINT, 10);
+    EXPECT_EQ(end.code, 1);
+    EXPECT_LT(end.seconds, 2.5);
+    EXPECT_NE(end.said.find("the image of these samples is written"), std::string::npos) << end.said;
+    Metadata metadata;
+    EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
+}
+
+// The time limit holds for any --wave, because a wave of 16 samples takes seconds.
+TEST_F(Stopping, theTimeLimitEndsALargeWave) {
+    warmUp(costly);
+    Words words = costly;
+    words.insert(words.end(), {"--time-limit", "2", "--wave", "16", "-o", "a.exr"});
+    const End end = ended(words);
+    EXPECT_EQ(end.code, 0) << end.said;
+    EXPECT_LT(end.seconds, 7);
+}
+
+// The frame of 64 samples, which are one block, takes more than ten seconds.
 TEST_F(Stopping, theTimeLimitEndsABlock) {
     warmUp(costly);
     Words words = costly;
     words.insert(words.end(), {"--time-limit", "2", "-o", "a.exr"});
     const End end = ended(words);
     EXPECT_EQ(end.code, 0) << end.said;
-    EXPECT_LT(end.seconds, 15);  // a frame without the limit takes minutes
+    EXPECT_LT(end.seconds, 7);
     Metadata metadata;
     static_cast<void>(readImage(folder() / "a.exr", metadata));
     EXPECT_LT(std::get<int>(metadata.at("defocus:samples")), 64);
