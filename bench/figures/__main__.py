@@ -8,6 +8,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "diff": "compare two results of one bench",
     "report": "draw index.html from results of benches, as --report does",
     "tables": "write the tables of README.md and docs/ from bench/results",
+    "repeat": "run the commands of text results again",
     "plots": "draw docs/plots from bench/results",
     "concepts": "draw docs/concepts, the figures of docs/concepts.md",
     "lens": "render bench/results/lens, with the page that shows it",

@@ -27,8 +27,8 @@ def times(modes, unit="s"):
 
 
 def speed_ups(levels):
-    """Returns the speed-ups of levels chosen by size and blur, by size only, and by blur only."""
-    return [f"{part['speedUp']:.1f}" for part in (levels, levels["sizeOnly"], levels["blurOnly"])]
+    """Returns the speed-ups of levels chosen by size and blur, by size only, and by blur only; a dash if not measured."""
+    return [f"{part['speedUp']:.1f}" if part else "–" for part in (levels, levels["sizeOnly"], levels["blurOnly"])]
 
 
 def speed_table(name):

@@ -1,0 +1,359 @@
+"""Tables of docs/seeds.md: the claims of each publication, and the figures of the runs in bench/results.
+
+A row has the claim, our form, the test (`Suite.test`) or bench that holds it, the published figure, and ours. A dash
+means that the publication gives no figure, or that only its abstract is known to us.
+"""
+
+import functools
+import re
+import sys
+
+from figures.bench_tables import gain, lens_levels, lens_space_rows, method_rows, pyramid_sections, ending_in_numbers, scenes_of, span
+from figures.command import ROOT
+from figures.markdown import table
+from figures.results import (accumulation_rows, error_ratio, lines_of, numbers, numbers_after, run_of, samples_sweep)
+
+OWN = "llvmpipe-speedup-jeong2011"
+LEAK = "`PostProcesses.aSharpObjectDoesNotLeakIntoTheBlurredBackground`"
+HEADER = ["claim", "our form", "held by", "their figure", "our figure"]
+
+
+def lines_with(name, beginning):
+    return [numbers(line[len(beginning):]) for line in lines_of(name) if line.startswith(beginning)]
+
+
+# ---- Jeong, Kim and Lee ---------------------------------------------------------------------------------------------
+
+
+def speeds(preset):
+    """Returns the speed-ups over the numbers of samples, and the errors relative to full detail, as ranges."""
+    modes = [modes for _, modes in samples_sweep(OWN, preset)]
+    return (span([mode["fractional"]["speedUp"] for mode in modes], 1), span([error_ratio(mode) for mode in modes], 2))
+
+
+def layers_win():
+    """Returns the smallest number of lens samples at which `layered` takes less time than accumulation with levels."""
+    layered = {row["samples"]: row["milliseconds"]["median"] for row in run_of(OWN)["rows"] if row.get("method", "").startswith("layered")}
+    levels = {row["samples"]: row["milliseconds"]["median"] for row in accumulation_rows(OWN, "jeong2011") if row["lod"] == "fractional"}
+    wins = [count for count in sorted(levels) if layered.get(count, float("inf")) < levels[count]]
+    return f"from {wins[0]} lens samples" if wins else "at none of the measured numbers of lens samples"
+
+
+def pops(mode):
+    rows = [row for row in run_of("llvmpipe-popping")["rows"] if row["samples"] == 32 and row["lod"] == mode]
+    return span([row["stepRmse"]["ofNearest"] for row in rows], 2)
+
+
+def jeong():
+    fish = scenes_of("llvmpipe-truth")[0]
+    drawn = dict(samples_sweep(OWN))[64]
+    halton, sobol = (lines_with("llvmpipe-sequences", name)[1][6] / 1000 for name in ("halton  ", "sobol  "))
+    fitted = [values[3] - values[5] for _, values in ending_in_numbers(pyramid_sections()[3], 9)]
+    own, published = speeds(""), speeds("jeong2011")
+    return [
+        ["Accumulation over lens samples is the reference", "[accumulation.h](../src/render/accumulation/accumulation.h)",
+         "`Truth.*` against a ray tracer that shares no code; `TruthBokeh.*` against the closed form of the bokeh", "–",
+         f"{fish['psnrAtEqualLensPoints']:.1f} dB against the ray tracer with the same lens points, {fish['psnr']:.1f} dB with others (fish)"],
+        ["Lens samples are Halton's points", "[lens_samples.h](../src/lens/lens_samples.h)", "`JeongPlan.samplesAreHaltonsPointsFrom1On`", "–",
+         f"Sobol's points have a smaller error: RMSE {sobol:.5f} instead of {halton:.5f} with 64 samples"],
+        ["The level grows in proportion to the CoC at the centre of an object's box, and to 1 / its projected size",
+         "λ = K · CoC / size, K = 10 ([level_selection.h](../src/lod/pyramid/level_selection.h)); K is ours",
+         "`JeongPlan.*`", "K isn't printed",
+         f"{drawn['fractional']['triangles'] / 1e6:.1f} instead of {drawn['off']['triangles'] / 1e6:.1f} million triangles with our "
+         f"measured levels, at {error_ratio(drawn):.2f} times the error (64 samples)"],
+        ["Frames are several times as fast (Figure 2)", "`defocus bench speedup --preset jeong2011`", "the run in [Results](results.md)",
+         "up to 3.5 times, on their GPU",
+         f"as published, {published[0]} times as fast at {published[1]} times the error; with measured levels, {own[0]} times at "
+         f"{own[1]} times the error (16 to 512 samples)"],
+        ["Layers (Lee and others 2010) win above some number of samples (Figure 2)",
+         "`--methods layered:pinholes=1` beside the preset, both with levels", "the same run", "near 32 samples", layers_win()],
+        ["Samples are split between two levels without popping", "[level_selection.h](../src/lod/pyramid/level_selection.h)",
+         "`SplitSamples.*`, `Popping.oneSamplesStepIsASmallPartOfALevels`, `defocus bench popping`", "–",
+         f"the largest pop is {pops('fractional')} of the pop with one level per object; {pops('continuous')} if the sample at the "
+         "boundary is split over its pixels"],
+        ["Levels are built beforehand, from surviving vertices", "[pyramid.h](../src/lod/pyramid/pyramid.h)",
+         "`JeongPlan.levelsHaveTheValuesOfLevel0`", "–", f"fitted normals are {gain(fitted).split(' dB')[0]} dB better than surviving normals"],
+    ]
+
+
+# ---- Munkberg, Toth and Akenine-Möller ------------------------------------------------------------------------------
+
+
+def limited_work():
+    """Returns (scene, limit, times as fast, ratio of tests, ratio of swept work) rows of Figure 7 of the method itself."""
+    rows = []
+    for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 8 and re.fullmatch(r"\d+ px", cells[1]):
+            rows.append((cells[0], cells[1], cells[3], cells[5], cells[7]))
+    return rows
+
+
+def times_longer():
+    """Returns how much longer stochastic points take than accumulation, over the errors that both reach."""
+    by_name = {method["name"]: [time["milliseconds"] for time in method["times"]]
+               for method in run_of("llvmpipe-methods-lens-space")["timesToErrors"]}
+    pairs = zip(by_name["stochastic at full detail"], by_name["accumulation at full detail"])
+    return span([slow / fast for slow, fast in pairs if slow and fast], 1)
+
+
+def munkberg():
+    thicket = next(row for row in limited_work() if row[:2] == ("thicket", "3 px"))
+    chess = [row for row in limited_work() if "chess" in row[0]][-1]
+    total, away, outside, *rest = numbers_after(lines_of("llvmpipe-clusters")[:10], "off")
+    return [
+        ["A limit of the foreground blur changes neither focus and background (Figure 3) nor the motion (Figure 4)",
+         "`--foreground-limit`, [circle_of_confusion.h](../src/lens/circle_of_confusion.h)",
+         "`CircleOfConfusion.foregroundLimitHasItsKinkWhereThePaperSays`, `CocControls.limitInFrontLeavesFocusAndBackground`, "
+         "`CocControls.limitInFrontLeavesTheMotion`", "pictures", "[pictures](../bench/results/lens/README.md)"],
+        ["A range of depths is in focus, and near and far blur stay (Figure 5)", "`--focus-range-front`, `--focus-range-behind`",
+         "`CircleOfConfusion.focusRangeIsSharpAndPreservesNearAndFarBlur`, `CocControls.focusRangePreservesNearAndFarBlur`, "
+         "`CocControls.focusRangeIsSharpAsAPinhole`", "pictures", "pictures"],
+        ["The focus plane is tilted (Figure 6)", "`--focus-tilt`",
+         "`CircleOfConfusion.tiltedPlaneIsInFocus`, `CocControls.tiltedPlaneIsSharpAllAlong`", "pictures", "pictures"],
+        ["C is given per vertex and linear inside a triangle",
+         "`coc-interpolation=linear` (preset), [clip_blur.glsl](../shaders/lens_space/clip_blur.glsl); by default, triangles in which C "
+         "bends are divided", "`CocInterpolation.bendsOnlyInDividedTriangles`", "–", "–"],
+        ["C is an attribute of a vertex, linear over the shutter time: C(t) = (1 − t)·c₀ + t·c₁",
+         "`_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#controls-of-the-blur))",
+         "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "pictures", "pictures"],
+        ["A limited foreground saves work (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
+         "[the run](../bench/results/lens/figure-7.md)", "4 to 9 times; 3 times with motion",
+         f"{thicket[2]} times as fast, {thicket[3]} times fewer tests (thicket); {chess[2]} and {chess[3]} times with motion (chess board)"],
+        ["Triangles that face away for every lens point and moment are culled (Equations 5, 7 and 8, Appendix A)",
+         "[bin.comp](../shaders/lens_space/bin.comp)", "`LensSpaceAlone.movingBacksAreCulled`: the same image, bit for bit", "–", "–"],
+        ["The same for clusters of triangles, in all methods",
+         "[visibility.h](../src/plan/visible/visibility.h), [lens_facing.h](../src/plan/visible/lens_facing.h)",
+         "`LensFacing.*`, `Visibility.*`: no triangle that a random lens point sees is lost", "–",
+         f"{100 * (away + outside) / total:.0f} % of the school's triangles, with those outside the image; {rest[3]:.2f} times as fast"],
+        ["Aberrations vary over the lens, C = f(u, v) (future work)",
+         "[aberrations.h](../src/lens/aberrations.h): Seidel's astigmatism and coma, `--astigmatism`, `--coma`, also in `stochastic`",
+         "`Aberrations.*`: the moments of a point's blur in closed form, and each ray to the sky; "
+         "`LensSpaceAlone.stochasticPointsSeeAberrations`", "–", "[pictures](../bench/results/lens/README.md#beyond-the-paper-c--fu-v)"],
+        ["A coverage test takes few multiply-adds (thin lens and general C; without and with motion)",
+         "`relativeTo` and `edgeFunctions` in [triangles.glsl](../shaders/lens_space/triangles.glsl)",
+         "counted by hand: 2 operations per coordinate and corner, 2 per edge function; with motion, 2 for each interpolated component",
+         "16 and 18; 25 and 30 (quoted from another paper)",
+         "18 and 18; 36 and 42. A third of the operations of the thin lens are additions alone. With stored differences instead of both "
+         "moments, motion would take 27 and 30"],
+        ["Each pixel has its own points on the lens and in time", "[stochastic.h](../src/render/stochastic/stochastic.h)",
+         "`LensSpaceAlone.stochasticPixelsHaveTheirOwnPoints`, `LensSpace.convergesToTheAccumulation`, "
+         "`LensSpaceAlone.stochasticPointsBlurMotion`", "–", f"{times_longer()} times the time of the accumulation at equal error"],
+    ]
+
+
+# ---- Scheuermann ----------------------------------------------------------------------------------------------------
+
+
+def flips(scene, *rows):
+    """Returns FLIP as text for rows of the run of methods with few images. A row is named by its beginning."""
+    found = method_rows("llvmpipe-circular")[scene]
+    return [next(f"{values[2]:.4f}" for (name, _), values in found.items() if name.startswith(row)) for row in rows]
+
+
+def disk_errors(method):
+    """Returns the largest error of a point's disk (px), and the numbers of cases within the limit and of all cases."""
+    cases = [row for row in run_of("llvmpipe-stability")["lensHonesty"] if row["method"] == method]
+    worst = max(abs(row["measuredDiameter"] - row["expectedDiameter"]) for row in cases)
+    return worst, sum(row["followsLens"] for row in cases), len(cases)
+
+
+def scheuermann():
+    fish, chess = (flips(scene, "scheuermann (published)", "scheuermann (best)") for scene in ("fish school", "chess.glb"))
+    worst, right, cases = disk_errors("scheuermann")
+    return [
+        ["Eight taps around the pixel are enough; the centre gives depth only", "[scheuermann.h](../src/render/scheuermann/scheuermann.h)",
+         "`PoissonDisk.keepsItsDistanceAndLeavesNoGap`", "8 taps",
+         f"FLIP {fish[0]} as published, {fish[1]} with 64 taps, the blur of the lens and 16 pinholes (fish); {chess[0]} and {chess[1]} (chess)"],
+        ["Blur is linear in depth between three planes of the artist, with a cut-off behind",
+         "[blurriness.frag](../shaders/scheuermann/blurriness.frag)",
+         "`BlurrinessPlanes.*`; keys in shots: `FrameSequence.settingsOfAMethodHaveKeys`", "largest blur 10 px",
+         f"a point's disk is up to {worst:.0f} px off the lens equation: {right} of {cases} cases within half a pixel"],
+        ["A small pre-blurred copy hides the gaps between the taps",
+         "[preblur.frag](../shaders/scheuermann/preblur.frag). The printed code reads the tap of the copy from the full-size image, which we "
+         "take for a slip", "`PostProcesses.aPointOfLightBecomesADiskOfTheCircleOfConfusion` (widening by the copy, in closed form)",
+         "a quarter of the width and height", "the same"],
+        ["Sharp foreground doesn't leak into the blurred background", "[gather.frag](../shaders/scheuermann/gather.frag)", LEAK, "–", "–"],
+        ["Blended surfaces write their depth in a second pass", "[pinhole_pass.h](../src/render/post_process/pinhole_pass.h)",
+         "`PostProcesses.whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface`", "–", "–"],
+        ["Bytes hold colour and blurriness", "`bits=8`", "`ScheuermannImage.inBytesRoundsEncodedColours`", "8 bits",
+         "8 bits as published, half floats by default"],
+    ]
+
+
+# ---- Garcia ---------------------------------------------------------------------------------------------------------
+
+
+def kernel_errors():
+    """Returns (error, lowest value) of the kernels with one and two components: ours, and Niemitalo's."""
+    rows = {}
+    for line in lines_of("llvmpipe-post-process"):
+        if re.match(r" \d  1\.000", line):
+            values = numbers(line)
+            rows.setdefault(int(values[0]), []).append((values[2], values[8]))
+    return rows
+
+
+def garcia():
+    times = {int(values[0]): values[1:] for values in map(numbers, lines_of("llvmpipe-post-process")[4:9])}
+    separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
+    kernels = kernel_errors()
+    (ours1, theirs1), (ours2, theirs2) = kernels[1], kernels[2]
+    ten_bits = lines_with("llvmpipe-post-process", "circular:near-components=1,storage=r10g10b10a2")[0][0]
+    one_pass = {(size, radius): share for size, _, radius, _, _, share in
+                (numbers(line) for line in lines_of("llvmpipe-post-process") if line.endswith(" %"))}
+    fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
+    coverage = [flips(scene, "circular, standard", "circular, near-field=coverage")
+                for scene in ("fish school", "chess.glb", "artefact-half-discs.gltf")]
+    bias = [values[1] for (name, _), values in method_rows("llvmpipe-circular")["artefact-ghosting.gltf"].items()
+            if name in ("circular, blend-bias=2 bias-by=luminance", "circular, standard", "circular, blend-bias=2")]
+    by_luminance = flips("fish school", "circular, blend-bias=2 bias-by=luminance", "circular, standard")
+    return [
+        ["A sum of complex Gaussians is a disk, and separable", "[circular_kernel.h](../src/render/circular/circular_kernel.h)",
+         "`CircularKernel.factorsOfTwoAxesMultiplyToACircle`, `ComplexBlurs.twoPassesGiveTheWholeKernel`", "constants of two components",
+         f"Niemitalo's one and two components are off the disk by {theirs1[0]:.3f} and {theirs2[0]:.3f} of its level, ours by "
+         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([`defocus_circular_fit`](../bench/results/llvmpipe-post-process.txt)); with two components, "
+         f"ours dip to −{-ours2[1]:.2f} and his to −{-theirs2[1]:.2f}"],
+        ["The kernel at the eight taps has the printed constants", "`--kernel published`: exp(−a·x²) at x = tap / 8. The slide prints a "
+         "with its sign, so that the value would grow with x; sign and x are our reading. The constants of one component are Niemitalo's",
+         "`CircularKernel.*`", "0.925 at the outermost tap", "the same"],
+        ["The kernel has the shape of the aperture", "separable kernels are disks or, with two radii, ovals: `--anamorphic-ratio`",
+         "`ComplexBlurs.twoPassesGiveTheWholeOval`, `ComplexBlurs.aPointBecomesAnOvalOfItsAxes`", "–",
+         "other shapes are ignored, with a message"],
+        ["Time grows with the radius, not with its square", "[complex_blur.h](../src/render/circular/complex_blur.h)",
+         "`defocus_post_process_bench`", "–",
+         f"exponent {separable:.2f}, and {direct:.2f} for the gather over the square; {times[64][1] / times[64][0]:.0f} times as fast at 64 px"],
+        ["Brackets S = Σ(G − O) map the weights to [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
+         "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
+         "offset −0.0387, scale 0.943 (real part, first of two components)",
+         f"−0.0387 and 0.943; in ten bits, {ten_bits:.1f} dB against 32-bit floats on a picture, because near weights span the full range of blurs"],
+        ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
+         f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "
+         f"{chess[0]}, {chess[1]}, {chess[2]} (chess)"],
+        ["Far pixels weigh as much as they are blurred, so that focus doesn't leak", "[split.frag](../shaders/circular/split.frag)",
+         "`PostProcesses.whatIsInFocusStaysWhenOnlyTheBackgroundBlurs`, " + LEAK, "–", "–"],
+        ["The same holds for near pixels, over tiles of the largest radius", "`near-field=premultiplied`",
+         "`CircularNearField.lightsThatAreHardlyBlurredKeepOutOfWideBlurs`", "–",
+         "FLIP " + ", ".join(f"{ours} instead of {theirs} ({scene})" for (ours, theirs), scene in
+                             zip(coverage, ("fish", "chess", "lights in front of the focus")))],
+        ["A bias follows luminance and the share of near pixels", "`bias-by=luminance`", "`PostProcessesAlone.biasByLuminanceLeavesEdges`", "–",
+         f"{bias[2]:.1f} instead of {bias[0]:.1f} dB on the ghosting scene, where a constant bias gives {bias[1]:.1f} dB; no gain on the fish "
+         f"(FLIP {by_luminance[0]} instead of {by_luminance[1]}), so off by default"],
+        ["Near and far field are blurred in one pass through several targets", "not implemented: the taps would stay",
+         "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "–",
+         "at most " + ", ".join(f"{one_pass[512, radius]:.0f}" for radius in (2, 8, 32)) + " % less time at radii of 2, 8 and 32 px"],
+        ["Transparent surfaces are blurred in depth buckets",
+         "`transparency-buckets`, [bucket_pass.h](../src/render/post_process/bucket_pass.h)", "`BlendedSurfaces.*` (closed forms), "
+         "`TransparencyBuckets.*`", "– (suggested as an improvement, so the preset has none)", "the table below"],
+    ]
+
+
+def buckets():
+    """Returns the table of FLIP by number of transparency buckets."""
+    names = {"artefact-panes.gltf": "panes", "AlphaBlendModeTest.glb": "test of alpha modes", "FlightHelmet.gltf": "helmet with goggles",
+             "GlassVaseFlowers.glb": "flowers in a vase"}
+    counts = ["circular, transparency-buckets=0", "circular, transparency-buckets=1", "circular, transparency-buckets=2", "circular, standard"]
+    rows = []
+    for scene, name in names.items():
+        found = {method: values for (method, _), values in method_rows("llvmpipe-circular")[scene].items()}
+        first = found[counts[0]]
+        rows.append([name] + [f"{found[count][2]:.4f} ({found[count][0] / first[0]:.1f})" for count in counts if count in found])
+    return table(["scene: FLIP (time relative to no buckets)", "without buckets", "one", "two", "default"], rows)
+
+
+# ---- Tzeng and others -----------------------------------------------------------------------------------------------
+
+
+def tzeng():
+    rows = lens_space_rows()
+    three = {row[1]: row[7] for row in next(iter(lens_levels().values())) if row[0] == 16}
+    return [
+        ["Lines through the lens are weighted by κ, which is needed (Figure 4)",
+         "[line_weights.h](../src/render/line/line_weights.h), `--line-weights`",
+         "`LineWeights.areThePapersKappa`, `LineWeights.giveARegionItsShareOfTheDisk`, `LensSpaceAlone.kappaMakesDisksUniform`", "pictures",
+         "without κ, the middle of a blurred point is more than 1.5 times as bright as its rim"],
+        ["Visibility along a line is exact", "[line_triangle.h](../src/render/line/line_triangle.h)",
+         "`LineTriangles.coverTheLineWhereTheirPointsDo`, `LensSpaceAlone.exactLinesFindIntersections`", "–", "–"],
+        ["Several lines share a spatial sample (Figure 2)", "`--lines-per-position`; 4 in the preset, our choice",
+         "`LensSpaceAlone.linesShareSpatialPositions`", "–", "–"],
+        ["Tiles have bins of fixed size", "`--bin-size`; 65,536 triangles in the preset, our choice",
+         "`LensSpaceAlone.binsOfFixedSizeCountTheirOverflow`", "–", "–"],
+        ["A segment is compressed to 16 bits", "`--interval-bits 16`: the interval has 16 bits; colour and depth stand beside it, which is our "
+         "division of the data", "`LensSpaceAlone.shortIntervalsChangeLittle`", "16 bits", "16 bits for the interval"],
+        ["Occlusion, merge, length, then eviction by length", "[segment_buffer.glsl](../shaders/line/segment_buffer.glsl); the thresholds "
+         "are ours", "`LensSpaceAlone.segmentsOfDifferentColoursStayApart`", "–", "–"],
+        ["A buffer of fixed size with heuristics keeps the quality", "`--resolve published`",
+         "`LensSpaceAlone.exactLinesAreTheBuffersWhereNothingWasDropped`, `LensSpaceAlone.fullBuffersCountWhatTheyDrop`", "–",
+         f"{span([row[10] / row[8] for row in rows], 1)} times the RMSE of exact lines (five models, shaded alike); the merge costs most"],
+        ["16 lines are faster than 256 points (Table 1)", "`defocus_lens_space_bench`", "[the run](../bench/results/llvmpipe-lens-space.txt)",
+         "4 to 5 times; 2.65 times for Teapot",
+         f"{span([row[6] for row in rows], 1)} times as published, {span([row[4] for row in rows], 1)} times with exact lines"],
+        ["16 lines have a better quality than 256 points", "as above", "as above", "better",
+         f"{span([row[8] / row[7] for row in rows], 1)} times the RMSE of 256 points, {span([row[8] / row[11] for row in rows], 1)} times that of 64"],
+        ["Three levels by the score save time at high blur (Figure 7)", "`--lod-metric score`",
+         "`TzengPlan.drawsTheLevelNearestToTheScore`, `defocus_lens_space_bench --figure7`", "about 50 %; twice as fast on teapots",
+         f"{three[0.1]:.2f} times as fast at a blur of a tenth of the width, {three[0.2]:.2f} times at a fifth"],
+    ]
+
+
+# ---- Lee, Eisemann and Seidel ---------------------------------------------------------------------------------------
+
+
+def lee():
+    scenes = method_rows("llvmpipe-layered")
+    at_128 = {name: values[1] for (name, count), values in scenes["fish school"].items() if count == 128}
+    thicket = {name: values[1] for (name, count), values in scenes["thicket.gltf"].items() if count == 128}
+    counts = sorted({count for _, count in scenes["fish school"]})
+    first = {name: next(count for count in counts if scenes["fish school"][name, count][0] < scenes["fish school"]["accumulation, lod=off", count][0])
+             for name in ("layered, lod=off", "layered, pinholes=1 lod=off")}
+    four, eight, sixteen = (thicket[f"layered, {layers}lod=off"] for layers in ("layers=4 ", "", "layers=16 "))
+    return [
+        ["Depth layers leave out surfaces that no lens point sees", "[depth_layers.h](../src/render/layered/depth_layers.h)",
+         "`Layered.aBlurredBarShowsWhatItHidesFromThePinhole`, `Layered.moreLayersComeCloserToTheAccumulation`", "–",
+         f"4 layers are enough for the fish; a thicket gains up to 8 (128 samples: {four:.1f}, {eight:.1f}, {sixteen:.1f} dB with 4, 8, 16)"],
+        ["Lens rays of each pixel are traced through the layers", "[trace.frag](../shaders/layered/trace.frag)",
+         "`Layered.aPointOfLightBecomesADiskOfTheCircleOfConfusion`, `Layered.slopingAndRoundSurfacesAreAsTheAccumulationHasThem`",
+         "“mostly indistinguishable from offline rendering”",
+         f"with 128 samples, {at_128['layered, pinholes=1 lod=off']:.1f} dB from one pinhole and {at_128['layered, lod=off']:.1f} dB from four; "
+         f"the accumulation has {at_128['accumulation, lod=off']:.1f} dB"],
+        ["N-buffers bound where a ray may hit a surface", "mipmaps: a fifth of the memory, slightly wider bounds "
+         "([lens_rays.h](../src/render/layered/lens_rays.h))",
+         "the image equals the image without bounds: `Layered.everyLensShapeAndControlIsTheAccumulations`", "N-buffers", "–"],
+        ["Layers have a constant cost, so they win above some number of samples", "`bench convergence`",
+         "[the run](../bench/results/llvmpipe-layered.txt)", "near 32 samples (Figure 2 of Jeong, Kim and Lee)",
+         f"from {first['layered, lod=off']} samples with four pinholes, from {first['layered, pinholes=1 lod=off']} with one, of the numbers "
+         "measured; never on the thicket, which has wide blurs and few triangles"],
+        ["The lens has aberrations", "[wavelengths.h](../src/lens/wavelengths.h), [aperture.h](../src/lens/aperture.h)",
+         "`Layered.everyLensShapeAndControlIsTheAccumulations`", "spherical, chromatic", "the same"],
+        ["Focus control: each pixel has its own focus, fitted by least squares to marks of the user",
+         "`--focus-points` with four to 16 pixels, for all methods that use C: a tilted and curved surface ([focus.h](../src/frame/setup/focus.h)); "
+         "theirs has a free form", "`FocusThrough.findsTheCurvedSurfaceOfManyPoints`, `FocusThrough.leavesTheMinBlur`", "pictures", "–"],
+    ]
+
+
+# ---- checks ---------------------------------------------------------------------------------------------------------
+
+
+@functools.cache
+def test_names():
+    """Returns the names `Suite.test` of all tests, without prefixes of parameterized suites."""
+    sources = (ROOT / "tests").rglob("*_test.cpp")
+    return {f"{suite}.{test}" for source in sources for suite, test in re.findall(r"TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", source.read_text())}
+
+
+def checked(rows):
+    """Returns the rows as a table; exits if a named test or a linked file doesn't exist."""
+    text = table(HEADER, rows)
+    suites = {name.split(".")[0] for name in test_names()}
+    for suite, test in re.findall(r"`([A-Z]\w+)\.(\w+|\*)`", text):
+        if f"{suite}.{test}" not in test_names() and not (test == "*" and suite in suites):
+            sys.exit(f"docs/seeds.md: there is no test {suite}.{test}")
+    for link in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
+        if not (ROOT / "docs" / link).exists():
+            sys.exit(f"docs/seeds.md: {link} does not exist")
+    return text
+
+
+CLAIMS = {"jeong2011": jeong, "munkberg2012": munkberg, "scheuermann2004": scheuermann, "garcia2018": garcia, "tzeng2012": tzeng,
+          "lee2010": lee}
+TABLES = {f"claims {name}": functools.partial(lambda rows: checked(rows()), rows) for name, rows in CLAIMS.items()} | {"buckets": buckets}
