@@ -7,11 +7,11 @@ the same program from another seed. With --before, an older program is measured,
 between the two references: the error of an order of surfaces that is wrong.
 """
 
-import json
 import pathlib
 import tempfile
 
-from figures.command import add_program, executable, parser_of, path, run
+from figures.command import add_program, executable, parser_of, path
+from figures.frames import Frames
 
 COUNTS = (16, 64, 256)
 
@@ -33,19 +33,14 @@ def main(words):
 
 
 def measure(arguments, scene, programs, folder):
-    def render(program, file, *options):
-        run(program, "render", scene, "--size", arguments.size, "--quiet", "--method", "accumulation", "--lod", "off",
-            "--keep-all", *arguments.options, *options, "-o", folder / file)
-
-    def rmse(a, b):
-        return json.loads(run(arguments.program, "compare", folder / a, folder / b, "--json"))["rmse"]
-
+    frames = Frames(arguments.program, folder, scene, "--size", arguments.size, "--method", "accumulation", "--lod", "off", "--keep-all",
+                    *arguments.options)
     for name, program in programs:
-        render(program, f"{name}.exr", "--samples", arguments.reference_samples, "--seed", 9)
+        frames.render(f"{name}.exr", "--samples", arguments.reference_samples, "--seed", 9, program=program)
         row = f"{pathlib.Path(scene).stem:24}{name:>9}"
         for count in COUNTS:
-            render(program, "image.exr", "--samples", count)
-            row += f"{rmse(f'{name}.exr', 'image.exr'):10.4f}"
+            frames.render("image.exr", "--samples", count, program=program)
+            row += f"{frames.difference(f'{name}.exr', 'image.exr')['rmse']:10.4f}"
         if name == "now" and len(programs) > 1:
-            row += f"{rmse('before.exr', 'now.exr'):10.4f}"
+            row += f"{frames.difference('before.exr', 'now.exr')['rmse']:10.4f}"
         print(row, flush=True)

@@ -10,9 +10,10 @@ Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
 import pathlib
 import tempfile
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 
 from figures.command import ROOT, add_program, parser_of, path, run
+from figures.contact_sheet import HEIGHT, WIDTH, contact_sheet
 
 SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBottle.glb", "bike.glb",
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
@@ -20,9 +21,6 @@ SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBott
           "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the built-in school of fish
 FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
-WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px on the sheet
-COLUMNS = 2  # scenes side by side
-FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
 def render(program, models, scene, options, folder):
@@ -34,30 +32,13 @@ def render(program, models, scene, options, folder):
         return image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS)
 
 
-def sheet(picture_of):
-    """Returns the contact sheet of all scenes. picture_of(scene, options) returns one picture."""
-    rows = -(-len(SCENES) // COLUMNS)
-    block = (WIDTH + GAP) * len(FORMS) + 3 * GAP
-    image = Image.new("RGB", (COLUMNS * block - 2 * GAP, rows * (HEIGHT + LINE + GAP) + LINE), (250, 250, 250))
-    pen, font = ImageDraw.Draw(image), ImageFont.truetype(FONT, 13)
-    for index, scene in enumerate(SCENES):
-        row, column = divmod(index, COLUMNS)
-        y = LINE + row * (HEIGHT + LINE + GAP)
-        name = pathlib.Path(scene).stem if scene else "the built-in school"
-        pen.text((GAP + column * block, y + HEIGHT + 2), name, fill=(20, 20, 20), font=font)
-        for place, (form, options) in enumerate(FORMS):
-            x = column * block + place * (WIDTH + GAP)
-            if row == 0:
-                pen.text((GAP + x, 2), form, fill=(90, 90, 90), font=font)
-            image.paste(picture_of(scene, options), (GAP + x, y))
-    return image
-
-
 def main(words):
     parser = parser_of("first-pictures", __doc__)
     parser.add_argument("models", type=path)
     add_program(parser)
     arguments = parser.parse_args(words)
     with tempfile.TemporaryDirectory() as folder:
-        image = sheet(lambda scene, options: render(arguments.program, arguments.models, scene, options, folder))
+        image = contact_sheet(
+            [form for form, _ in FORMS], [pathlib.Path(scene).stem if scene else "the built-in school" for scene in SCENES],
+            lambda index: [render(arguments.program, arguments.models, SCENES[index], options, folder) for _, options in FORMS])
     image.save(ROOT / "docs" / "first-pictures.jpg", quality=88)

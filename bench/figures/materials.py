@@ -9,18 +9,15 @@ defaults and without blur. Needs Pillow (Debian: python3-pil) and the font of fo
 import pathlib
 import tempfile
 
-from PIL import Image, ImageDraw, ImageFont, ImageOps
+from PIL import Image, ImageOps
 
 from figures.command import ROOT, add_program, parser_of, path, run
+from figures.contact_sheet import HEIGHT, PAPER, WIDTH, contact_sheet
 
 SCENES = ["AnisotropyRotationTest", "AnisotropyStrengthTest", "IridescenceSuzanne", "SpecularTest", "ClearCoatTest", "ClearcoatWicker",
           "AttenuationTest", "TransmissionTest", "GlassHurricaneCandleHolder", "GlamVelvetSofa", "EmissiveStrengthTest",
           "NormalTangentTest"]
 OPTIONS = ["--no-dof", "--samples", "64", "--size", "512x384", "--environment", "studio", "--quiet"]
-WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px on the sheet
-COLUMNS = 2  # models side by side
-FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
-PAPER = (250, 250, 250)
 
 
 def fitted(image):
@@ -40,29 +37,12 @@ def pictures(program, models, scene, folder):
     return result
 
 
-def sheet(pictures_of):
-    """Returns the contact sheet of all models. pictures_of(scene) returns the two pictures of a model."""
-    rows = -(-len(SCENES) // COLUMNS)
-    block = (WIDTH + GAP) * 2 + 3 * GAP
-    image = Image.new("RGB", (COLUMNS * block - 2 * GAP, rows * (HEIGHT + LINE + GAP) + LINE), PAPER)
-    pen, font = ImageDraw.Draw(image), ImageFont.truetype(FONT, 13)
-    for index, scene in enumerate(SCENES):
-        row, column = divmod(index, COLUMNS)
-        y = LINE + row * (HEIGHT + LINE + GAP)
-        pen.text((GAP + column * block, y + HEIGHT + 2), scene, fill=(20, 20, 20), font=font)
-        for place, (title, picture) in enumerate(zip(("defocus", "authors"), pictures_of(scene))):
-            x = GAP + column * block + place * (WIDTH + GAP)
-            if row == 0:
-                pen.text((x, 2), title, fill=(90, 90, 90), font=font)
-            image.paste(picture, (x, y))
-    return image
-
-
 def main(words):
     parser = parser_of("materials", __doc__)
     parser.add_argument("models", type=path)
     add_program(parser)
     arguments = parser.parse_args(words)
     with tempfile.TemporaryDirectory() as folder:
-        image = sheet(lambda scene: pictures(arguments.program, arguments.models, scene, folder))
+        image = contact_sheet(("defocus", "authors"), SCENES,
+                              lambda index: pictures(arguments.program, arguments.models, SCENES[index], folder))
     image.save(ROOT / "docs" / "materials.jpg", quality=85)

@@ -8,11 +8,11 @@ from another seed. The last column is the smallest of 16, 32, 64 … samples of 
 quality or less; "more" if none of those up to the number chosen is.
 """
 
-import json
 import pathlib
 import tempfile
 
-from figures.command import ROOT, add_program, parser_of, path, run
+from figures.command import ROOT, add_program, parser_of, path
+from figures.frames import Frames
 
 SCENES = ("school", "chess.glb", "swimmers.glb", "bokeh.gltf", "thicket.gltf", "staircase.gltf")
 FLIP = {"draft": 0.03, "good": 0.01, "fine": 0.005}
@@ -36,20 +36,16 @@ def main(words):
 
 def measure(arguments, scene, folder):
     subject = [] if scene == "school" else [scene]
-
-    def render(file, *options):
-        run(arguments.program, "render", *subject, "--size", arguments.size, "--quiet", *arguments.options, *options,
-            "--stats", folder / "stats.json", "-o", folder / file)
-        return json.loads((folder / "stats.json").read_text())
+    frames = Frames(arguments.program, folder, *subject, "--size", arguments.size, *arguments.options)
 
     def flip(file):
-        return json.loads(run(arguments.program, "compare", folder / "reference.exr", folder / file, "--json"))["flip"]
+        return frames.difference("reference.exr", file)["flip"]
 
-    render("reference.exr", "--method", "accumulation", "--samples", arguments.reference_samples, "--seed", 9, "--lod", "off")
-    chosen = render("chosen.exr", "--quality", arguments.quality)
+    frames.render("reference.exr", "--method", "accumulation", "--samples", arguments.reference_samples, "--seed", 9, "--lod", "off")
+    chosen = frames.render("chosen.exr", "--quality", arguments.quality)
     needed = 16
     while needed <= chosen["samples"]:
-        render("counted.exr", "--method", chosen["method"], "--samples", needed)
+        frames.render("counted.exr", "--method", chosen["method"], "--samples", needed)
         if flip("counted.exr") <= FLIP[arguments.quality]:
             break
         needed *= 2

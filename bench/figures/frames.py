@@ -1,0 +1,22 @@
+"""Renders images of one scene for a measurement, and compares them."""
+
+import json
+
+from figures.command import run
+
+
+class Frames:
+    """Images in a folder. subject: the scene and the options that all images have."""
+
+    def __init__(self, program, folder, *subject):
+        self.program, self.folder, self.subject = program, folder, subject
+
+    def render(self, file, *options, program=None):
+        """Renders an image and returns its statistics. program: replaces the usual program."""
+        stats = self.folder / "stats.json"
+        run(program or self.program, "render", *self.subject, "--quiet", *options, "--stats", stats, "-o", self.folder / file)
+        return json.loads(stats.read_text())
+
+    def difference(self, reference, file):
+        """Returns the metrics of `defocus compare`, such as "rmse" and "flip"."""
+        return json.loads(run(self.program, "compare", self.folder / reference, self.folder / file, "--json"))
