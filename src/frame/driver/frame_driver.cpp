@@ -172,6 +172,13 @@ private:
 
 // ---- the driver -----------------------------------------------------------------------------------------------------
 
+DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder, std::uint64_t keptPixelBytes) {
+    return {chosenMethod(request),
+            {request.memory, request.wave.value_or(0), request.layerFormat},
+            std::move(shaderFolder),
+            keptPixelBytes};
+}
+
 FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {}
 
 FrameDriver::~FrameDriver() = default;

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/request.h"
 #include "render/methods.h"
 #include "render/sampling/stop_settings.h"
 #include "render/tiles/memory_needs.h"
@@ -28,6 +29,10 @@ struct DriverOptions {
     std::filesystem::path shaderFolder;  // its shaders replace the embedded ones; may be empty
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
+
+// Returns the options of a request: its method, memory limit, wave and layer format. Throws Error for an unknown method.
+DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder,
+                            std::uint64_t keptPixelBytes = 0);
 
 // Receives the finished rows of a frame that is drawn in tiles; it is called from the top of the image to the bottom.
 using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;

@@ -32,10 +32,6 @@ bool sameSurroundings(const Request& a, const Request& b) {
            a.background == b.background;
 }
 
-DrawLimits limitsOf(const Request& request) {
-    return {request.memory, request.wave.value_or(0), request.layerFormat};
-}
-
 // Returns whether one FrameDriver can draw both requests.
 bool sameDriver(const Request& a, const Request& b) {
     return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
@@ -150,8 +146,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     request_ = std::move(asked);
     try {
         if (!driver_)
-            driver_.emplace(frame_.world,
-                            DriverOptions{chosenMethod(request_), limitsOf(request_), shaderFolder_, keptPixelBytes});
+            driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
         driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts.samples, parts.rows, parts.takeRows,
                         parts.untiledReason, parts.shortDraws});
     } catch (...) {

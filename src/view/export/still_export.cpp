@@ -10,15 +10,13 @@ namespace defocus::engine {
 
 StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request)
     : frame_(&frame), request_(request), begin_(Clock::now()) {
-    const Request& options = request.options;
+    Request options = request.options;
     checkImageExtension(request.output);
     checkWritable(request.output);
     checkStop(options);
     // Small waves keep the window responsive.
-    const std::uint32_t wave = options.wave.value_or(request.software ? 2 : 8);
-    driver_.emplace(
-        frame.world,
-        DriverOptions{chosenMethod(options), {options.memory, wave, options.layerFormat}, request.shaderFolder});
+    options.wave = options.wave.value_or(request.software ? 2 : 8);
+    driver_.emplace(frame.world, driverOptions(options, request.shaderFolder));
     driver_->start({request.view, renderSettings(options), stopSettings(options)});
 }
 
