@@ -201,6 +201,7 @@ void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     addPoppingCommand(*bench, global);
     addScalingCommand(*bench, global);
     addPredictionCommand(*bench, global);
+    addBenchViewCommand(*bench, global);
 }
 
 }  // namespace defocus::engine

@@ -33,6 +33,7 @@ Request measuredRequest();
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 
+void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global);
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global);
 void addScalingCommand(CLI::App& bench, const GlobalOptions& global);

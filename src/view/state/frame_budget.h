@@ -31,6 +31,11 @@ struct FrameBudget {
     [[nodiscard]] const FrameQuality& quality() const { return frameQualities()[rung]; }
 };
 
+// Returns the budget with which a window begins. `software`: OpenGL runs on the CPU.
+inline FrameBudget windowBudget(bool software) {
+    return software ? FrameBudget{50, 2} : FrameBudget{};
+}
+
 // Chooses the quality of the next frame after a frame that took `measured` ms. Goes down as many rungs as needed to
 // meet the budget, or up one rung if twice the time would fit. In between, keeps the rung, so that the quality doesn't
 // flicker.

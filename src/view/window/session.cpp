@@ -16,8 +16,6 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double softwareBudget = 50;  // default frame budget if OpenGL runs on the CPU, ms
-constexpr std::size_t softwareRung = 2;
 constexpr std::size_t shownFrameTimes = 120;
 
 ViewSettings rememberedSettings() {
@@ -194,7 +192,7 @@ Session::Session(const SessionOptions& chosen)
     state.dark = settings.dark;
     state.panel = settings.panel;
     state.interfaceScale = settings.interfaceScale;
-    if (window.software()) state.budget = {softwareBudget, softwareRung};
+    state.budget = windowBudget(window.software());
     state.budget.milliseconds = settings.budgetMilliseconds.value_or(state.budget.milliseconds);
     state.printsFaults = !options.quiet && options.frames == 0;
     state.recent = readRecentFiles(recentFilesPath());

@@ -1,0 +1,138 @@
+// defocus bench view: measures the window's frame rate, response and image error without a display.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "cli/commands/bench_commands.h"
+#include "cli/options/method_list.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/file.h"
+#include "eval/json_number.h"
+#include "gl/context.h"
+#include "view/bench/view_bench.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct ViewBenchArguments {
+    Request request = measuredRequest();
+    ViewBenchOptions options;
+    std::filesystem::path folder;  // folder of the results; empty: print the table only
+    bool allowChanged = false;
+};
+
+std::string seconds(double value) {
+    return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
+}
+
+std::string headerText() {
+    return fmt::format(
+        "{:24} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}   {:>8} {:>8} {:>8} {:>8}\n{:24} {:>8} {:>8} {:>8} "
+        "{:>10} {:>8} {:>8}   {:>8} {:>8} {:>8} {:>8}\n",
+        "moving, then at rest", "frames", "slow", "first", "size", "lens", "PSNR", "first", "conver-", "lens", "PSNR",
+        "method", "/s", "ms", "ms", "", "samples", "dB", "still, s", "ged, s", "samples", "dB");
+}
+
+std::string lineText(const ViewBenchRow& row) {
+    return fmt::format("{:24} {:8.1f} {:8.1f} {:8.1f} {:>10} {:8} {:8.1f}   {:>8} {:>8} {:8} {:8.1f}\n", row.method,
+                       row.framesPerSecond, row.slowFrame, row.firstPicture,
+                       fmt::format("{:.0f} %", 100 * row.quality.resolution), row.quality.samples, row.movingPsnr,
+                       seconds(row.stillPicture), seconds(row.converged), row.samples, row.stillPsnr);
+}
+
+nlohmann::ordered_json rowJson(const ViewBenchRow& row) {
+    return {{"method", row.method},
+            {"framesPerSecond", row.framesPerSecond},
+            {"slowFrameMilliseconds", row.slowFrame},
+            {"firstPictureMilliseconds", row.firstPicture},
+            {"movingResolution", row.quality.resolution},
+            {"movingSamples", row.quality.samples},
+            {"movingPsnr", jsonNumber(row.movingPsnr)},
+            {"stillPictureSeconds", jsonNumber(row.stillPicture)},
+            {"convergedSeconds", jsonNumber(row.converged)},
+            {"stillSamples", row.samples},
+            {"stillPsnr", jsonNumber(row.stillPsnr)}};
+}
+
+void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& global) {
+    refuseChangedSources(arguments.folder, arguments.allowChanged);
+    makeOutputFolder(arguments.folder, {"view.json"});
+    const Progress progress = terminalProgress(global);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    ViewBenchOptions options = arguments.options;
+    options.shaderFolder = global.shaderDir;
+    options.software = context->software();
+    if (options.methods.empty()) options.methods = parseMethods("auto,accumulation,multirate");
+
+    Document document;
+    document.shaderFolder = global.shaderDir;
+    ViewState state;
+    state.options = arguments.request;
+    state.pictureSize = {arguments.request.size.width, arguments.request.size.height};
+    state.area.size = state.pictureSize;
+    openForBench(document, state);
+    const BenchSubject subject = benchSubject(*context, global, *document.frame, 1);
+    fmt::print("{}, {} x {} px, an orbit of {} frames, on {}\n\n{}", subject.scene, subject.width, subject.height,
+               options.frames, subject.device, headerText());
+    std::fflush(stdout);
+    nlohmann::ordered_json json = subjectJson("view", subject);
+    json["heldEqual"] = "scene, camera path, lens, image size, reference, process; the methods follow one another";
+    json["frames"] = options.frames;
+    json["referenceSamples"] = options.referenceSamples;
+    measureView(
+        document, state, options,
+        [&](const ViewBenchRow& row) {
+            fmt::print("{}", lineText(row));
+            std::fflush(stdout);
+            json["rows"].push_back(rowJson(row));
+            if (!arguments.folder.empty()) writeFile(arguments.folder / "view.json", json.dump(2) + "\n");
+        },
+        progress);
+}
+
+}  // namespace
+
+void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<ViewBenchArguments>();
+    arguments->request.size = {1280, 720};
+    CLI::App* command = bench.add_subcommand(
+        "view", "Measure the frame rate, response and image error of the viewer, without a display");
+    const char* group = "Measurement";
+    ViewBenchOptions& options = arguments->options;
+    addParsed(*command, "--methods", "NAME,NAME,…",
+              "Methods to measure, with their settings. Default: auto,accumulation,multirate",
+              [&options](const std::string& text) { options.methods = parseMethods(text); })
+        ->group(group);
+    addInteger(*command, "--frames", options.frames, 4, 10'000, "Frames of the camera's orbit, 1 degree each")
+        ->group(group);
+    addNumber(*command, "--rest", options.restSeconds, {0.1, 3600}, "S",
+              "Max time in s to watch the picture converge after the orbit")
+        ->group(group);
+    addInteger(*command, "--reference-samples", options.referenceSamples, 2, maxSamples,
+               "Lens samples of the references at full detail")
+        ->group(group);
+    addSettings(*command, arguments->request,
+                settingsOf(frameGroups, {"samples", "quality", "timeLimit", "method", "exposureTime", "iso"}));
+    command->add_option("-o,--output", arguments->folder, "Folder for the result view.json")
+        ->type_name("FOLDER")
+        ->group("Output");
+    addAllowChanged(*command, arguments->allowChanged);
+    addDeveloperSettings(*command, arguments->request, {"keepAll", "memory"});
+    command->footer(
+        "Examples:\n"
+        "  defocus bench view\n"
+        "  defocus bench view scene.glb --methods accumulation,circular --frames 120 -o view");
+    command->callback([arguments, &global] {
+        arguments->options.convergedError = arguments->request.targetError.value_or(arguments->options.convergedError);
+        runViewBench(*arguments, global);
+    });
+}
+
+}  // namespace defocus::engine

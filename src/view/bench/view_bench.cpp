@@ -1,0 +1,184 @@
+#include "view/bench/view_bench.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "core/error.h"
+#include "core/stopwatch.h"
+#include "frame/driver/reference_image.h"
+#include "image/metrics.h"
+#include "view/picture/live_picture.h"
+
+namespace defocus::engine {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double step = glm::radians(1.0);    // orbit per frame
+constexpr double settledSeconds = 1;          // time at rest before the movement, so that the first input is typical
+constexpr std::uint32_t minStillSamples = 4;  // samples of the first picture that the window shows at rest
+constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // parts of the movement whose frames are compared
+
+struct ShownFrame {
+    View view;
+    Image image;  // as drawn, possibly smaller than the view
+};
+
+// Returns the image at another size, bilinearly interpolated between pixel centres as the window's texture is.
+Image enlarged(const Image& image, int width, int height) {
+    if (image.width == width && image.height == height) return image;
+    Image result(width, height, image.channels);
+    const auto place = [](int to, int sizeTo, int sizeFrom) {
+        const double from = (to + 0.5) * sizeFrom / sizeTo - 0.5;
+        const double clamped = std::clamp(from, 0.0, sizeFrom - 1.0);
+        const int low = std::min(static_cast<int>(clamped), std::max(0, sizeFrom - 2));
+        return std::pair(low, static_cast<float>(clamped - low));
+    };
+    for (int y = 0; y < height; ++y) {
+        const auto [y0, v] = place(y, height, image.height);
+        const int y1 = std::min(y0 + 1, image.height - 1);
+        for (int x = 0; x < width; ++x) {
+            const auto [x0, u] = place(x, width, image.width);
+            const int x1 = std::min(x0 + 1, image.width - 1);
+            for (int c = 0; c < image.channels; ++c) {
+                const float top = std::lerp(image.at(x0, y0)[c], image.at(x1, y0)[c], u);
+                const float bottom = std::lerp(image.at(x0, y1)[c], image.at(x1, y1)[c], u);
+                result.at(x, y)[c] = std::lerp(top, bottom, v);
+            }
+        }
+    }
+    return result;
+}
+
+double percentile95(std::vector<double> values) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, place);
+    return *place;
+}
+
+class MethodRun {
+public:
+    MethodRun(Document& document, ViewState& state, const ViewBenchOptions& options)
+        : document_(document), state_(state), options_(options) {}
+
+    ViewBenchRow measure(const MethodUse& method, const Progress& progress) {
+        row_.method = method.text();
+        state_.options.method = method.method->name;
+        state_.options.methodSettings = method.settings;
+        rest(settledSeconds);
+        move(progress);
+        rest(options_.restSeconds);
+        row_.samples = picture_.image->samples();
+        const ShownFrame still{currentView(document_, state_), picture_.image->image()};
+        row_.movingPsnr = psnrOf(moving_, progress);
+        row_.stillPsnr = psnrOf({&still, 1}, progress);
+        return row_;
+    }
+
+private:
+    // Draws the picture for the state as the window does, and waits for the GPU.
+    void draw() {
+        const std::string faultBefore = std::exchange(state_.fault, {});
+        updateWorld(document_, state_, false);
+        updatePicture(picture_, document_, state_, options_.software, 0, false);
+        glFinish();
+        if (!state_.fault.empty()) throw Error(row_.method + ": " + state_.fault);
+        state_.fault = faultBefore;
+    }
+
+    // Draws until the picture has converged, or for `seconds`. Notes the times of the first and the converged picture.
+    void rest(double seconds) {
+        const Clock::time_point begin = Clock::now();
+        const auto elapsed = [&] { return 1e-3 * millisecondsSince(begin); };
+        row_.stillPicture = row_.converged = std::numeric_limits<double>::infinity();
+        while (elapsed() < seconds) {
+            growPicture(picture_, document_, state_);
+            draw();
+            const ViewPicture& image = *picture_.image;
+            if (image.moving()) {
+                std::this_thread::sleep_for(1ms);
+                continue;
+            }
+            if (image.samples() >= minStillSamples) row_.stillPicture = std::min(row_.stillPicture, elapsed());
+            if (!image.finished()) continue;
+            row_.converged = elapsed();
+            return;
+        }
+    }
+
+    void move(const Progress& progress) {
+        const ViewCamera start = state_.camera;
+        std::vector<double> times;
+        for (std::uint32_t frame = 1; frame <= options_.frames; ++frame) {
+            report(progress, row_.method, frame - 1, options_.frames);
+            state_.camera = orbited(start, frame * step, 0);
+            state_.followsCamera = false;
+            const Clock::time_point begin = Clock::now();
+            draw();
+            times.push_back(millisecondsSince(begin));
+            for (const double share : comparedShares)
+                if (frame == std::lround(share * options_.frames))
+                    moving_.push_back({currentView(document_, state_), picture_.image->image()});
+        }
+        row_.firstPicture = times.front();
+        double sum = 0;
+        for (const double time : times) sum += time;
+        row_.framesPerSecond = 1000 * static_cast<double>(times.size()) / sum;
+        row_.slowFrame = percentile95(times);
+        row_.quality = state_.budget.quality();
+    }
+
+    double psnrOf(std::span<const ShownFrame> frames, const Progress& progress) {
+        double squares = 0;
+        for (const ShownFrame& frame : frames) {
+            ReferenceOptions reference;
+            reference.samples = options_.referenceSamples;
+            reference.renderer.shaderFolder = options_.shaderFolder;
+            reference.shadows = state_.options.shadows;
+            const Image expected = renderedReference(document_.frame->world, frame.view, reference, progress).image;
+            const Difference difference =
+                compareImages(expected, enlarged(frame.image, frame.view.width, frame.view.height));
+            squares += difference.rmse * difference.rmse;
+        }
+        return -10 * std::log10(squares / static_cast<double>(frames.size()));
+    }
+
+    Document& document_;
+    ViewState& state_;
+    const ViewBenchOptions& options_;
+    LivePicture picture_;
+    std::vector<ShownFrame> moving_;
+    ViewBenchRow row_;
+};
+
+}  // namespace
+
+void openForBench(Document& document, ViewState& state) {
+    document.remembersFiles = false;
+    document.loader.open(state.options);
+    while (!document.frame || document.draft) {
+        if (!takeLoadedScene(document, state)) std::this_thread::sleep_for(5ms);
+        if (!document.frame && !state.fault.empty() && !document.loader.busy()) throw Error(state.fault);
+    }
+}
+
+void measureView(Document& document, ViewState& state, const ViewBenchOptions& options,
+                 const std::function<void(const ViewBenchRow&)>& take, const Progress& progress) {
+    const ViewState begin = state;
+    for (const MethodUse& method : options.methods) {
+        state = begin;
+        state.options.targetError = options.convergedError;
+        state.budget = windowBudget(options.software);
+        take(MethodRun(document, state, options).measure(method, progress));
+    }
+}
+
+}  // namespace defocus::engine
