@@ -291,6 +291,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
         figures.tiles = driver.tiles();
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
+        if (options.frameDrawn) options.frameDrawn(film.frame, driver.plan());
         if (figures.rendered == 1 && options.firstDrawn && !drawn->image.empty())
             options.firstDrawn(drawn->image, film.write);
         const auto write = [drawn, &film, &options, limit = driver.memoryLimit()] {

@@ -37,6 +37,8 @@ struct FilmOptions {
     bool resume = false;                     // keep the frames that are already finished
     // Receives the first image that is drawn untiled, and the encoding of its 8-bit files.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
+    // Receives the number and the plan of each drawn frame, while the world has its pose.
+    std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
 
 // Returns the path of the sidecar file: "frames/timings.jsonl", or "frames/timings.2-of-8.jsonl" for shard 2 of 8.

@@ -24,6 +24,7 @@ const std::set<std::string> triedAlone = {
     " --verbose",
     " --shader-dir",
     "render --keep-partial",  // stopping_gl_slow_test.cpp
+    "capture --check",
     "bench speedup --allow-changed",
     "bench popping --allow-changed",
     "bench prediction --allow-changed",
@@ -60,7 +61,7 @@ TEST(OptionsOfAllCommands, haveACase) {
                 EXPECT_TRUE(settingCases().contains(setting->name)) << name;
             else if (const MethodSetting* ofMethod = methodSettingOf(*option))
                 EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << name;
-            else if (command != "view")  // tests/view covers the viewer
+            else if (command != "view" && command != "bench view")  // tests/view covers the viewer
                 own.insert(name);
         }
     for (const std::string& option : own)
@@ -156,6 +157,12 @@ TEST_F(OwnOption, globalOnesAct) {
     EXPECT_EQ(run(joined(quickRender, {"--quiet"})).err, "");
     EXPECT_GT(run(joined(quickRender, {"--verbose"})).err.size(), usual.err.size());
     EXPECT_TRUE(run({"--version"}).out.starts_with("defocus "));
+}
+
+TEST_F(OwnOption, checkPrintsThePopsOfAFilm) {
+    const Outcome outcome = run({"capture", "shot.json", "--check"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("levels of detail, "), std::string::npos) << outcome.err;
 }
 
 TEST_F(OwnOption, shaderFolderIsReadOrRefused) {

@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "eval/popping/popping.h"
+#include "frame/settings/presets.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "models.h"
@@ -45,9 +46,9 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // Selects levels by size, with the thresholds for 32 samples. The levels are coarse enough for visible changes
-        // and independent of the sample count.
-        popping.plan.metric = LodMetric::size;
+        // The thresholds for 32 samples give levels that are coarse enough for visible changes and independent of the
+        // sample count.
+        popping.plan.metric = metric_;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
         double fractional = 0;
@@ -62,17 +63,17 @@ protected:
         measurePopping(frame.world, frame.view, popping, visitor);
         RecordProperty("nearest", std::to_string(nearest));
         RecordProperty("fractional", std::to_string(fractional));
-        ASSERT_GT(nearest, 0.003) << "levels must change during the movement";
+        ASSERT_GT(nearest, minLevelPop_) << "levels must change during the movement";
         EXPECT_GT(fractional, 0);
         EXPECT_LT(fractional, levelShareMax * nearest);
         EXPECT_LT(fractional, maxPop);
     }
 
-    // Expects no popping in a movement of 480 frames (20 s), in the eight frames with the most level changes.
-    void expectNoneAlong(Movement movement) const {
+    // Expects no popping in a movement of 480 frames (20 s), in the `frames` frames with the most level changes.
+    void expectNoneAlong(Movement movement, int frames = 8) const {
         PoppingOptions popping;
         popping.movements = {movement};
-        popping.frames = 8;
+        popping.frames = frames;
         popping.pathFrames = 480;
         expectNone(popping, 64);
     }
@@ -93,6 +94,8 @@ protected:
     }
 
     Request options_;
+    LodMetric metric_ = LodMetric::size;
+    double minLevelPop_ = 0.003;  // a level by size or by the published rule changes its pixels by more than this
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 
@@ -104,6 +107,22 @@ TEST_F(NoPopping, ofTheSchoolOfFishInAFocusPull) {
 TEST_F(NoPopping, ofTheSchoolOfFishInADolly) {
     school();
     expectNoneAlong(Movement::dolly);
+}
+
+// The default metric keeps a level's change small, so even the change of a complete level is hardly visible.
+TEST_F(NoPopping, ofLevelsByMeasuredErrorInAFocusPull) {
+    school();
+    metric_ = LodMetric::measured;
+    minLevelPop_ = 0.0005;
+    expectNoneAlong(Movement::focusPull, 3);
+}
+
+TEST_F(NoPopping, ofThePublishedPresetInAFocusPull) {
+    school();
+    applyPreset(presetNamed("jeong2011"), options_);
+    metric_ = LodMetric::proportional;
+    minLevelPop_ = 0.0005;
+    expectNoneAlong(Movement::focusPull, 3);
 }
 
 TEST_F(NoPopping, ofTheFoxInAFocusPull) {

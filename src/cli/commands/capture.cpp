@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "capture/frame_files.h"
+#include "capture/pop_check.h"
 #include "capture/shot_json.h"
 #include "capture/shot_options.h"
 #include "capture/video.h"
@@ -56,6 +57,7 @@ struct CaptureArguments {
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
+    bool check = false;  // measure the pops of the levels of detail
 };
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
@@ -196,13 +198,37 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
     printMessage("{}\n", text);
 }
 
+void printPops(const PopCheck& check) {
+    std::string text =
+        fmt::format("levels of detail, {} pair{} of frames: ", check.compared(), check.compared() == 1 ? "" : "s");
+    if (const std::optional<FramePop>& pop = check.largest())
+        text += fmt::format(
+            "the largest pop is an RMSE of {:.4f} over '{}' from frame {} to {}; another seed changes these pixels by "
+            "{:.4f}",
+            pop->rmse, pop->object, pop->frame - 1, pop->frame, pop->seedRmse);
+    else
+        text += "no object changes its levels";
+    if (check.incomparable() > 0)
+        text += fmt::format(
+            "; {} more can't be compared, because --samples N would give all frames the same number of "
+            "samples",
+            check.incomparable());
+    printMessage("{}\n", text);
+}
+
 FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                          const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
                          const GlobalOptions& global, const Progress& progress) try {
     const Request& request = arguments.request;
-    FrameDriver driver(
-        prepared.world,
-        {use, {request.memory, request.wave.value_or(0), request.layerFormat}, global.shaderDir, filmPixelBytes});
+    FrameDriver driver(prepared.world, driverOptions(request, global.shaderDir, filmPixelBytes));
+    std::optional<PopCheck> check;
+    if (arguments.check) {
+        RendererOptions renderer;
+        renderer.layerFormat = request.layerFormat;
+        renderer.shaderFolder = global.shaderDir;
+        check.emplace(prepared.world, use, renderer);
+        options.frameDrawn = [&](int frame, const FramePlan& plan) { check->note(frame, plan); };
+    }
     const std::optional<double> exposure =
         options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
     stopWhenAsked();
@@ -215,8 +241,10 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
         return stopAsked() || late;
     };
-    return renderFilm(arguments.shot, base, prepared.world, driver, film, options,
-                      metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
+    const FilmFigures figures = renderFilm(arguments.shot, base, prepared.world, driver, film, options,
+                                           metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
+    if (check) printPops(*check);
+    return figures;
 } catch (const Error& error) {
     fail("{} (finished frames are kept; repeat the command with --resume to continue)", error.what());
 }
@@ -390,6 +418,11 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     command.add_flag("--dry-run", arguments.dryRun, "Print the plan of each frame without rendering")->group(group);
+    command
+        .add_flag("--check", arguments.check,
+                  "Measure the pops of the levels of detail from frame to frame, and print the largest; takes up to "
+                  "four times as long")
+        ->group(group);
 }
 
 }  // namespace

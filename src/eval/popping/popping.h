@@ -98,8 +98,4 @@ struct PoppingVisitor {
 void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 
-// Returns a mask: 1 where a pixel shows an object or lies within an object pixel's blur disk, else 0. `level` (−1
-// without object) and `coc` (diameter, px) come from AovImages.
-Image objectPixels(const Image& level, const Image& coc);
-
 }  // namespace defocus::engine

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "eval/popping/text.h"
 #include "plan/frame_plan.h"
+#include "render/pops/level_change.h"
 #include "small_world.h"
 
 namespace defocus::engine {

@@ -1,0 +1,48 @@
+#pragma once
+// Measures the pops of a film: how much an image changes because objects change their levels of detail between a frame
+// and the next.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/methods.h"
+#include "render/renderer.h"
+
+namespace defocus::engine {
+
+struct FramePop {
+    int frame = 0;       // number of the later frame
+    std::string object;  // name of the object
+    double rmse = 0;     // RMSE of display values (sRGB, [0, 1], EV 0) over the pixels that show the object or its blur
+    double seedRmse = 0;  // RMSE over the same pixels between this frame and the same frame with another seed
+};
+
+class PopCheck {
+public:
+    // `world` must outlive the check.
+    PopCheck(const World& world, const MethodUse& method, RendererOptions options);
+
+    // Compares the plan with that of the preceding frame, and draws the frame with its own and with the preceding
+    // levels if they differ. `world` has the pose of the frame. A frame whose predecessor was not noted is only kept
+    // for the next one. Needs a current GL context.
+    void note(int frame, const FramePlan& plan);
+
+    [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }
+    [[nodiscard]] int compared() const { return compared_; }  // number of pairs of frames
+    // Number of the pairs that can't be compared, because their numbers of lens samples differ.
+    [[nodiscard]] int incomparable() const { return incomparable_; }
+
+private:
+    const World* world_;
+    std::filesystem::path shaderFolder_;
+    std::unique_ptr<Renderer> renderer_;
+    FramePlan previous_;
+    std::optional<int> previousFrame_;
+    std::optional<FramePop> largest_;
+    int compared_ = 0;
+    int incomparable_ = 0;
+};
+
+}  // namespace defocus::engine

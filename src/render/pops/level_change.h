@@ -1,0 +1,47 @@
+#pragma once
+// The change of an image that a change of levels of detail alone makes: two plans of one view and pose that differ only
+// in levels, and the pixels that show the difference.
+
+#include <optional>
+#include <vector>
+
+#include "image/image.h"
+#include "plan/frame_plan.h"
+#include "render/renderer.h"
+
+namespace defocus::engine {
+
+struct HeldPlan {
+    FramePlan plan;
+    std::vector<const ObjectPlan*> changed;  // objects whose levels or samples per level differ from the previous plan
+};
+
+// Returns the plan of `object`, an index into Pose::objects; null if the plan doesn't draw the object.
+const ObjectPlan* objectOf(const FramePlan& plan, int object);
+
+// Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both
+// frames. Returns none if nothing differs, or if the numbers of samples differ.
+std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before);
+
+// Marks the levels that the plan's objects draw in FramePlan::levelsUsed.
+void markUsed(FramePlan& plan);
+
+// Returns a mask of one channel: 1 where a pixel shows an object or lies within an object pixel's blur disk, else 0.
+// `level` (−1 without object) and `coc` (diameter, px) come from AovImages.
+Image objectPixels(const Image& level, const Image& coc);
+
+// Returns the pixels of the mask `objects` that lie in the bounding boxes of the objects `changed`, grown by their
+// blur.
+Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects);
+
+// Renders a complete image. Needs a current GL context.
+Image rendered(Renderer& renderer, const FramePlan& plan);
+
+// Returns the colours of a linear image as display values (sRGB, [0, 1], EV 0) in 3 channels.
+Image displayColours(const Image& linear);
+
+// Returns the root mean square of `difference` (3 channels of display values) over the pixels of the mask; over all
+// pixels if `mask` is null.
+double rootMeanSquare(const Image& difference, const Image* mask);
+
+}  // namespace defocus::engine
