@@ -1,0 +1,5 @@
+"""The error of this add-on."""
+
+
+class Failure(Exception):
+    """One line for Blender's report: what failed and what to do."""
