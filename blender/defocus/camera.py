@@ -81,13 +81,13 @@ def camera_words(camera_object, view):
     """Returns the options of the program for an evaluated camera."""
     camera, dof = camera_object.data, camera_object.data.dof
     words = ["--size", f"{view.width}x{view.height}", "--units", "m",
-             "--focal-length", f"{camera.lens:.9g}mm", "--horizontal-aperture", f"{view.sensor_width:.9g}mm"]
+             "--focal-length", f"{camera.lens:.7g}mm", "--horizontal-aperture", f"{view.sensor_width:.7g}mm"]
     if not dof.use_dof:
         return words + ["--no-dof"]
-    words += ["--fstop", f"{dof.aperture_fstop:.9g}", "--focus-distance", f"{max(focus_distance(camera_object), 1e-5):.9g}m",
-              "--anamorphic-ratio", f"{dof.aperture_ratio:.9g}"]
+    words += ["--fstop", f"{dof.aperture_fstop:.7g}", "--focus-distance", f"{max(focus_distance(camera_object), 1e-5):.7g}m",
+              "--anamorphic-ratio", f"{dof.aperture_ratio:.7g}"]
     if dof.aperture_blades >= 3:
         # At rotation 0, Blender's aperture has the middle of an edge at its right, the program's aperture has a corner.
         rotation = math.degrees(dof.aperture_rotation) + 180 / dof.aperture_blades
-        words += ["--blades", str(dof.aperture_blades), "--blade-rotation", f"{rotation:.9g}"]
+        words += ["--blades", str(dof.aperture_blades), "--blade-rotation", f"{rotation:.7g}"]
     return words

@@ -86,7 +86,7 @@ def finish_gltf(file, copy, seconds, poses):
         json.dump(content, stream, ensure_ascii=False)
     if not moves:
         return []
-    return ["--time", "0", "--shutter", f"{seconds:.9g}", "--shutter-position", "start", "--motion-segments", str(SEGMENTS)]
+    return ["--time", "0", "--shutter", f"{seconds:.7g}", "--shutter-position", "start", "--motion-segments", str(SEGMENTS)]
 
 
 def light_words(copy):
@@ -97,7 +97,7 @@ def light_words(copy):
         if len(sizes) > 1:
             copy.note(f"the {what}; all get the largest")
         if sizes:
-            words += [option, f"{max(sizes) * factor:.9g}"]
+            words += [option, f"{max(sizes) * factor:.7g}"]
     return words
 
 

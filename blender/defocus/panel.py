@@ -1,14 +1,18 @@
 """Panels: the settings of the engine, and Blender's own panels that apply to it."""
 
+import textwrap
+
 import bpy
 
 from .engine import DefocusEngine, reports
 
+LETTER_WIDTH = 6.5  # px; mean of Blender's font
+
 # Panels of Eevee for data that the engine exports.
 EEVEE_PANELS = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_settings", "EEVEE_WORLD_PT_surface",
-                "DATA_PT_EEVEE_light", "DATA_PT_EEVEE_light_distance", "RENDER_PT_eevee_film"}
+                "DATA_PT_EEVEE_light"}
 # Panels of the internal engine for features that the engine does not have.
-NOT_FOR_US = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_simplify", "RENDER_PT_freestyle", "RENDER_PT_stereoscopy",
+NOT_FOR_US = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_gpencil", "RENDER_PT_freestyle", "RENDER_PT_stereoscopy",
               "DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "DATA_PT_falloff_curve"}
 
 
@@ -64,9 +68,11 @@ class DEFOCUS_PT_report(DefocusPanel, bpy.types.Panel):
         return super().poll(context) and bool(reports.get(context.scene.name))
 
     def draw(self, context):
-        column = self.layout.column(align=True)
+        letters = int(context.region.width / (LETTER_WIDTH * context.preferences.system.ui_scale)) - 6
         for note in reports[context.scene.name]:
-            column.label(text=note, icon="ERROR")
+            column = self.layout.column(align=True)
+            for index, line in enumerate(textwrap.wrap(note, max(letters, 20))):
+                column.label(text=line, icon="BLANK1" if index else "ERROR")
 
 
 class DEFOCUS_PT_passes(DefocusPanel, bpy.types.Panel):

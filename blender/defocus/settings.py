@@ -69,7 +69,7 @@ def setting_words(settings, for_view=False):
     elif not for_view and settings.preset == "none":
         words += ["--quality", settings.quality]
     if settings.target_error > 0:
-        words += ["--target-error", f"{settings.target_error:.9g}"]
+        words += ["--target-error", f"{settings.target_error:.7g}"]
     if settings.method != "auto":
         words += ["--method", settings.method]
     if settings.levels != "fractional":

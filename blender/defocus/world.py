@@ -101,5 +101,5 @@ def world_words(world, transparent, folder, notes):
     write_exr(pixels, file)
     # The middle of a map lies in the direction +x of Blender and in the direction -z of glTF, which is Blender's +y.
     degrees = math.remainder(-90 - math.degrees(rotation), 360)
-    words = ["--environment", file, "--environment-rotation", f"{degrees:.9g}"]
+    words = ["--environment", file, "--environment-rotation", f"{degrees:.7g}"]
     return words + ["--background", "none"] if transparent else words

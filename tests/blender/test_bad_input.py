@@ -9,7 +9,7 @@ import bpy
 
 import scenes
 
-from defocus_engine import engine
+from defocus_engine import engine, viewer
 
 
 def small_scene():
@@ -135,3 +135,24 @@ class BadInput(unittest.TestCase):
                 tempfile.tempdir = usual
             self.assertEqual([name for name in pathlib.Path(folder).iterdir() if "last" not in name.name], [])
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
+
+    def testWindowGetsTheSceneAndItsFolderIsRemoved(self):
+        scene = small_scene()
+        scene.defocus.further = "--cat-eye 0.5"
+        given = bpy.context.preferences.addons["defocus_engine"].preferences
+        program = given.program
+        with tempfile.TemporaryDirectory() as folder:
+            given.program = f"{folder}/stand-in"
+            pathlib.Path(given.program).write_text(f'#!/bin/sh\ntest -s "$2" && echo "$@" >{folder}/words\n')
+            os.chmod(given.program, 0o755)
+            try:
+                self.assertEqual(bpy.ops.defocus.view(), {"FINISHED"})
+                viewer.views[0][0].wait()
+                viewer.remove_closed()
+            finally:
+                given.program = program
+            words = pathlib.Path(f"{folder}/words").read_text()
+        self.assertTrue(words.startswith("view "))
+        self.assertIn("--fstop 1.4", words[:words.rindex("--cat-eye 0.5")])
+        self.assertEqual(viewer.views, [])
+        self.check_no_files()
