@@ -11,9 +11,9 @@ bl_info = {
     "category": "Render",
 }
 
-from . import engine, kept_picture, panel, preferences, settings, viewer
+from . import engine, film, kept_picture, panel, preferences, settings, viewer
 
-MODULES = (preferences, settings, engine, viewer, panel)
+MODULES = (preferences, settings, film, engine, viewer, panel)
 
 
 def register():

@@ -46,7 +46,7 @@ class DefocusEngine(bpy.types.RenderEngine):
         with tempfile.TemporaryDirectory(prefix="defocus-") as folder:
             self.update_stats("", "Defocus: exporting the scene")
             poses = poses_during(self, depsgraph, exposure_of(scene)[1])
-            exported = on_main_thread(lambda: export(depsgraph, folder, poses))
+            exported = on_main_thread(lambda: export(depsgraph, folder, poses, is_film=self.is_animation))
             reports[scene.name] = exported.notes
             for note in exported.notes:
                 self.report({"WARNING"}, f"Defocus: {note}")
@@ -61,7 +61,7 @@ class DefocusEngine(bpy.types.RenderEngine):
             files = {"Combined": picture}
             if wants_depth:
                 files["Depth"] = os.path.join(folder, "picture.depth.exr")
-            self.show(kept_picture.keep(scene.name, files, exported.view), exported.view, depsgraph)
+            self.show(kept_picture.keep(picture_key(depsgraph), files, exported.view), exported.view, depsgraph)
         return True
 
     def show_progress(self, stage, share):
@@ -89,9 +89,13 @@ class DefocusEngine(bpy.types.RenderEngine):
         """Shows the scene's last picture again, because Blender clears the render result before each render."""
         scene = depsgraph.scene_eval
         width, height = frame_size(scene.render)
-        picture = kept_picture.last(scene.name, width, height)
+        picture = kept_picture.last(picture_key(depsgraph), width, height)
         if picture and not self.is_animation:
             self.show(*picture, depsgraph)
+
+
+def picture_key(depsgraph):
+    return f"{depsgraph.scene_eval.name}/{depsgraph.view_layer_eval.name}"
 
 
 def read_pixels(file, view):

@@ -3,15 +3,16 @@
 import contextlib
 import dataclasses
 import io
-import json
 import math
 import os
 
 import bpy
 
+from . import film
 from .camera import camera_words, view_of
 from .failure import Failure
-from .motion import SEGMENTS, add_motion, exposure_of
+from .gltf_file import NAME, read_gltf
+from .motion import exposure_of, poses_at
 from .scene_copy import scene_copy
 from .settings import setting_words
 from .world import world_words
@@ -45,6 +46,12 @@ def shown_scene(scene):
             window.view_layer = layer
 
 
+def lighting_option():
+    """Returns the name of the exporter's option for the units of lights; Blender 3.6 renamed it."""
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    return next(name for name in ("convert_lighting_mode", "export_import_convert_lighting_mode") if name in known)
+
+
 def reason_of(error):
     """Returns the line of an operator's error that names the cause: the last one of its traceback."""
     lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith(("Location:", " "))]
@@ -60,33 +67,13 @@ def export_gltf(scene, file):
         with shown_scene(scene), contextlib.redirect_stdout(said):
             # COMPAT keeps Blender's watts, so that radiances in the picture are those of Cycles.
             bpy.ops.export_scene.gltf(filepath=file, check_existing=False, export_format="GLTF_SEPARATE", use_active_scene=True,
-                                      export_cameras=True, export_lights=True, convert_lighting_mode="COMPAT", export_extras=True,
-                                      export_apply=False, export_animations=False, export_skins=False, export_morph=False,
-                                      export_current_frame=True)
+                                      export_cameras=True, export_lights=True, export_extras=True, export_apply=False,
+                                      export_animations=False, export_skins=False, export_morph=False, export_current_frame=True,
+                                      **{lighting_option(): "COMPAT"})
     except RuntimeError as error:
         raise Failure(f"Blender's glTF exporter failed: {reason_of(error)}") from error
     if not os.path.isfile(file):
         raise Failure("Blender's glTF exporter wrote no file")
-
-
-def finish_gltf(file, copy, seconds, poses):
-    """Gives nodes, meshes, cameras and lights the user's names of their objects, which messages and options use, and adds the motion while the shutter is open."""
-    with open(file, encoding="utf-8") as stream:
-        content = json.load(stream)
-    nodes = [(index, *copy.moving[node["name"]]) for index, node in enumerate(content.get("nodes", [])) if node["name"] in copy.moving]
-    moves = add_motion(content, nodes, seconds, poses)
-    lights = content.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
-    for node in content.get("nodes", []):
-        node["name"] = copy.names.get(node["name"], node["name"])
-        light = node.get("extensions", {}).get("KHR_lights_punctual", {}).get("light")
-        for kind, index in ((content.get("meshes"), node.get("mesh")), (content.get("cameras"), node.get("camera")), (lights, light)):
-            if index is not None:
-                kind[index]["name"] = node["name"]
-    with open(file, "w", encoding="utf-8") as stream:
-        json.dump(content, stream, ensure_ascii=False)
-    if not moves:
-        return []
-    return ["--time", "0", "--shutter", f"{seconds:.7g}", "--shutter-position", "start", "--motion-segments", str(SEGMENTS)]
 
 
 def light_words(copy):
@@ -101,22 +88,33 @@ def light_words(copy):
     return words
 
 
-def export(depsgraph, folder, poses=(), for_view=False):
-    """Exports the evaluated scene of a depsgraph into `folder` and returns an Export.
+def exported_file(depsgraph, camera, view, folder):
+    """Exports the evaluated scene of a depsgraph into `folder` and returns its GltfFile."""
+    with scene_copy(depsgraph, camera, view) as copy:
+        export_gltf(copy.scene, os.path.join(folder, NAME))
+        return read_gltf(folder, copy, light_words(copy))
+
+
+def export(depsgraph, folder, poses=(), for_view=False, is_film=False):
+    """Exports the evaluated scene of a depsgraph and returns an Export. Its files are in `folder`; those of a film in another one.
 
     poses: the poses at the frames of exposure_of (motion.poses_during); none: no motion blur.
+    is_film: use the file of an earlier frame if only objects, camera, lens or world have changed.
     """
     scene = depsgraph.scene_eval
     if scene.camera is None:
         raise Failure("The scene has no camera; add one, or make one the active camera")
     camera = scene.camera.evaluated_get(depsgraph)
     view = view_of(camera.data, scene.render)
-    file = os.path.join(folder, "scene.gltf")
-    with scene_copy(depsgraph, camera, view) as copy:
-        export_gltf(copy.scene, file)
-        words = finish_gltf(file, copy, exposure_of(scene)[0], poses)
-        words += light_words(copy) + world_words(scene.world, scene.render.film_transparent, folder, copy.notes)
-        if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
-            copy.note("the pixel aspect ratio is ignored: pixels are square")
-    words = [file, *camera_words(camera, view), *words, *setting_words(scene.defocus, for_view)]
-    return Export(words, view, copy.notes)
+    signature = film.signature_of(depsgraph) if is_film else None
+    file = film.last_file(signature) if is_film else None
+    if file is None:
+        file = exported_file(depsgraph, camera, view, film.folder() if is_film else folder)
+        if is_film:
+            film.keep(signature, file)
+    notes = list(file.notes)
+    words = file.write(poses_at(depsgraph), exposure_of(scene)[0], poses)
+    words = [file.path, *camera_words(camera, view), *words, *world_words(scene.world, scene.render.film_transparent, folder, notes)]
+    if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
+        notes.append("the pixel aspect ratio is ignored: pixels are square")
+    return Export([*words, *setting_words(scene.defocus, for_view)], view, notes)

@@ -54,5 +54,31 @@ def material_notes(material):
                 for node in sorted(upstream(shader.inputs[name], set()), key=lambda node: node.name):
                     if node.type not in EXPORTED_NODES:
                         notes.append(f"{name} of the material '{material.name}' depends on '{node.name}', which glTF cannot hold")
+    notes += [f"of the image '{node.image.name}' of the material '{material.name}', one picture is used in all frames"
+              for node in material.node_tree.nodes
+              if node.type == "TEX_IMAGE" and node.image and node.image.source in {"SEQUENCE", "MOVIE"}]
     notes += [f"the image '{image.name}' of the material '{material.name}' is missing: {image.filepath}" for image in missing_images(material)]
     return notes
+
+
+def changes_with_time(material):
+    """Returns whether a material has keyframes or drivers."""
+    return bool(material.animation_data or (material.node_tree and material.node_tree.animation_data))
+
+
+def posed_material(material, evaluated):
+    """Returns a copy of a material with the values of its evaluated nodes.
+
+    Blender's exporter reads the original material, which need not have the values of the rendered frame.
+    """
+    posed = material.copy()
+    for data in (posed, posed.node_tree):
+        if data is not None:
+            data.animation_data_clear()
+    if posed.node_tree is not None:
+        for node, source in zip(posed.node_tree.nodes, evaluated.node_tree.nodes):
+            for sockets, values in ((node.inputs, source.inputs), (node.outputs, source.outputs)):
+                for socket, value in zip(sockets, values):
+                    if hasattr(value, "default_value"):
+                        socket.default_value = value.default_value
+    return posed

@@ -17,7 +17,7 @@ def exposure_of(scene):
     render = scene.render
     if not render.use_motion_blur or render.motion_blur_shutter <= 0:
         return 0, []
-    begin = {"start": 0, "centre": -0.5, "end": -1}[scene.defocus.shutter_position]
+    begin = {"start": 0, "end": -1}.get(scene.defocus.shutter_position, -0.5)
     first = scene.frame_current + scene.frame_subframe + begin * render.motion_blur_shutter
     frames = [first + render.motion_blur_shutter * i / SEGMENTS for i in range(SEGMENTS + 1)]
     return render.motion_blur_shutter * render.fps_base / render.fps, frames

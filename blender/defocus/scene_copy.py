@@ -8,7 +8,7 @@ import contextlib
 import bpy
 from mathutils import Matrix
 
-from .materials import material_notes
+from .materials import changes_with_time, material_notes, posed_material
 from .motion import instance_key
 
 SURFACES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
@@ -23,12 +23,14 @@ class SceneCopy:
 
     def __init__(self):
         self.scene = bpy.data.scenes.new("defocus export")
+        self.material_names = {}  # name of a copied material → the user's name
         self.names = {}  # name of an object of the copy → the user's name
         self.moving = {}  # name of an object of the copy → (key of its instance, does the exporter turn it)
         self.notes = []
         self.light_angles = set()  # rad; of the sun lights
         self.light_radii = set()  # m; of the point and spot lights
         self.made = []  # data-blocks to remove
+        self.materials = {}  # material that changes with time → its copy
         self.meshes = {}  # key of the evaluated data → mesh
         self.noted = set()
 
@@ -48,8 +50,7 @@ class SceneCopy:
         return thing
 
     def remove(self):
-        for data in reversed(self.made):
-            bpy.data.batch_remove([data])
+        bpy.data.batch_remove(self.made)
         bpy.data.scenes.remove(self.scene)
 
 
@@ -71,6 +72,17 @@ def new_mesh(thing, depsgraph):
     return mesh
 
 
+def material_of(copy, material, depsgraph):
+    """Returns a material, or a copy with the values of the frame if it changes with time."""
+    if not changes_with_time(material):
+        return material
+    if material not in copy.materials:
+        copy.materials[material] = posed_material(material, material.evaluated_get(depsgraph))
+        copy.made.append(copy.materials[material])
+        copy.material_names[copy.materials[material].name] = material.name
+    return copy.materials[material]
+
+
 def mesh_of(copy, thing, depsgraph):
     """Returns the mesh of an evaluated object, shared by instances; None if it has no faces."""
     slots = tuple(slot.material.original if slot.link == "OBJECT" and slot.material else None for slot in thing.material_slots)
@@ -83,9 +95,10 @@ def mesh_of(copy, thing, depsgraph):
                 while len(mesh.materials) <= index:
                     mesh.materials.append(None)
                 mesh.materials[index] = material
-        for material in mesh.materials:
+        for index, material in enumerate(mesh.materials):
             if material is not None:
                 copy.note(*material_notes(material))
+                mesh.materials[index] = material_of(copy, material, depsgraph)
         copy.meshes[key] = mesh if len(mesh.polygons) else None
     return copy.meshes[key]
 
@@ -109,8 +122,8 @@ def add_surface(copy, instance, depsgraph):
     copy.add(thing.name, mesh, matrix, key)
     if thing.is_holdout or thing.is_shadow_catcher:
         copy.note(f"'{thing.name}' is a holdout or shadow catcher; it is drawn as a usual object")
-    if not thing.visible_camera:
-        copy.note(f"'{thing.name}' is hidden from the camera, which is ignored")
+    if not thing.visible_camera or not thing.visible_shadow:
+        copy.note(f"'{thing.name}' is hidden from the camera or casts no shadow, which is ignored")
 
 
 def add_light(copy, instance):
@@ -134,6 +147,8 @@ def add_light(copy, instance):
         copy.light_radii.add(round(light.shadow_soft_size, 6))
     if light.type == "SPOT" and light.spot_blend > 0:
         copy.note(f"the edge of the spot light '{thing.name}' falls off as in glTF, not as in Blender")
+    if not light.use_shadow:
+        copy.note(f"the light '{thing.name}' casts no shadow, which is ignored")
     copy.add(thing.name, data, instance.matrix_world.copy(), instance_key(instance), turned=True)
 
 
@@ -142,6 +157,8 @@ def add_camera(copy, camera, view):
     copy.made.append(data)
     for name in CAMERA_VALUES:
         setattr(data, name, getattr(camera.data, name))
+    for name, value in camera.data.items():
+        data[name] = value
     data.shift_x = data.shift_y = 0
     # The canvas decides the field of view, whose width is known.
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor_width

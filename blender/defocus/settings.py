@@ -60,19 +60,23 @@ class DefocusSettings(bpy.types.PropertyGroup):
 
 
 def setting_words(settings, for_view=False):
-    """Returns the options of the program. Values at their default are left to the preset."""
+    """Returns the options of the program. Values at their default are left to the preset.
+
+    A choice that this version does not know, of a file of another version, is empty and stands for the default.
+    """
     words = []
-    if settings.preset != "none":
-        words += ["--preset", settings.preset]
+    preset = settings.preset if settings.preset != "none" else ""
+    if preset:
+        words += ["--preset", preset]
     if settings.samples:
         words += ["--samples", str(settings.samples)]
-    elif not for_view and settings.preset == "none":
+    elif not for_view and not preset and settings.quality:
         words += ["--quality", settings.quality]
     if settings.target_error > 0:
         words += ["--target-error", f"{settings.target_error:.7g}"]
-    if settings.method != "auto":
+    if settings.method not in ("", "auto"):
         words += ["--method", settings.method]
-    if settings.levels != "fractional":
+    if settings.levels not in ("", "fractional"):
         words += ["--lod", settings.levels]
     words += ["--shadows", "on" if settings.shadows else "off"]
     try:

@@ -156,3 +156,11 @@ class BadInput(unittest.TestCase):
         self.assertIn("--fstop 1.4", words[:words.rindex("--cat-eye 0.5")])
         self.assertEqual(viewer.views, [])
         self.check_no_files()
+
+    def testChoicesOfAnotherVersionAreDefaults(self):
+        scene = small_scene()
+        scene.defocus["method"], scene.defocus["preset"], scene.defocus["quality"], scene.defocus["levels"] = 77, 77, 77, 77
+        scene.defocus["shutter_position"], scene.defocus["not_a_setting"] = 77, "x"
+        scene.render.use_motion_blur = True
+        bpy.ops.render.render()
+        self.assertAlmostEqual(brightness(scene), 0.25, places=3)

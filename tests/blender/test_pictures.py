@@ -248,3 +248,49 @@ class Features(unittest.TestCase):
         pictures.say(f"motion blur: {width:.2f} px, expected {expected:.2f} px")
         self.assertAlmostEqual(mean, 48, delta=0.1)
         self.assertAlmostEqual(width / expected, 1, delta=0.02)
+
+    def testFilmOfMovingThingsIsExportedOnce(self):
+        from defocus_engine import export
+        scene = scenes.empty_scene(48, 36)
+        camera = scenes.camera(place=(0, 0, 0), pitch=0)
+        bpy.ops.mesh.primitive_plane_add(size=0.1, location=(0, 1, 0), rotation=(math.radians(90), 0, 0))
+        material = scenes.glowing("wall", 1)
+        wall = scenes.with_material(material)
+        strength = material.node_tree.nodes["Principled BSDF"].inputs["Emission Strength"]
+        scene.frame_start, scene.frame_end, scene.render.engine, scene.defocus.samples = 1, 3, "DEFOCUS", 32
+        for frame, across in ((1, -0.1), (3, 0.1)):
+            camera.location.x, wall.location.z = across, 0.5 * across
+            camera.keyframe_insert("location", frame=frame)
+            wall.keyframe_insert("location", frame=frame)
+        exports, function = [], export.export_gltf
+
+        def counted(*arguments):
+            exports.append(1)
+            function(*arguments)
+
+        export.export_gltf = counted
+        try:
+            first = self.film(scene)
+            self.assertEqual(len(exports), 1)
+            strength.default_value = 0.25
+            strength.keyframe_insert("default_value", frame=1)
+            strength.default_value = 1
+            strength.keyframe_insert("default_value", frame=3)
+            second = self.film(scene)
+            self.assertEqual(len(exports), 4)
+        finally:
+            export.export_gltf = function
+        for frame, across in ((0, -0.1), (2, 0.1)):
+            (x, y), _ = pictures.disk(first[frame])
+            pixels = 50 / 36 * 48  # per metre at a distance of 1 m
+            self.assertAlmostEqual(x, 23.5 - across * pixels, delta=0.1)
+            self.assertAlmostEqual(y, 17.5 + 0.5 * across * pixels, delta=0.1)
+        self.assertAlmostEqual(second[0].max(), 0.25, places=3)
+        self.assertAlmostEqual(second[2].max(), 1, places=3)
+
+    def film(self, scene):
+        with tempfile.TemporaryDirectory() as folder:
+            scene.render.filepath = f"{folder}/####"
+            bpy.ops.render.render(animation=True)
+            self.assertEqual([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("defocus-film")], [])
+            return [pictures.read(file)[..., 0] for file in sorted(pathlib.Path(folder).glob("*.exr"))]
