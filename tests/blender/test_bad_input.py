@@ -9,7 +9,7 @@ import bpy
 
 import scenes
 
-from defocus_engine import engine, viewer
+from defocus_engine import engine, program, viewer
 
 
 def small_scene():
@@ -56,13 +56,13 @@ class BadInput(unittest.TestCase):
         bpy.ops.render.render()
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
         given, path = bpy.context.preferences.addons["defocus_engine"].preferences, os.environ["PATH"]
-        program, given.program, os.environ["PATH"] = given.program, "", "/nowhere"
+        before, given.program, os.environ["PATH"] = given.program, "", "/nowhere"
         try:
             self.assertIn("not in PATH", self.message())
             given.program = "/nowhere/defocus"
             self.assertEqual(self.message(), "/nowhere/defocus is not a program; correct the path in the preferences of the add-on Defocus")
         finally:
-            given.program, os.environ["PATH"] = program, path
+            given.program, os.environ["PATH"] = before, path
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
 
     def testSceneWithoutCamera(self):
@@ -107,12 +107,13 @@ class BadInput(unittest.TestCase):
         scene = small_scene()
         bpy.ops.render.render()
         scene.defocus.samples = 65536
-        scene.render.resolution_percentage = 100
-        engine.DefocusEngine.test_break = lambda _self: True
+        run = program.run
+        # Blender's own test_break cannot be replaced.
+        program.run = lambda words, folder, on_progress, _: run(words, folder, on_progress, is_cancelled=lambda: True)
         try:
             bpy.ops.render.render()
         finally:
-            del engine.DefocusEngine.test_break
+            program.run = run
         self.check_no_files()
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
 
@@ -140,7 +141,7 @@ class BadInput(unittest.TestCase):
         scene = small_scene()
         scene.defocus.further = "--cat-eye 0.5"
         given = bpy.context.preferences.addons["defocus_engine"].preferences
-        program = given.program
+        before = given.program
         with tempfile.TemporaryDirectory() as folder:
             given.program = f"{folder}/stand-in"
             pathlib.Path(given.program).write_text(f'#!/bin/sh\ntest -s "$2" && echo "$@" >{folder}/words\n')
@@ -150,7 +151,7 @@ class BadInput(unittest.TestCase):
                 viewer.views[0][0].wait()
                 viewer.remove_closed()
             finally:
-                given.program = program
+                given.program = before
             words = pathlib.Path(f"{folder}/words").read_text()
         self.assertTrue(words.startswith("view "))
         self.assertIn("--fstop 1.4", words[:words.rindex("--cat-eye 0.5")])

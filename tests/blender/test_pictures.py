@@ -41,7 +41,7 @@ class StillLife(unittest.TestCase):
         softbox = bpy.data.objects["softbox"]
         lens = scene.camera.data.dof
         softbox.hide_render = True
-        scene.cycles.samples = 1024 if FIGURE else 128
+        scene.cycles.samples, scene.defocus.samples = (1024, 256) if FIGURE else (128, 96)
         reference = pictures.rendered("CYCLES", scene)
         softbox.hide_render = False
         picture = pictures.rendered("DEFOCUS", scene)
