@@ -57,7 +57,8 @@ class DefocusEngine(bpy.types.RenderEngine):
             if messages is None:
                 return False
             for message in messages:
-                self.report({"INFO"}, message)
+                is_warning = message.startswith("warning: ")
+                self.report({"WARNING" if is_warning else "INFO"}, "Defocus: " + message.removeprefix("warning: ").removeprefix(f"{picture}: "))
             files = {"Combined": picture}
             if wants_depth:
                 files["Depth"] = os.path.join(folder, "picture.depth.exr")

@@ -1,5 +1,6 @@
 """Runs the program: progress, cancelling, messages."""
 
+import os
 import queue
 import re
 import signal
@@ -56,5 +57,5 @@ def run(words, folder, on_progress, is_cancelled):
             messages.append(line)
     if process.wait() != 0:
         last = messages[-1] if messages else f"it ended with code {process.returncode}"
-        raise Failure(f"defocus failed: {last}")
+        raise Failure(f"defocus failed: {last.removeprefix('defocus: ').replace(folder + os.sep, '')}")
     return messages
