@@ -11,7 +11,7 @@ bl_info = {
     "category": "Render",
 }
 
-from . import engine, film, kept_picture, panel, preferences, settings, viewer
+from . import engine, film, panel, preferences, settings, viewer
 
 MODULES = (preferences, settings, film, engine, viewer, panel)
 
@@ -24,4 +24,3 @@ def register():
 def unregister():
     for module in reversed(MODULES):
         module.unregister()
-    kept_picture.forget()

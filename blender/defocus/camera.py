@@ -29,6 +29,21 @@ def frame_size(render):
     return int(render.resolution_x * share), int(render.resolution_y * share)
 
 
+def border(render):
+    """Returns the left, right, lower and upper edge in pixels of the part of the frame that is rendered."""
+    width, height = frame_size(render)
+    if not render.use_border:
+        return 0, width, 0, height
+    return (int(render.border_min_x * width), int(render.border_max_x * width),
+            int(render.border_min_y * height), int(render.border_max_y * height))
+
+
+def picture_size(render):
+    """Returns the size of the rendered part of the frame in pixels."""
+    left, right, bottom, top = border(render)
+    return right - left, top - bottom
+
+
 def fit_is_horizontal(camera, width, height):
     if camera.sensor_fit == "AUTO":
         return width >= height
@@ -55,13 +70,8 @@ def view_of(camera, render):
     longer = width if horizontal else height
     add_x, x = margin(camera.shift_x * longer)
     add_y, y = margin(camera.shift_y * longer)
-    view = View(width + add_x, height + add_y, x, y, width, height, sensor_width * (width + add_x) / width)
-    if render.use_border:
-        left, right = int(render.border_min_x * width), int(render.border_max_x * width)
-        bottom, top = int(render.border_min_y * height), int(render.border_max_y * height)
-        view.x, view.y = view.x + left, view.y + bottom
-        view.picture_width, view.picture_height = right - left, top - bottom
-    return view
+    left, _, bottom, _ = border(render)
+    return View(width + add_x, height + add_y, x + left, y + bottom, *picture_size(render), sensor_width * (width + add_x) / width)
 
 
 def focus_distance(camera_object):

@@ -1,5 +1,9 @@
-"""The error of this add-on."""
+"""The exceptions of this add-on."""
 
 
 class Failure(Exception):
     """One line for Blender's report: what failed and what to do."""
+
+
+class Cancelled(Exception):
+    """The user cancelled the render."""

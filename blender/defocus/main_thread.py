@@ -7,14 +7,25 @@ import threading
 
 import bpy
 
+from .failure import Cancelled
 
-def on_main_thread(function):
-    """Returns function() of the main thread; exceptions are passed on."""
+SECONDS_BETWEEN_CHECKS = 0.1
+
+
+def on_main_thread(function, is_cancelled):
+    """Returns function() of the main thread; exceptions are passed on.
+
+    Throws Cancelled if is_cancelled() before the function begins: the main thread may wait for this one to end.
+    """
     if threading.current_thread() is threading.main_thread():
         return function()
-    done, outcome = threading.Event(), {}
+    lock, done, outcome = threading.Lock(), threading.Event(), {}
 
     def call():
+        with lock:
+            if "given up" in outcome:
+                return
+            outcome["begun"] = True
         try:
             outcome["value"] = function()
         except BaseException as error:  # passed on to the waiting thread
@@ -22,7 +33,11 @@ def on_main_thread(function):
         done.set()
 
     bpy.app.timers.register(call)
-    done.wait()
+    while not done.wait(SECONDS_BETWEEN_CHECKS):
+        with lock:
+            if "begun" not in outcome and is_cancelled():
+                outcome["given up"] = True
+                raise Cancelled
     if "error" in outcome:
         raise outcome["error"]
     return outcome["value"]

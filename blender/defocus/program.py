@@ -7,7 +7,7 @@ import signal
 import subprocess
 import threading
 
-from .failure import Failure
+from .failure import Cancelled, Failure
 
 PROGRESS = re.compile(r"^(.+): (\d+) %")
 SECONDS_TO_STOP = 5
@@ -30,9 +30,10 @@ def stop(process):
 
 
 def run(words, folder, on_progress, is_cancelled):
-    """Runs the program in `folder` and returns its messages, or None if it was cancelled.
+    """Runs the program in `folder` and returns its messages.
 
-    on_progress(stage, share) gets a share from 0 to 1. Throws Failure with the program's last message if it fails.
+    on_progress(stage, share) gets a share from 0 to 1. Throws Failure with the program's last message if it fails, and
+    Cancelled.
     """
     try:
         process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -44,7 +45,7 @@ def run(words, folder, on_progress, is_cancelled):
     while True:
         if is_cancelled():
             stop(process)
-            return None
+            raise Cancelled
         try:
             line = lines.get(timeout=0.1)
         except queue.Empty:

@@ -9,7 +9,7 @@ import bpy
 
 import scenes
 
-from defocus_engine import engine, program, viewer
+from defocus_engine import engine, failure, program, viewer
 
 
 def small_scene():
@@ -48,7 +48,7 @@ class BadInput(unittest.TestCase):
         return [block.name for kind in kinds for block in kind if block.name != "Render Result"]
 
     def check_no_files(self):
-        left = [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("defocus-") and not name.startswith("defocus-last-")]
+        left = [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("defocus-")]
         self.assertEqual(left, [])
 
     def testProgramIsMissing(self):
@@ -117,6 +117,29 @@ class BadInput(unittest.TestCase):
         self.check_no_files()
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
 
+    def testFilmEndsAtTheFrameThatFails(self):
+        scene = small_scene()
+        scene.frame_start, scene.frame_end = 1, 3
+        run, frames = program.run, []
+
+        def failing(*arguments):
+            frames.append(scene.frame_current)
+            if len(frames) == 2:
+                raise failure.Failure("no power")
+            return run(*arguments)
+
+        program.run = failing
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                scene.render.filepath = f"{folder}/####"
+                with self.assertRaisesRegex(RuntimeError, "Error: no power"):
+                    bpy.ops.render.render(animation=True)
+                self.assertEqual(os.listdir(folder), ["0001.exr"])
+        finally:
+            program.run = run
+        self.assertEqual(frames, [1, 2])
+        self.check_no_files()
+
     def testMissingTextureIsReported(self):
         scene = small_scene()
         image = bpy.data.images.new("lost", 4, 4)
@@ -134,7 +157,7 @@ class BadInput(unittest.TestCase):
                 bpy.ops.render.render()
             finally:
                 tempfile.tempdir = usual
-            self.assertEqual([name for name in pathlib.Path(folder).iterdir() if "last" not in name.name], [])
+            self.assertEqual(os.listdir(folder), [])
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
 
     def testWindowGetsTheSceneAndItsFolderIsRemoved(self):
