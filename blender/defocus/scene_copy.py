@@ -65,7 +65,8 @@ def new_mesh(thing, depsgraph):
     """Returns a new mesh of an evaluated object."""
     source = thing.original.evaluated_get(depsgraph)
     if thing.type != "MESH" or source.data.as_pointer() == thing.data.as_pointer():
-        return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=True, depsgraph=depsgraph)
+        # With preserve_all_data_layers, Blender would evaluate the modifiers again, without the changes of edit mode.
+        return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=False, depsgraph=depsgraph)
     mesh = thing.data.copy()  # geometry that a node tree made and instances
     for index, material in enumerate(mesh.materials):
         mesh.materials[index] = material.original if material else None

@@ -294,3 +294,14 @@ class Features(unittest.TestCase):
             bpy.ops.render.render(animation=True)
             self.assertEqual([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("defocus-film")], [])
             return [pictures.read(file)[..., 0] for file in sorted(pathlib.Path(folder).glob("*.exr"))]
+
+    def testEditModeIsRenderedAndStays(self):
+        scene = scenes.empty_scene(32, 24)
+        scenes.camera(place=(0, 0, 0), pitch=0)
+        bpy.ops.mesh.primitive_plane_add(size=0.1, location=(0, 1, 0), rotation=(math.radians(90), 0, 0))
+        scenes.with_material(scenes.glowing("tile", 1))
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.transform.resize(value=(3, 3, 3))
+        picture = pictures.rendered("DEFOCUS", scene)
+        self.assertEqual(bpy.context.object.mode, "EDIT")
+        self.assertAlmostEqual(picture[..., 3].sum(), (0.3 * 50 / 36 * 32) ** 2, delta=1)
