@@ -1,0 +1,128 @@
+"""The render engine: one run of the program for each frame."""
+
+import os
+import tempfile
+
+import bpy
+import numpy
+from bpy.app.handlers import persistent
+
+from . import program
+from .camera import picture_size
+from .export import export
+from .failure import Cancelled, Failure
+from .main_thread import on_main_thread
+from .motion import exposure_of, poses_during
+from .preferences import find_program
+
+FAR = 1e10  # m; Blender's depth of the background
+CHANNELS = {"Combined": 4, "Depth": 1}
+pictures = {}  # scene and view layer → (pixels of each pass, width, height) of the last picture
+reports = {}  # scene name → lines on what the last export left out
+
+
+class DefocusEngine(bpy.types.RenderEngine):
+    bl_idname = "DEFOCUS"
+    bl_label = "Defocus"
+    bl_use_preview = False
+    bl_use_postprocess = True
+    bl_use_eevee_viewport = True
+
+    def update_render_passes(self, scene=None, renderlayer=None):
+        self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
+        if renderlayer is not None and renderlayer.use_pass_z:
+            self.register_pass(scene, renderlayer, "Depth", 1, "Z", "VALUE")
+
+    def render(self, depsgraph):
+        try:
+            pixels, view = self.render_frame(depsgraph)
+            pictures[picture_key(depsgraph)] = pixels, view.picture_width, view.picture_height
+        except Failure as failure:
+            self.report({"ERROR"}, str(failure))
+        except Cancelled:
+            pass
+        self.show_last(depsgraph)
+
+    def on_main_thread(self, function):
+        return on_main_thread(function, self.test_break)
+
+    def render_frame(self, depsgraph):
+        """Returns the pixels of each pass (name → array of all values) and the View."""
+        scene = depsgraph.scene_eval
+        found = find_program()
+        with tempfile.TemporaryDirectory(prefix="defocus-") as folder:
+            self.update_stats("", "Defocus: exporting the scene")
+            poses = poses_during(self, depsgraph, exposure_of(scene)[1])
+            exported = self.on_main_thread(lambda: export(depsgraph, folder, poses, is_film=self.is_animation))
+            reports[scene.name] = exported.notes
+            for note in exported.notes:
+                self.report({"WARNING"}, f"Defocus: {note}")
+            wants_depth = depsgraph.view_layer_eval.use_pass_z
+            picture = os.path.join(folder, "picture.exr")
+            words = [found, "render", *exported.words, "-o", picture, *(["--aov", "depth"] if wants_depth else [])]
+            for message in program.run(words, folder, self.show_progress, self.test_break):
+                is_warning = message.startswith("warning: ")
+                self.report({"WARNING" if is_warning else "INFO"}, "Defocus: " + message.removeprefix("warning: ").removeprefix(f"{picture}: "))
+            files = {"Combined": picture}
+            if wants_depth:
+                files["Depth"] = os.path.join(folder, "picture.depth.exr")
+            return self.on_main_thread(lambda: {name: read_pass(name, file, exported.view) for name, file in files.items()}), exported.view
+
+    def show_progress(self, stage, share):
+        self.update_stats("", f"Defocus: {stage}")
+        self.update_progress(share)
+
+    def show_last(self, depsgraph):
+        """Shows the view layer's last picture if it has the size of the render.
+
+        Blender clears the render result before each render. After a failure, the picture of an earlier render stays.
+        """
+        pixels, *size = pictures.get(picture_key(depsgraph), ({}, 0, 0))
+        if tuple(size) != picture_size(depsgraph.scene_eval.render):
+            return
+        result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
+        passes = result.layers[0].passes
+        # Only the collection's foreach_set takes arrays of vectors: one array with the pixels of all passes in turn.
+        passes.foreach_set("rect", numpy.concatenate([
+            pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
+        self.end_result(result)
+
+
+def picture_key(depsgraph):
+    return f"{depsgraph.scene_eval.name}/{depsgraph.view_layer_eval.name}"
+
+
+def read_pass(name, file, view):
+    """Returns the values of the part of a canvas that Blender shows.
+
+    Blender's RenderLayer.load_from_file would multiply the colours by alpha once more.
+    """
+    image = bpy.data.images.load(file)
+    try:
+        image.colorspace_settings.name = "Non-Color"
+        pixels = numpy.empty(image.size[0] * image.size[1] * image.channels, numpy.float32)
+        image.pixels.foreach_get(pixels)
+        pixels = pixels.reshape(image.size[1], image.size[0], image.channels)
+    finally:
+        bpy.data.images.remove(image)
+    pixels = pixels[view.y:view.y + view.picture_height, view.x:view.x + view.picture_width, :CHANNELS[name]]
+    if name == "Depth":
+        pixels = numpy.where(numpy.isfinite(pixels), numpy.minimum(pixels, FAR), FAR)
+    return pixels.ravel()
+
+
+@persistent
+def forget(*_):
+    """Forgets the pictures and reports of a file when another one is opened."""
+    pictures.clear()
+    reports.clear()
+
+
+def register():
+    bpy.utils.register_class(DefocusEngine)
+    bpy.app.handlers.load_pre.append(forget)
+
+
+def unregister():
+    bpy.app.handlers.load_pre.remove(forget)
+    bpy.utils.unregister_class(DefocusEngine)

@@ -1,0 +1,95 @@
+"""Render settings of a scene, and the options of the program that they stand for."""
+
+import shlex
+
+import bpy
+
+from .failure import Failure
+
+
+def choices(*rows):
+    return [(value, name, text) for value, name, text in rows]
+
+
+QUALITIES = choices(("draft", "Draft", "FLIP difference of about 0.03 from the converged picture"),
+                    ("good", "Good", "FLIP difference of about 0.01 from the converged picture"),
+                    ("fine", "Fine", "FLIP difference of about 0.005 from the converged picture"))
+METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the picture is widely blurred, else accumulation"),
+                  ("accumulation", "Accumulation", "Mean of one image for each lens sample"),
+                  ("multirate", "Multirate", "Each lens sample stands for a part of the lens; needs fewer samples for wide blurs"),
+                  ("layered", "Layered", "Lens rays through the depth layers of one pinhole image"),
+                  ("circular", "Circular", "Separable circular kernels over one pinhole image"),
+                  ("scheuermann", "Scheuermann", "Poisson disk over one pinhole image"),
+                  ("stochastic", "Stochastic", "Stochastic lens samples for each pixel"),
+                  ("line", "Line", "Line samples on the lens"))
+LEVELS = choices(("fractional", "Fractional", "The lens samples are split between two levels of detail"),
+                 ("continuous", "Continuous", "One sample draws both levels, each in some of its pixels"),
+                 ("nearest", "Nearest", "One level of detail"),
+                 ("off", "Off", "Full detail"))
+POSITIONS = choices(("start", "Start on Frame", "The shutter opens at the frame"),
+                    ("centre", "Center on Frame", "The shutter is half open at the frame"),
+                    ("end", "End on Frame", "The shutter closes at the frame"))
+PRESETS = choices(("none", "None", "No preset"),
+                  ("jeong2011", "Jeong 2011", "Accumulation with levels of detail by size"),
+                  ("tzeng2012", "Tzeng 2012", "Line samples with a buffer of fixed size"),
+                  ("scheuermann2004", "Scheuermann 2004", "Poisson disk over one pinhole image"),
+                  ("garcia2018", "Garcia 2018", "Separable circular kernels over one pinhole image"),
+                  ("lee2010", "Lee 2010", "Lens rays through the depth layers of one pinhole image"),
+                  ("munkberg2012", "Munkberg 2012", "Stochastic lens samples for each pixel"))
+
+
+class DefocusSettings(bpy.types.PropertyGroup):
+    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="none",
+                                   description="Settings as published in a paper; changed settings below override them")
+    samples: bpy.props.IntProperty(name="Samples", min=0, max=65536, default=0,
+                                   description="Number of lens samples. 0: the number that the quality needs, 16 to 1,024")
+    quality: bpy.props.EnumProperty(name="Quality", items=QUALITIES, default="good",
+                                    description="Quality of a picture with an automatic number of samples")
+    target_error: bpy.props.FloatProperty(
+        name="Target Error", min=0, max=1, default=0, precision=4, step=0.1,
+        description="Add samples until the estimated root mean square error of the encoded picture is smaller. 0: off")
+    method: bpy.props.EnumProperty(name="Method", items=METHODS, default="auto", description="Rendering method")
+    levels: bpy.props.EnumProperty(name="Levels of Detail", items=LEVELS, default="fractional",
+                                   description="Use of simplified meshes for blurred objects")
+    shadows: bpy.props.BoolProperty(name="Shadows", default=True, description="Soft shadows of the lights and of the world")
+    shutter_position: bpy.props.EnumProperty(name="Position", items=POSITIONS, default="centre",
+                                             description="Position of the frame within the exposure")
+    further: bpy.props.StringProperty(
+        name="Further Options", default="",
+        description="More options of 'defocus render', such as --cat-eye 0.5; 'defocus render --help-all' lists them")
+
+
+def setting_words(settings, for_view=False):
+    """Returns the options of the program. Values at their default are left to the preset.
+
+    A choice that this version does not know, of a file of another version, is empty and stands for the default.
+    """
+    words = []
+    preset = settings.preset if settings.preset != "none" else ""
+    if preset:
+        words += ["--preset", preset]
+    if settings.samples:
+        words += ["--samples", str(settings.samples)]
+    elif not for_view and not preset and settings.quality:
+        words += ["--quality", settings.quality]
+    if settings.target_error > 0:
+        words += ["--target-error", f"{settings.target_error:.7g}"]
+    if settings.method not in ("", "auto"):
+        words += ["--method", settings.method]
+    if settings.levels not in ("", "fractional"):
+        words += ["--lod", settings.levels]
+    words += ["--shadows", "on" if settings.shadows else "off"]
+    try:
+        return words + shlex.split(settings.further)
+    except ValueError as error:
+        raise Failure(f"The further options of Defocus cannot be read: {error}") from error
+
+
+def register():
+    bpy.utils.register_class(DefocusSettings)
+    bpy.types.Scene.defocus = bpy.props.PointerProperty(type=DefocusSettings)
+
+
+def unregister():
+    del bpy.types.Scene.defocus
+    bpy.utils.unregister_class(DefocusSettings)
