@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <map>
 #include <span>
 #include <thread>
 #include <utility>
@@ -28,9 +29,12 @@ constexpr std::uint32_t minStillSamples = 4;  // samples of the first picture th
 constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // parts of the movement whose frames are compared
 
 struct ShownFrame {
+    std::uint32_t frame = 0;  // number of the frame in the movement
     View view;
     Image image;  // as drawn, possibly smaller than the view
 };
+
+using References = std::map<std::uint32_t, Image>;  // by frame; all methods have the same camera path
 
 // Returns the image at another size, bilinearly interpolated between pixel centres as the window's texture is.
 Image enlarged(const Image& image, int width, int height) {
@@ -66,8 +70,8 @@ double percentile95(std::vector<double> values) {
 
 class MethodRun {
 public:
-    MethodRun(Document& document, ViewState& state, const ViewBenchOptions& options)
-        : document_(document), state_(state), options_(options) {}
+    MethodRun(Document& document, ViewState& state, const ViewBenchOptions& options, References& references)
+        : document_(document), state_(state), options_(options), references_(references) {}
 
     ViewBenchRow measure(const MethodUse& method, const Progress& progress) {
         row_.method = method.text();
@@ -77,7 +81,7 @@ public:
         move(progress);
         rest(options_.restSeconds);
         row_.samples = picture_.image->samples();
-        const ShownFrame still{currentView(document_, state_), picture_.image->image()};
+        const ShownFrame still{options_.frames, currentView(document_, state_), picture_.image->image()};
         row_.movingPsnr = psnrOf(moving_, progress);
         row_.stillPsnr = psnrOf({&still, 1}, progress);
         return row_;
@@ -126,7 +130,7 @@ private:
             times.push_back(millisecondsSince(begin));
             for (const double share : comparedShares)
                 if (frame == std::lround(share * options_.frames))
-                    moving_.push_back({currentView(document_, state_), picture_.image->image()});
+                    moving_.push_back({frame, currentView(document_, state_), picture_.image->image()});
         }
         row_.firstPicture = times.front();
         double sum = 0;
@@ -136,16 +140,22 @@ private:
         row_.quality = state_.budget.quality();
     }
 
+    const Image& referenceOf(const ShownFrame& frame, const Progress& progress) {
+        Image& image = references_[frame.frame];
+        if (!image.empty()) return image;
+        ReferenceOptions reference;
+        reference.samples = options_.referenceSamples;
+        reference.renderer.shaderFolder = options_.shaderFolder;
+        reference.shadows = state_.options.shadows;
+        image = renderedReference(document_.frame->world, frame.view, reference, progress).image;
+        return image;
+    }
+
     double psnrOf(std::span<const ShownFrame> frames, const Progress& progress) {
         double squares = 0;
         for (const ShownFrame& frame : frames) {
-            ReferenceOptions reference;
-            reference.samples = options_.referenceSamples;
-            reference.renderer.shaderFolder = options_.shaderFolder;
-            reference.shadows = state_.options.shadows;
-            const Image expected = renderedReference(document_.frame->world, frame.view, reference, progress).image;
-            const Difference difference =
-                compareImages(expected, enlarged(frame.image, frame.view.width, frame.view.height));
+            const Image shown = enlarged(frame.image, frame.view.width, frame.view.height);
+            const Difference difference = compareImages(referenceOf(frame, progress), shown);
             squares += difference.rmse * difference.rmse;
         }
         return -10 * std::log10(squares / static_cast<double>(frames.size()));
@@ -154,6 +164,7 @@ private:
     Document& document_;
     ViewState& state_;
     const ViewBenchOptions& options_;
+    References& references_;
     LivePicture picture_;
     std::vector<ShownFrame> moving_;
     ViewBenchRow row_;
@@ -173,11 +184,12 @@ void openForBench(Document& document, ViewState& state) {
 void measureView(Document& document, ViewState& state, const ViewBenchOptions& options,
                  const std::function<void(const ViewBenchRow&)>& take, const Progress& progress) {
     const ViewState begin = state;
+    References references;
     for (const MethodUse& method : options.methods) {
         state = begin;
         state.options.targetError = options.convergedError;
         state.budget = windowBudget(options.software);
-        take(MethodRun(document, state, options).measure(method, progress));
+        take(MethodRun(document, state, options, references).measure(method, progress));
     }
 }
 
