@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "core/error.h"
 #include "lens/lens_samples.h"
 #include "plan/frame_plan.h"
+#include "refocus/shifted_sum.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -118,6 +120,54 @@ TEST(Refocus, refusesWhatWasNotRendered) {
     EXPECT_EQ(faultOf(info, {2, 4, {}}),
               "a.exr: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file "
               "again without blades and other shapes");
+}
+
+// Returns the message with which lens images of a lens, focused at 2 m, are refused; empty if they are not.
+std::string refusalOf(const Lens& lens, double nearest = 1.5) {
+    View view;
+    view.lens = lens;
+    view.lens.focusDistance = 2;
+    try {
+        lightFieldInfo(view, {nearest, 3});
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(LensImages, needALensThatOnlyMovesThem) {
+    EXPECT_EQ(refusalOf({}), "");
+    const auto refused = [&](auto change, const std::string& option) {
+        Lens lens;
+        change(lens);
+        EXPECT_NE(refusalOf(lens).find(option), std::string::npos) << option << ": " << refusalOf(lens);
+    };
+    refused([](Lens& lens) { lens.focusBreathing = true; }, "--focus-breathing");
+    refused([](Lens& lens) { lens.fieldCurvature = 0.1; }, "--field-curvature");
+    refused([](Lens& lens) { lens.focusTilt = 0.1; }, "--focus-tilt");
+    refused([](Lens& lens) { lens.focusSwing = 0.1; }, "--focus-swing");
+    refused([](Lens& lens) { lens.foregroundLimit = 5; }, "--foreground-limit");
+    refused([](Lens& lens) { lens.backgroundLimit = 5; }, "--background-limit");
+    refused([](Lens& lens) { lens.focusRangeFront = 0.1; }, "--focus-range-front");
+    refused([](Lens& lens) { lens.focusRangeBehind = 0.1; }, "--focus-range-behind");
+    refused([](Lens& lens) { lens.radialBlurGain = 1; }, "--radial-blur-gain");
+    refused([](Lens& lens) { lens.catEye = 0.5; }, "--cat-eye");
+    refused([](Lens& lens) { lens.axialChromaticAberration = 0.5; }, "--axial-chromatic-aberration");
+    refused([](Lens& lens) { lens.astigmatism = 0.1; }, "--astigmatism");
+    refused([](Lens& lens) { lens.coma = 0.1; }, "--coma");
+    refused([](Lens& lens) { lens.dofEnabled = false; }, "--no-dof");
+    EXPECT_NE(refusalOf({}, 1e-3).find("--focus-range 0.001:3 needs a margin of"), std::string::npos);
+}
+
+// The margin holds the largest move over the focus range, and the pixels that the filter reads.
+TEST(LensImages, haveAMarginForTheFocusRange) {
+    View view;
+    view.lens.focusDistance = 2;
+    view.lens.fStop = 2;
+    const LightFieldInfo info = lightFieldInfo(view, {1, 4});
+    const double pixelsPerDioptre = 0.025 * 1024 / (4 * 0.36);  // A·W/(4·tan(θx/2))
+    EXPECT_NEAR(info.pixelsPerDioptre, pixelsPerDioptre, 1e-9);
+    EXPECT_EQ(info.size.margin, static_cast<int>(std::ceil(0.5 * pixelsPerDioptre)) + filterReach);
 }
 
 }  // namespace
