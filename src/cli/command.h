@@ -62,5 +62,6 @@ void addManCommand(CLI::App& program);
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
 void addNewShotCommand(CLI::App& program, const GlobalOptions& global);
 void addMergeCommand(CLI::App& program, const GlobalOptions& global);
+void addRefocusCommand(CLI::App& program, const GlobalOptions& global);
 
 }  // namespace defocus::engine

@@ -221,6 +221,7 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addCaptureCommand(program, global);
     addNewShotCommand(program, global);
     addMergeCommand(program, global);
+    addRefocusCommand(program, global);
     addViewCommand(program, global);
     addPlanCommand(program, global);
     addInfoCommand(program, global);

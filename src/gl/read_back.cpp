@@ -16,7 +16,8 @@ void turnRows(Image& image) {
 
 Image readBack(const GlTexture& texture, int channels) {
     Image image(texture.info().width, texture.info().height, channels);
-    const GLenum format = channels == 1 ? GL_RED : channels == 3 ? GL_RGB : GL_RGBA;
+    const bool depths = texture.info().format == TextureFormat::depth32f;
+    const GLenum format = depths ? GL_DEPTH_COMPONENT : channels == 1 ? GL_RED : channels == 3 ? GL_RGB : GL_RGBA;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureSubImage(texture.name(), 0, 0, 0, 0, image.width, image.height, 1, format, GL_FLOAT,
                          static_cast<GLsizei>(image.pixels.size() * sizeof(float)), image.pixels.data());

@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Returns layer 0 of a float or normalised texture as an image with 1, 3 or 4 channels.
+// Returns layer 0 of a float, normalised or depth texture as an image with 1, 3 or 4 channels.
 Image readBack(const GlTexture& texture, int channels);
 
 // Uploads an image into a texture with one mip level, the same size and the same channels.

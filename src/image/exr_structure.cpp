@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 
@@ -96,6 +98,14 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
         if (*type == "chlist" && !isChannelList(head.subspan(at, bytes))) refuse();
         at += bytes;
     }
+}
+
+void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes) {
+    std::vector<std::byte> head(headBytes);
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    checkExrHeader(head, std::filesystem::file_size(path), path.string());
 }
 
 }  // namespace defocus::engine

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -13,5 +14,8 @@ namespace defocus::engine {
 // the rows are wider than 2²⁰ px. `head` is the start of a file of `fileBytes` bytes and may end within the header.
 // OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
+
+// Same for the start of a file: its first 64 KiB, or `headBytes`.
+void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = std::size_t{1} << 16);
 
 }  // namespace defocus::engine

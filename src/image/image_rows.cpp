@@ -9,7 +9,6 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -26,15 +25,6 @@ namespace defocus::engine {
 namespace {
 
 constexpr int rowsAtOnce = 64;  // max rows encoded per call; a multiple of EXR's 16-row blocks
-
-// Returns the first 64 KiB of a file, enough for checkExrHeader.
-std::vector<std::byte> beginOf(const std::filesystem::path& path) {
-    std::vector<std::byte> head(std::size_t{1} << 16);
-    std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(file.gcount()));
-    return head;
-}
 
 }  // namespace
 
@@ -178,7 +168,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
         static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
-    checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
+    checkExrHeader(path);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
     if (!s.input->open(s.name, s.spec)) fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));

@@ -167,10 +167,32 @@ glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
     return point / std::max(glm::length(point), 1.0);
 }
 
+// Returns the transmission of the cell that contains a lens point; 0 outside the image.
+double transmissionAt(const ApertureImage& image, const glm::dvec2& point) {
+    const double half = 0.5 * std::max(image.columns, image.rows);
+    const double column = std::floor(point.x * half + 0.5 * image.columns);
+    const double row = std::floor(0.5 * image.rows - point.y * half);
+    if (column < 0 || row < 0 || column >= image.columns || row >= image.rows) return 0;
+    const auto x = static_cast<std::size_t>(column);
+    const auto y = static_cast<std::size_t>(row);
+    const float* const ends = image.cellEnds.data() + y * static_cast<std::size_t>(image.columns);
+    const double shareOfRow = static_cast<double>(ends[x]) - (x > 0 ? static_cast<double>(ends[x - 1]) : 0);
+    return shareOfRow * (image.rowEnds[y] - (y > 0 ? image.rowEnds[y - 1] : 0));
+}
+
 glm::dvec2 turned(const glm::dvec2& point, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     return {c * point.x - s * point.y, s * point.x + c * point.y};
+}
+
+// Returns the radius of a point relative to the aperture's edge in the point's direction.
+double radiusWithin(const Aperture& aperture, const glm::dvec2& point) {
+    const double radius = glm::length(point);
+    if (aperture.bladeCount < 3) return radius;
+    const Blade blade{pi / aperture.bladeCount, aperture.bladeCurvature};
+    const double turn = std::atan2(point.y, point.x) / (2 * blade.halfAngle);
+    return radius / edgeRadius(blade, 2 * blade.halfAngle * (turn - std::floor(turn) - 0.5));
 }
 
 }  // namespace
@@ -232,6 +254,20 @@ glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square) {
     if (aperture.bladeRotation != 0) point = turned(point, aperture.bladeRotation);
     const double ratio = aperture.anamorphicRatio;
     return {ratio > 1 ? point.x / ratio : point.x, ratio < 1 ? point.y * ratio : point.y};
+}
+
+double lightDensity(const Aperture& aperture, const glm::dvec2& point) {
+    const double ratio = aperture.anamorphicRatio;
+    const glm::dvec2 round(ratio > 1 ? point.x * ratio : point.x, ratio < 1 ? point.y / ratio : point.y);
+    const glm::dvec2 upright = aperture.bladeRotation != 0 ? turned(round, -aperture.bladeRotation) : round;
+    // Lens samples on the rim are rounded to floats, which may move them outside the aperture.
+    constexpr double tolerance = 1e-6;
+    if (aperture.image.rows > 0)
+        return glm::length(upright) <= 1 + tolerance ? transmissionAt(aperture.image, upright) : 0;
+    const double radius = radiusWithin(aperture, upright);
+    const double area = (radius * radius - aperture.obstruction) / (1 - aperture.obstruction);
+    if (radius > 1 + tolerance || area < -tolerance) return 0;
+    return 1 + aperture.sphericalAberration * (2 * std::clamp(area, 0.0, 1.0) - 1);
 }
 
 }  // namespace defocus::engine

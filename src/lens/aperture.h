@@ -45,6 +45,10 @@ Aperture makeAperture(const Lens& lens);
 // except with a ring or an image.
 glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 
+// Returns the light density at a lens point, without normalisation; 0 outside the aperture. Without an image, the mean
+// over the aperture is 1. With an image, the density is the transmission of the cell at the point.
+double lightDensity(const Aperture& aperture, const glm::dvec2& point);
+
 // Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).
 glm::dvec2 concentricDisk(const glm::dvec2& square);
 

@@ -140,6 +140,12 @@ CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& 
     return range;
 }
 
+ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance) {
+    ClipCircleOfConfusion result = coc;
+    result.front = result.behind = -coc.a / focusDistance;
+    return result;
+}
+
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return circleOfConfusionRange(coc, {infinity, infinity, glm::dvec2(-1), glm::dvec2(1)}, width).largest;

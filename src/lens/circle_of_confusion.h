@@ -101,6 +101,9 @@ struct CocBox {
 // conservative otherwise. They change continuously with the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
+// Returns the circle of confusion of a thin lens that is focused at another distance (m; infinity is allowed).
+ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance);
+
 // Returns the largest |CoC| at infinite depth over the image, px.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 

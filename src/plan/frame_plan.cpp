@@ -88,10 +88,13 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     result.cocScale = object.cocScale;
     result.own = ownBlur(plan.coc, object.cocScale, blurs);
     result.blurMoves = blurs.moves && shutterIsOpen(world, plan.view);
-    if (result.nearestDepth > plan.view.nearPlane)
-        result.coc = circleOfConfusionRange(plan.coc, cocBoxOf(result.viewBox, result.own, plan), plan.view.width);
-    else
+    if (result.nearestDepth > plan.view.nearPlane) {
+        const CocBox cocBox = cocBoxOf(result.viewBox, result.own, plan);
+        result.coc = circleOfConfusionRange(plan.coc, cocBox, plan.view.width);
+        result.coc.smallest = smallestCoc(plan, cocBox);
+    } else {
         result.coc = {std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::infinity()};
+    }
     return result;
 }
 
@@ -218,7 +221,7 @@ double largestBlur(const FramePlan& plan, const World& world) {
 void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     const double blur = plan.largestBlur;
-    if (plan.settings.keepAll || blur >= minBlur) return;
+    if (plan.settings.keepAll || plan.settings.refocus || blur >= minBlur) return;
     const bool stochastic = std::ranges::any_of(plan.objects, &ObjectPlan::stochasticAlpha);
     const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
     const std::uint32_t kept =

@@ -68,7 +68,7 @@ struct ObjectPlan {
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
     double farthestDepth = 0;   // m
-    CocRange coc;               // px, range over the bounding box
+    CocRange coc;               // px, range over the bounding box; `smallest` also over RenderSettings::refocus
     CocDeviation cocDeviation;  // px, error bounds over the drawn levels
     double projectedEdge = 0;   // px, mean edge length of level 0 at the nearest depth
     double lambda = 0;          // fractional level λ

@@ -1,6 +1,8 @@
 #pragma once
 // Settings of a FramePlan with a fixed number of samples.
 
+#include <optional>
+
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
@@ -11,6 +13,12 @@ enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
     blur,  // only the lens's blur, as with infinitely many pixels
+};
+
+// Focus distances in m; 0 < nearest ≤ farthest, and infinity is allowed.
+struct FocusRange {
+    double nearest = 0;
+    double farthest = 0;
 };
 
 struct RenderSettings {
@@ -28,6 +36,10 @@ struct RenderSettings {
     bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
     double cocTolerance = 0.5;        // px, maximum error of interpolating C inside a triangle, > 0
     bool keepAll = false;             // disables culling; the image stays the same
+    // Focus distances for which the images of the lens samples are used. Each object's levels suit the smallest blur
+    // over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus. Needs a lens
+    // with C(w) = a + b·w (circle_of_confusion.h).
+    std::optional<FocusRange> refocus = {};
 };
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

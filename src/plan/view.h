@@ -27,6 +27,9 @@ struct View {
     std::map<std::string, double> methodValues;  // values of the method's settings that a shot animates, by name
 };
 
+// Returns the view with a margin of `margin` px on each side. The pixels of the original view stay the same.
+View withMargin(View view, int margin);
+
 // Poses of the scene at the shutter times: the times within the exposure at which motion is sampled.
 struct Shutter {
     std::vector<Pose> poses;  // same objects as World::pose; empty if the scene doesn't move

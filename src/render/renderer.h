@@ -68,6 +68,9 @@ public:
     // Returns the sum of the latest wave's block, which may be incomplete; nullopt for methods that do not sum lens
     // samples.
     [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
+    // Returns the depth in m of the first sample of the latest wave, +∞ where no surface writes depth; nullopt for
+    // methods that do not sum lens samples. Not available for plans with a tile.
+    [[nodiscard]] virtual std::optional<Image> sampleDepth() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
 
     // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier

@@ -180,6 +180,7 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
                                                 usualLine("info"),
                                                 usualLine("pyramid"),
                                                 usualLine("merge"),
+                                                usualLine("refocus"),
                                                 usualLine("compare"),
                                                 {"bench", "stability"},
                                                 {"cache", "list"},

@@ -11,6 +11,7 @@
 
 #include "aperture_shapes.h"
 #include "core/error.h"
+#include "lens/lens_samples.h"
 
 namespace defocus::engine {
 namespace {
@@ -219,6 +220,31 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
     EXPECT_NE(message(Image()).find("has no pixels"), std::string::npos);
     *image.at(3, 5) = 1;
     EXPECT_EQ(message(image), "");
+}
+
+// The density of a lens point is that of the definition, with the same constant factor at all points.
+TEST(Aperture, givesTheLightDensityOfAPoint) {
+    for (const ApertureShape& shape : apertureShapes) {
+        const Lens lens = shape.lens();
+        const Aperture aperture = makeAperture(lens);
+        for (int i = 0; i < 2000; ++i) {
+            const glm::dvec2 p = 2.0 * sequencePoint(Sequence::halton, static_cast<std::uint64_t>(i), 0).lens - 1.0;
+            EXPECT_NEAR(lightDensity(aperture, p), lightDensity(lens, p), 1e-4)
+                << shape.name << ' ' << p.x << ' ' << p.y;
+        }
+    }
+}
+
+TEST(Aperture, givesTheTransmissionOfAnImage) {
+    Lens lens;
+    Image image(3, 3, 1);
+    for (std::size_t i = 0; i < 9; ++i) image.pixels[i] = static_cast<float>(i);
+    lens.apertureImage = std::make_shared<Image>(image);
+    const Aperture aperture = makeAperture(lens);
+    const double centre = lightDensity(aperture, {0, 0});
+    EXPECT_NEAR(lightDensity(aperture, {0.6, 0}) / centre, 5.0 / 4, 1e-4);
+    EXPECT_NEAR(lightDensity(aperture, {0, 0.6}) / centre, 1.0 / 4, 1e-4);
+    EXPECT_EQ(lightDensity(aperture, {0.8, 0.8}), 0);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/commands/lens_images.h"
 #include "cli/options/image_output.h"
 #include "cli/options/option_text.h"
 #include "cli/terminal/stop_signal.h"
@@ -73,6 +74,22 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  .add_flag("--keep-partial", arguments.keepPartial,
                            "On Ctrl-C or SIGTERM, finish the current lens sample and write the image of the samples so "
                            "far; the exit code is 1. A second signal ends the program at once")
+                 ->group(group));
+    advanced(addParsed(command, "--lens-images", "FILE.exr",
+                       "Write the image of each lens sample to a multi-part EXR file for 'defocus refocus', which then "
+                       "chooses focus, f-number and bokeh. Replaces --output",
+                       [&arguments](const std::string& text) { arguments.lensImages = text; })
+                 ->excludes("--output")
+                 ->excludes("--aov")
+                 ->excludes("--sample-range")
+                 ->excludes("--tile")
+                 ->excludes("--resume")
+                 ->group(group));
+    advanced(addParsed(command, "--focus-range", "NEAR:FAR",
+                       "Focus distances in m that --lens-images must allow; FAR may be inf. Default: from the nearest "
+                       "to the farthest visible surface",
+                       [&arguments](const std::string& text) { arguments.focusRange = parseFocusRange(text); })
+                 ->needs("--lens-images")
                  ->group(group));
     advanced(addParsed(command, "--stats", "FILE",
                        "Write render times, triangle counts, memory use and the requested settings as JSON; - writes "
@@ -313,7 +330,12 @@ void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc\n"
         "  defocus render scene.glb -o out.exr --target-error 0.003 --time-limit 600\n"
         "  defocus render scene.glb -o out.png --method circular --far-components 5");
-    command->callback([arguments, &global] { runRender(*arguments, global); });
+    command->callback([arguments, &global] {
+        if (arguments->lensImages.empty())
+            runRender(*arguments, global);
+        else
+            renderLensImages(*arguments, global);
+    });
 }
 
 }  // namespace defocus::engine

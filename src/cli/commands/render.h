@@ -28,6 +28,8 @@ struct RenderArguments {
     std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; nullopt: all
     std::optional<TileShare> tile;           // draw only these rows, for `merge`; nullopt: all
     bool resume = false;                     // keep finished parts of an interrupted run
+    std::filesystem::path lensImages;        // write the images of the lens samples to this file, instead of outputs
+    std::optional<FocusRange> focusRange;    // focus distances that the lens images must allow
     bool keepPartial = false;                // write the image of the samples so far if a signal stops the run
 };
 

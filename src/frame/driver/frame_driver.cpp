@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// ---- three ways of drawing a frame ----------------------------------------------------------------------------------
+// ---- four ways of drawing a frame -----------------------------------------------------------------------------------
 
 class FrameDriver::Drawing {
 public:
@@ -170,6 +170,45 @@ private:
     FramePart part_;
 };
 
+class FrameDriver::Separate : public Drawing {
+public:
+    Separate(const World& world, Renderer& renderer, const FrameOrder& order)
+        : begin_(Clock::now()),
+          renderer_(renderer),
+          take_(order.takeSample),
+          plan_(planFrame(world, order.view, order.settings)),
+          planMilliseconds_(millisecondsSince(begin_)) {
+        renderer_.start(samplesOf(plan_, 0, 1));
+    }
+
+    bool advance() override {
+        if (samples_ == sampleTotal()) return false;
+        if (samples_ > 0) renderer_.start(samplesOf(plan_, samples_, 1));
+        while (renderer_.advance()) {
+        }
+        std::optional<Image> depth = renderer_.sampleDepth();
+        if (!depth) fail("images of single lens samples require the method accumulation");
+        take_(samples_, renderer_.image(), std::move(*depth));
+        return ++samples_ < sampleTotal();
+    }
+    [[nodiscard]] std::uint32_t samples() const override { return samples_; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
+    [[nodiscard]] RenderStats stats() const override { return renderer_.stats(); }
+    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
+    [[nodiscard]] Image image() override { return renderer_.image(); }
+
+private:
+    std::chrono::steady_clock::time_point begin_;
+    Renderer& renderer_;
+    SampleSink take_;
+    FramePlan plan_;
+    double planMilliseconds_;
+    std::uint32_t samples_ = 0;
+};
+
 // ---- the driver -----------------------------------------------------------------------------------------------------
 
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder, std::uint64_t keptPixelBytes) {
@@ -281,6 +320,8 @@ void FrameDriver::start(FrameOrder order) {
     }
     if (bands_)
         drawing_ = std::make_unique<Tiled>(*world_, *renderer_, std::move(order), *bands_);
+    else if (order.takeSample)
+        drawing_ = std::make_unique<Separate>(*world_, *renderer_, order);
     else if (order.samples)
         drawing_ = std::make_unique<Summed>(*world_, *renderer_, order);
     else

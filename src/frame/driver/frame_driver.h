@@ -37,6 +37,10 @@ DriverOptions driverOptions(const Request& request, std::filesystem::path shader
 // Receives the finished rows of a frame that is drawn in tiles; it is called from the top of the image to the bottom.
 using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 
+// Receives the image of each lens sample, in order: linear, premultiplied RGBA, and the depth in m (one channel, +∞
+// where no surface writes depth).
+using SampleSink = std::function<void(std::uint32_t sample, Image&& colour, Image&& depth)>;
+
 // A frame to draw, or the part of a frame to draw.
 struct FrameOrder {
     View view;
@@ -45,6 +49,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
+    SampleSink takeSample = {};                      // receives the image of each lens sample; the driver sums none
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
@@ -92,6 +97,7 @@ private:
     class Whole;
     class Tiled;
     class Summed;
+    class Separate;
 
     // Inputs of the choice between untiled and tiled drawing that may change from frame to frame.
     struct Fit {

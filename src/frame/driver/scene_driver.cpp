@@ -147,8 +147,20 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     try {
         if (!driver_)
             driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
-        driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts.samples, parts.rows, parts.takeRows,
-                        parts.untiledReason, parts.shortDraws});
+        FrameOrder order{.view = frame_.view,
+                         .settings = frame_.settings,
+                         .stop = stopSettings(request_),
+                         .samples = parts.samples,
+                         .rows = parts.rows,
+                         .takeRows = parts.takeRows,
+                         .untiledReason = parts.untiledReason,
+                         .shortDraws = parts.shortDraws};
+        if (parts.lensImages) {
+            order.view = withMargin(frame_.view, parts.lensImages->margin);
+            order.settings.refocus = parts.lensImages->range;
+            order.takeSample = parts.lensImages->take;
+        }
+        driver_->start(std::move(order));
     } catch (...) {
         driver_.reset();
         throw;

@@ -20,6 +20,13 @@
 
 namespace defocus::engine {
 
+// Images of the single lens samples, from which pictures with another focus are computed later (src/refocus).
+struct LensImageOrder {
+    FocusRange range;  // focus distances of these pictures; see RenderSettings::refocus
+    int margin = 0;    // px that the images extend beyond the request's size, on each side
+    SampleSink take;
+};
+
 // Selects the part of a frame to draw; see FrameOrder.
 struct FrameParts {
     std::optional<SampleRange> samples = {};
@@ -27,6 +34,7 @@ struct FrameParts {
     RowSink takeRows = {};
     std::string untiledReason = {};
     bool shortDraws = false;
+    std::optional<LensImageOrder> lensImages = {};
 };
 
 class SceneDriver {

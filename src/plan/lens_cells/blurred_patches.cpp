@@ -12,7 +12,7 @@ namespace {
 
 // Returns the min |CoC| in px that the object's surfaces can have at a depth and an image position.
 double minCoc(const ObjectPlan& object, const FramePlan& plan, double depth, const glm::dvec2& ndc) {
-    return circleOfConfusionRange(plan.coc, {depth, depth, ndc, ndc, object.own}, plan.view.width).smallest;
+    return smallestCoc(plan, {depth, depth, ndc, ndc, object.own});
 }
 
 double pixelsPerUnit(const ObjectPlan& object, const FramePlan& plan, double depth) {
@@ -20,6 +20,18 @@ double pixelsPerUnit(const ObjectPlan& object, const FramePlan& plan, double dep
 }
 
 }  // namespace
+
+double smallestCoc(const FramePlan& plan, const CocBox& box) {
+    CocRange range = circleOfConfusionRange(plan.coc, box, plan.view.width);
+    if (!plan.settings.refocus) return range.smallest;
+    for (const double focus : {plan.settings.refocus->nearest, plan.settings.refocus->farthest}) {
+        const CocRange other = circleOfConfusionRange(refocused(plan.coc, focus), box, plan.view.width);
+        range.nearest = std::min(range.nearest, other.nearest);
+        range.farthest = std::max(range.farthest, other.farthest);
+    }
+    if (range.nearest <= 0 && range.farthest >= 0) return 0;
+    return std::min(std::abs(range.nearest), std::abs(range.farthest));
+}
 
 double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan) {
     return pixelsPerUnit(object, plan, -object.viewBox.centre().z);

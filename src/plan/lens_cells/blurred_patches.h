@@ -17,6 +17,10 @@ inline constexpr std::size_t patchDepths = 5;
 // the disk or the pixel from the convolution.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
+// Returns the smallest |CoC| in px over a box and, with RenderSettings::refocus, over the focus distances of that
+// range.
+double smallestCoc(const FramePlan& plan, const CocBox& box);
+
 // Returns the projected length in px of one unit of object space, at the depth of the bounding box's centre.
 double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan);
 

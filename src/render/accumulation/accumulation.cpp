@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "gl/read_back.h"
 #include "gl/timer.h"
 #include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
@@ -103,6 +104,13 @@ public:
     [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->meanTexture(); }
 
     [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
+
+    [[nodiscard]] std::optional<Image> sampleDepth() override {
+        Image depth = readBack(sum_->layerDepths(), 1);
+        // The depth buffer holds near plane / depth.
+        for (float& value : depth.pixels) value = static_cast<float>(plan_.view.nearPlane / static_cast<double>(value));
+        return depth;
+    }
 
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;

@@ -1,0 +1,188 @@
+// defocus refocus: computes pictures with another focus, f-number and aperture from a file of lens images.
+
+#include "refocus/refocus.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/commands/refocus_series.h"
+#include "cli/options/image_output.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/message.h"
+#include "core/stopwatch.h"
+#include "refocus/page.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Settings of `render` that can be chosen afterwards.
+const std::vector<std::string> refocusSettings = {"focusDistance",   "focusPixel",    "fStop",
+                                                  "bladeCount",      "bladeRotation", "bladeCurvature",
+                                                  "anamorphicRatio", "obstruction",   "sphericalAberration",
+                                                  "apertureImage",   "toneMap"};
+
+struct RefocusArguments {
+    std::filesystem::path file;
+    std::vector<std::filesystem::path> outputs = {"out.exr"};
+    Request request;                 // values of refocusSettings
+    std::optional<double> exposure;  // EV; none: as rendered
+    std::filesystem::path page;      // write a web page to this file, instead of outputs
+    FocusPull pull;                  // write the film of a focus pull if pull.video isn't empty
+    int stack = 0;                   // number of pictures of a focal stack; 0: one picture
+};
+
+// Returns the aperture's shape that the request gives; none if it gives no shape.
+std::optional<Lens> requestedShape(const Request& request) {
+    LensValues values = givenLensValues(request);
+    for (const char* other : {"fStop", "focusDistance"}) values.erase(other);
+    if (values.empty() && request.lens.apertureImage.empty()) return {};
+    Lens lens;
+    setLensFields(lens, values);
+    if (!request.lens.apertureImage.empty()) lens.apertureImage = loadApertureImage(request.lens.apertureImage);
+    return lens;
+}
+
+Refocusing requested(const Request& request, LightField& field) {
+    Refocusing refocusing = asRendered(field.info());
+    if (const auto* const distance = std::get_if<FocusDistance>(&request.focus))
+        refocusing.focusDistance = distance->metres;
+    if (const auto* const at = std::get_if<FocusPixel>(&request.focus))
+        refocusing.focusDistance = focusAtPixel(field, at->pixel);
+    refocusing.fStop = request.lens.fStop.value_or(refocusing.fStop);
+    refocusing.shape = requestedShape(request);
+    return refocusing;
+}
+
+void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
+    const std::string extension = arguments.page.extension().string();
+    if (extension != ".html" && extension != ".htm")
+        throw UsageError(fmt::format("--html writes a web page; end '{}' with .html", arguments.page.string()));
+    checkImageOutputs({}, {arguments.page}, {arguments.file});
+    if (requestedShape(arguments.request))
+        throw UsageError("--html has its own choice of aperture shapes; leave out the options of the aperture");
+    LightField field(arguments.file);
+    const Refocusing start = requested(arguments.request, field);
+    const WriteOptions write{arguments.request.toneMap,
+                             arguments.exposure.value_or(refocusedExposure(field.info(), start))};
+    const std::string page =
+        refocusPage(field, arguments.file.stem().stem().string(), start, write, terminalProgress(global));
+    writeFile(arguments.page, page);
+    if (!global.quiet)
+        printMessage("{}: {} images, {:.1f} MB\n", arguments.page.string(),
+                     std::min(field.info().points.size(), maxPageImages), static_cast<double>(page.size()) / 1e6);
+}
+
+// Writes one picture to all outputs.
+void writePicture(const RefocusArguments& arguments, LightField& field, const Refocusing& refocusing,
+                  const WriteOptions& write, const GlobalOptions& global) {
+    const Clock::time_point start = Clock::now();
+    const Image image = refocused(field, refocusing, terminalProgress(global));
+    const Metadata metadata = refocusedMetadata(field.info(), refocusing);
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs) {
+        writeOutput(path, image, metadata, write);
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
+    }
+    if (!global.quiet)
+        printMessage("{}: {}x{}, focus at {:.4g} m, f/{:g}, {} of {} lens images in {:.2f} s\n", names, image.width,
+                     image.height, refocusing.focusDistance, refocusing.fStop,
+                     shiftedImages(field.info(), refocusing, field.name()).size(), field.info().points.size(),
+                     millisecondsSince(start) / 1000);
+}
+
+void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) {
+    const bool films = !arguments.pull.video.empty();
+    const std::vector<std::filesystem::path> inputs = {arguments.file, arguments.request.lens.apertureImage};
+    if (films)
+        checkImageOutputs({}, {arguments.pull.video}, inputs);
+    else
+        checkImageOutputs(arguments.outputs, {}, inputs);
+    if (arguments.stack > 0 && arguments.outputs.size() > 1)
+        throw UsageError("--stack derives its files from one output; give -o once");
+    if ((films || arguments.stack > 0) && !std::holds_alternative<CameraFocus>(arguments.request.focus))
+        throw UsageError(
+            "--focus-pull and --stack set the focus distances; leave out --focus-distance and --focus-pixel");
+    LightField field(arguments.file);
+    const Refocusing refocusing = requested(arguments.request, field);
+    const WriteOptions write{arguments.request.toneMap,
+                             arguments.exposure.value_or(refocusedExposure(field.info(), refocusing))};
+    if (films)
+        writeFocusPull(field, refocusing, arguments.pull, write, global);
+    else if (arguments.stack > 0)
+        writeFocalStack(field, refocusing, arguments.stack, arguments.outputs.front(), write, global);
+    else
+        writePicture(arguments, field, refocusing, write, global);
+}
+
+}  // namespace
+
+void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<RefocusArguments>();
+    CLI::App* command = program.add_subcommand(
+        "refocus", "Choose focus, f-number and bokeh of a picture after rendering (render --lens-images)");
+    command->add_option("FILE", arguments->file, "File of lens images, from 'defocus render --lens-images'")
+        ->required()
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "-o,--output", arguments->outputs,
+            fmt::format("Image file to write: .exr, .png or .jpg. {}. Can be given several times", standardOutputHelp))
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr");
+    addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
+              "Exposure in EV for PNG and JPEG. Default: as rendered");
+    addParsed(*command, "--html", "FILE",
+              fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
+                          "images. Replaces --output",
+                          maxPageImages),
+              [arguments](const std::string& text) { arguments->page = text; })
+        ->excludes("--output");
+    CLI::Option* const pull = addParsed(
+        *command, "--focus-pull", "A:B", "Film a focus pull from distance A to distance B in m; needs --video",
+        [arguments](const std::string& text) { parseFocusPull(text, arguments->pull); });
+    CLI::Option* const video =
+        addParsed(*command, "--video", "FILE", "Video file of --focus-pull: .mp4, .mov, .mkv, .webm or .gif",
+                  [arguments](const std::string& text) { arguments->pull.video = text; });
+    pull->needs(video)->excludes("--output")->excludes("--html");
+    video->needs(pull);
+    addInteger(*command, "--frames", arguments->pull.frames, 2, 100'000, "Number of frames of --focus-pull")
+        ->needs(pull);
+    addNumber(*command, "--frame-rate", arguments->pull.frameRate, {1e-3, 1e3}, "FPS",
+              "Frames per second of --focus-pull")
+        ->needs(pull);
+    addInteger(*command, "--stack", arguments->stack, 2, 100,
+               "Write a focal stack: N pictures with focus distances over the rendered range, evenly in 1/distance, as "
+               "out.00.exr, out.01.exr …, a picture with everything in focus, out.sharp.exr, and depths in m, "
+               "out.depth.exr")
+        ->default_str("")
+        ->excludes("--html")
+        ->excludes(pull);
+    addSettings(*command, arguments->request, refocusSettings);
+    command->footer(
+        "Examples:\n"
+        "  defocus render scene.glb --lens-images scene.lens.exr --fstop 1.4 --samples 128\n"
+        "  defocus refocus scene.lens.exr -o near.png --focus-distance 1.2\n"
+        "  defocus refocus scene.lens.exr -o star.png --focus-pixel 512,384 --fstop 2.8 --blades 6\n"
+        "  defocus refocus scene.lens.exr --focus-pull 1:4 --video pull.mp4 --fstop 2\n"
+        "  defocus refocus scene.lens.exr --stack 16 -o stack.exr\n"
+        "  defocus refocus scene.lens.exr --html scene.html");
+    command->callback([arguments, &global] {
+        if (arguments->page.empty())
+            runRefocus(*arguments, global);
+        else
+            writePage(*arguments, global);
+    });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,39 @@
+#pragma once
+// Series of pictures from one file of lens images: the film of a focus pull, and a focal stack.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "cli/command.h"
+#include "image/image_io.h"
+#include "refocus/refocus.h"
+
+namespace defocus::engine {
+
+struct FocusPull {
+    double from = 1;  // m
+    double to = 1;    // m
+    int frames = 96;
+    double frameRate = 24;        // frames per second
+    std::filesystem::path video;  // file of the film
+};
+
+// Parses "A:B", two distances in m. Throws Error for other text.
+void parseFocusPull(const std::string& text, FocusPull& pull);
+
+// Writes a film in which the focus moves from one distance to the other, evenly in 1/distance. `refocusing` gives the
+// aperture.
+void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPull& pull, const WriteOptions& write,
+                    const GlobalOptions& global);
+
+// Returns the file of picture `name` of a stack: out.exr and "02" give out.02.exr.
+std::filesystem::path stackPath(const std::filesystem::path& output, const std::string& name);
+
+// Writes `pictures` pictures with focus distances over the rendered range, evenly in 1/distance from the nearest to the
+// farthest, as out.00.exr, out.01.exr …, and beside them out.sharp.exr with everything in focus and out.depth.exr with
+// depths in m. The pictures have the type of `output`, the depths are EXR.
+void writeFocalStack(LightField& field, const Refocusing& refocusing, int pictures, const std::filesystem::path& output,
+                     const WriteOptions& write, const GlobalOptions& global);
+
+}  // namespace defocus::engine

@@ -1,0 +1,169 @@
+#include "image/image_parts.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "image/exr_structure.h"
+#include "image/image_encoding.h"
+#include "image/image_read.h"
+#include "image/oiio_names.h"
+
+namespace defocus::engine {
+
+namespace {
+
+const std::vector<std::string> channelNames = {"R", "G", "B", "A", "Z"};
+constexpr int depthChannel = 4;
+constexpr float largestHalf = 65504;
+constexpr std::uint64_t maxPixels = 1ull << 28;          // of one part
+constexpr std::size_t headBytes = std::size_t{8} << 20;  // enough for the headers of 1024 parts
+
+OIIO::ImageSpec partSpec(const PartSize& size, const Metadata& metadata, std::size_t part) {
+    OIIO::ImageSpec spec = imageSpec(FileKind::exr, size.fullWidth(), size.fullHeight(), 5, metadata);
+    spec.x = spec.y = -size.margin;
+    spec.full_x = spec.full_y = 0;
+    spec.full_width = size.width;
+    spec.full_height = size.height;
+    spec.channelnames = channelNames;
+    spec.channelformats.assign(4, OIIO::TypeHalf);
+    spec.channelformats.push_back(OIIO::TypeFloat);
+    spec.alpha_channel = 3;
+    spec.z_channel = depthChannel;
+    spec.attribute("oiio:subimagename", fmt::format("lens{:04}", part));
+    return spec;
+}
+
+}  // namespace
+
+struct ImagePartWriter::State {
+    explicit State(const std::filesystem::path& path) : name(path.string()), pending(path) {}
+
+    [[noreturn]] void failed() { fail("cannot write {}: {}", name, firstLine(output->geterror())); }
+
+    std::string name;
+    PendingFile pending;
+    std::unique_ptr<OIIO::ImageOutput> output;
+    std::vector<OIIO::ImageSpec> specs;
+    std::size_t written = 0;
+    std::vector<float> pixels;  // the five channels of a part, interleaved
+};
+
+ImagePartWriter::ImagePartWriter(const std::filesystem::path& path, const PartSize& size,
+                                 const std::vector<Metadata>& parts)
+    : state_(std::make_unique<State>(path)) {
+    assert(!parts.empty() && parts.size() <= maxImageParts);
+    State& s = *state_;
+    for (const Metadata& metadata : parts) s.specs.push_back(partSpec(size, metadata, s.specs.size()));
+    s.output = OIIO::ImageOutput::create("openexr");
+    if (!s.output) fail("cannot write {}: {}", s.name, firstLine(OIIO::geterror()));
+    if (!s.output->open(s.pending.temporaryPath().string(), static_cast<int>(s.specs.size()), s.specs.data()))
+        s.failed();
+}
+
+ImagePartWriter::~ImagePartWriter() = default;
+ImagePartWriter::ImagePartWriter(ImagePartWriter&&) noexcept = default;
+
+void ImagePartWriter::write(const ImageView& colour, const ImageView& depth) {
+    State& s = *state_;
+    const OIIO::ImageSpec& spec = s.specs[s.written];
+    assert(s.written < s.specs.size() && colour.channels == 4 && depth.channels == 1);
+    assert(colour.width == spec.width && colour.height == spec.height &&
+           depth.pixels.size() * 4 == colour.pixels.size());
+    s.pixels.resize(depth.pixels.size() * channelNames.size());
+    for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+        for (std::size_t c = 0; c < 4; ++c)
+            s.pixels[5 * i + c] = std::clamp(colour.pixels[4 * i + c], -largestHalf, largestHalf);
+        s.pixels[5 * i + 4] = depth.pixels[i];
+    }
+    if (s.written > 0 && !s.output->open(s.pending.temporaryPath().string(), spec, OIIO::ImageOutput::AppendSubimage))
+        s.failed();
+    if (!s.output->write_image(OIIO::TypeFloat, s.pixels.data())) s.failed();
+    ++s.written;
+}
+
+void ImagePartWriter::finish() {
+    State& s = *state_;
+    assert(s.written == s.specs.size());
+    if (!s.output->close()) s.failed();
+    s.output.reset();
+    s.pending.commit();
+}
+
+struct ImagePartReader::State {
+    Image read(std::size_t part, int first, int count) {
+        Image image(size.fullWidth(), size.fullHeight(), count);
+        if (!input->read_image(static_cast<int>(part), 0, first, first + count, OIIO::TypeFloat, image.pixels.data()))
+            fail("cannot read {}: image {}: {}", name, part, firstLine(input->geterror()));
+        return image;
+    }
+
+    std::string name;
+    std::unique_ptr<OIIO::ImageInput> input;
+    PartSize size;
+    std::vector<Metadata> metadata;
+};
+
+ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.name = path.string();
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status))
+        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
+    checkExrHeader(path, headBytes);
+    s.input = OIIO::ImageInput::create("openexr");
+    if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
+    OIIO::ImageSpec spec;
+    if (!s.input->open(s.name, spec)) fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));
+    const OIIO::ImageSpec first = spec;
+    const auto margin = static_cast<std::int64_t>(first.full_x) - first.x;
+    if (first.full_width < 1 || first.full_height < 1 || margin < 0 || first.full_width + 2 * margin != first.width ||
+        first.full_height + 2 * margin != first.height)
+        fail("cannot read {}: its data window is not its display window with a margin", s.name);
+    if (std::uint64_t(first.width) * std::uint64_t(first.height) > maxPixels)
+        fail("cannot read {}: {}x{} pixels are too many", s.name, first.width, first.height);
+    s.size = {first.full_width, first.full_height, static_cast<int>(margin)};
+    for (int part = 0; part == 0 || s.input->seek_subimage(part, 0); ++part) {
+        const OIIO::ImageSpec& own = s.input->spec();
+        if (own.channelnames != channelNames || own.deep || own.tile_width > 0)
+            fail("{}: image {} has not the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
+                 s.name, part);
+        if (own.x != -s.size.margin || own.y != own.x || own.width != s.size.fullWidth() ||
+            own.height != s.size.fullHeight())
+            fail("cannot read {}: image {} has another size than image 0", s.name, part);
+        if (s.metadata.size() == maxImageParts)
+            fail("cannot read {}: it has more than {} images", s.name, maxImageParts);
+        s.metadata.push_back(metadataOf(own));
+    }
+    static_cast<void>(s.input->geterror());  // clears the message about the missing part behind the last one
+}
+
+ImagePartReader::~ImagePartReader() = default;
+ImagePartReader::ImagePartReader(ImagePartReader&&) noexcept = default;
+
+const PartSize& ImagePartReader::size() const {
+    return state_->size;
+}
+
+std::size_t ImagePartReader::count() const {
+    return state_->metadata.size();
+}
+
+const Metadata& ImagePartReader::metadata(std::size_t part) const {
+    return state_->metadata[part];
+}
+
+Image ImagePartReader::colour(std::size_t part) {
+    return state_->read(part, 0, 4);
+}
+
+Image ImagePartReader::depth(std::size_t part) {
+    return state_->read(part, depthChannel, 1);
+}
+
+}  // namespace defocus::engine

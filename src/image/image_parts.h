@@ -1,0 +1,66 @@
+#pragma once
+// Multi-part EXR files: images of equal size with a depth image each, in one file that any EXR reader can open. A part
+// has the channels R, G, B and A (16-bit float) and Z (32-bit float), lossless ZIP. Images are written and read one at
+// a time, so that memory holds one image.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "image/image_io.h"
+
+namespace defocus::engine {
+
+inline constexpr std::size_t maxImageParts = 1024;
+
+// Size of the shown image and the margin around it, in px. EXR stores the shown image as display window, and the image
+// with its margin as data window.
+struct PartSize {
+    int width = 0;
+    int height = 0;
+    int margin = 0;
+    [[nodiscard]] int fullWidth() const { return width + 2 * margin; }
+    [[nodiscard]] int fullHeight() const { return height + 2 * margin; }
+};
+
+class ImagePartWriter {
+public:
+    // `parts`: metadata of each part, 1 … maxImageParts. Throws Error, with the path in its message, if the file cannot
+    // be created.
+    ImagePartWriter(const std::filesystem::path& path, const PartSize& size, const std::vector<Metadata>& parts);
+    ~ImagePartWriter();  // deletes the temporary file unless finish() was called
+    ImagePartWriter(ImagePartWriter&&) noexcept;
+
+    // Appends the next part. `colour` is linear, premultiplied RGBA, `depth` has one channel; both have the full size.
+    // Colours above 65504 are clamped to that value.
+    void write(const ImageView& colour, const ImageView& depth);
+    // Completes the file after the last part: flushes it to disk and renames it to `path`.
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+class ImagePartReader {
+public:
+    // Throws Error, with the path in its message, if the file cannot be read, or if its parts differ in size or lack a
+    // channel.
+    explicit ImagePartReader(const std::filesystem::path& path);
+    ~ImagePartReader();
+    ImagePartReader(ImagePartReader&&) noexcept;
+
+    [[nodiscard]] const PartSize& size() const;
+    [[nodiscard]] std::size_t count() const;
+    [[nodiscard]] const Metadata& metadata(std::size_t part) const;
+    // Return a part's colours (RGBA) or depths (one channel) with the full size. Throw Error if the part is damaged.
+    [[nodiscard]] Image colour(std::size_t part);
+    [[nodiscard]] Image depth(std::size_t part);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,161 @@
+#include "refocus/light_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "core/error.h"
+#include "core/memory_limits.h"
+#include "lens/aperture.h"
+#include "lens/lens_fields.h"
+#include "refocus/shifted_sum.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr const char* countName = "defocus:lensImages";
+constexpr const char* pixelsName = "defocus:pixelsPerDioptre";
+constexpr const char* nearestName = "defocus:nearestFocusDioptres";
+constexpr const char* farthestName = "defocus:farthestFocusDioptres";
+constexpr const char* diskName = "defocus:apertureIsDisk";
+constexpr const char* focusName = "defocus:focusDistance";
+constexpr const char* fStopName = "defocus:fStop";
+constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
+constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
+
+// Lens fields with which refocusing changes more than b of C(w) = a + b·w, or the light that a lens point passes.
+constexpr std::array unsuited = {
+    "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
+    "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",
+    "radialBlurGain"};
+
+void checkThinLens(const Lens& lens) {
+    if (!(apertureDiameter(lens) > 0))
+        fail("--lens-images needs depth of field; leave out --no-dof and a blur scale of 0");
+    for (const char* name : unsuited) {
+        const LensField& field = *lensFieldNamed(name);
+        if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
+            fail("--lens-images cannot be combined with {}: a change of focus would not move each image as a whole",
+                 field.option);
+    }
+}
+
+// Returns the largest move of an image over the focus range, in px.
+double largestMove(const LightFieldInfo& info) {
+    return std::max(std::abs(info.shift(info.range.nearest)), std::abs(info.shift(info.range.farthest)));
+}
+
+// Returns the margin in px that the focus range needs.
+int marginOf(const LightFieldInfo& info) {
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6))) + filterReach;
+}
+
+// Returns a number of a file's metadata; none if it is missing, of another type, or not finite.
+std::optional<double> numberIn(const Metadata& metadata, const char* name) {
+    const auto found = metadata.find(name);
+    if (found == metadata.end()) return {};
+    std::optional<double> value;
+    if (const auto* number = std::get_if<double>(&found->second)) value = *number;
+    if (const auto* number = std::get_if<int>(&found->second)) value = *number;
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+double needed(const Metadata& metadata, const char* attribute, const std::string& name, double min, double max) {
+    const std::optional<double> value = numberIn(metadata, attribute);
+    if (!value)
+        fail("{}: no file of lens images, because '{}' is missing; give a file from 'defocus render --lens-images'",
+             name, attribute);
+    if (*value < min || *value > max)
+        fail("{}: its value {} of '{}' is outside {} to {}; render the file again", name, *value, attribute, min, max);
+    return *value;
+}
+
+LightFieldInfo infoOf(const ImagePartReader& parts, const std::string& name) {
+    const Metadata& first = parts.metadata(0);
+    LightFieldInfo info;
+    info.size = parts.size();
+    const auto images = static_cast<std::size_t>(needed(first, countName, name, 1, maxImageParts));
+    if (parts.count() < images)
+        fail("{}: {} of {} lens images are missing; render the file again", name, images - parts.count(), images);
+    info.focusDistance = needed(first, focusName, name, 1e-6, 1e12);
+    info.fStop = needed(first, fStopName, name, 1e-3, 1e6);
+    info.pixelsPerDioptre = needed(first, pixelsName, name, 0, 1e12);
+    info.range = {1 / needed(first, nearestName, name, 1e-12, 1e12), 1 / needed(first, farthestName, name, 0, 1e12)};
+    info.disk = needed(first, diskName, name, 0, 1) != 0;
+    if (info.size.margin < marginOf(info))
+        fail("{}: its margin of {} px is too small for its focus range; render the file again", name, info.size.margin);
+    for (std::size_t i = 0; i < images; ++i)
+        info.points.emplace_back(needed(parts.metadata(i), pointNames[0], name, -1.001, 1.001),
+                                 needed(parts.metadata(i), pointNames[1], name, -1.001, 1.001));
+    info.metadata = first;
+    for (const char* own : {countName, pixelsName, nearestName, farthestName, diskName, pointNames[0], pointNames[1],
+                            shiftNames[0], shiftNames[1]})
+        info.metadata.erase(own);
+    return info;
+}
+
+}  // namespace
+
+LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
+    const Lens& lens = view.lens;
+    checkThinLens(lens);
+    LightFieldInfo info;
+    info.focusDistance = lens.focusDistance;
+    info.fStop = lens.fStop;
+    info.pixelsPerDioptre = apertureDiameter(lens) * view.width / (4 * tanHalfHorizontalFov(lens));
+    info.range = range;
+    info.disk = isUniformDisk(makeAperture(lens));
+    const int longer = std::max(view.width, view.height);
+    if (!(largestMove(info) <= longer))
+        fail(
+            "--focus-range {:.3g}:{:.3g} needs a margin of {:.0f} px, more than the image's {} px; give a narrower "
+            "range or a larger --fstop",
+            range.nearest, range.farthest, largestMove(info), longer);
+    info.size = {view.width, view.height, marginOf(info)};
+    return info;
+}
+
+std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
+    std::vector<Metadata> parts(info.points.size());
+    parts.front() = info.metadata;
+    parts.front()[countName] = static_cast<int>(info.points.size());
+    parts.front()[focusName] = info.focusDistance;
+    parts.front()[fStopName] = info.fStop;
+    parts.front()[pixelsName] = info.pixelsPerDioptre;
+    parts.front()[nearestName] = 1 / info.range.nearest;
+    parts.front()[farthestName] = 1 / info.range.farthest;
+    parts.front()[diskName] = info.disk ? 1 : 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        for (glm::length_t axis = 0; axis < 2; ++axis) {
+            parts[i][pointNames[axis]] = info.points[i][axis];
+            parts[i][shiftNames[axis]] = info.pixelsPerDioptre * info.points[i][axis];
+        }
+    return parts;
+}
+
+LightField::LightField(const std::filesystem::path& path)
+    : name_(path.string()), parts_(path), info_(infoOf(parts_, name_)) {}
+
+std::shared_ptr<const Image> LightField::colour(std::size_t i) {
+    if (kept_.empty()) return std::make_shared<const Image>(parts_.colour(i));
+    if (!kept_[i]) kept_[i] = std::make_shared<const Image>(parts_.colour(i));
+    return kept_[i];
+}
+
+void LightField::keepImages() {
+    const PartSize& size = info_.size;
+    const std::uint64_t bytes = std::uint64_t(size.fullWidth()) * std::uint64_t(size.fullHeight()) * 4 * sizeof(float);
+    if (bytes * info_.points.size() < freeMemory() / 2) kept_.resize(info_.points.size());
+}
+
+std::size_t LightField::central() const {
+    const auto nearest = std::ranges::min_element(info_.points, {}, [](const glm::dvec2& p) { return glm::dot(p, p); });
+    return static_cast<std::size_t>(nearest - info_.points.begin());
+}
+
+}  // namespace defocus::engine

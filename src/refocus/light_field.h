@@ -1,0 +1,74 @@
+#pragma once
+// Files of lens images: the image of each lens sample, with its depth. Together they are a light field of the scene, as
+// the lens sees it (Levoy and Hanrahan 1996, Light Field Rendering; Ng 2005, Fourier Slice Photography).
+//
+// A point (u, v) of the lens moves a vertex in clip space by C(w)·(u, k·v), and C(w) = a + b·w for a thin lens
+// (lens/circle_of_confusion.h). The focus distance s is only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′ thus
+// moves the whole image of the lens point by
+//   P · (1/s′ − 1/s) · (u, v) px,   P = A·W / (4·tan(θx/2)),
+// at every depth; u points right and v points up. A is the aperture's diameter in m, W the image's width in px, and θx
+// the horizontal field of view.
+//
+// The file is a multi-part EXR file (image/image_parts.h) with one part per lens sample.
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/image_parts.h"
+#include "plan/frame_plan.h"
+
+namespace defocus::engine {
+
+struct LightFieldInfo {
+    PartSize size;                   // px; the margin has the pixels that enter the image when images move
+    double focusDistance = 1;        // m, s
+    double fStop = 1;                // f-number of the rendered aperture
+    double pixelsPerDioptre = 0;     // P
+    FocusRange range;                // focus distances for which margin and levels of detail are sufficient
+    bool disk = true;                // the rendered aperture is a uniform disk
+    std::vector<glm::dvec2> points;  // lens point (u, v) of each image
+    Metadata metadata;               // of the frame, without the values above
+
+    // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
+    [[nodiscard]] double shift(double otherFocus) const {
+        return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
+    }
+};
+
+// Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for
+// all focus distances in `range`, which must contain the view's focus distance. Throws Error if a change of focus would
+// do more to an image of this lens than move it, and if the margin exceeds the image's longer side.
+LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
+
+// Returns the metadata of each part of the file.
+std::vector<Metadata> partMetadata(const LightFieldInfo& info);
+
+class LightField {
+public:
+    // Throws Error, with the path in its message, if the file cannot be read, is no file of lens images, or lacks an
+    // image.
+    explicit LightField(const std::filesystem::path& path);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const LightFieldInfo& info() const { return info_; }
+    // Return the image of lens point i, with its margin: linear, premultiplied RGBA, or depths in m. Throw Error if the
+    // file is damaged.
+    [[nodiscard]] std::shared_ptr<const Image> colour(std::size_t i);
+    [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
+    // Keeps the colours in memory once they are read, if all of them fit into half of the free memory. Worthwhile for
+    // several pictures.
+    void keepImages();
+    // Returns the index of the image whose lens point is nearest to the lens's centre.
+    [[nodiscard]] std::size_t central() const;
+
+private:
+    std::string name_;
+    ImagePartReader parts_;
+    LightFieldInfo info_;
+    std::vector<std::shared_ptr<const Image>> kept_;  // by image; empty: images are not kept
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,78 @@
+#include "refocus/light_field_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Returns the range from the nearest to the farthest surface in an image of depths; none if there is no surface.
+std::optional<FocusRange> visibleRange(const Image& depth) {
+    FocusRange range{std::numeric_limits<double>::infinity(), 0};
+    for (const float value : depth.pixels) {
+        if (!(value > 0) || std::isinf(value)) continue;
+        range.nearest = std::min(range.nearest, static_cast<double>(value));
+        range.farthest = std::max(range.farthest, static_cast<double>(value));
+    }
+    return range.farthest > 0 ? std::optional(range) : std::nullopt;
+}
+
+}  // namespace
+
+Request LightFieldOutput::suited(Request request) {
+    if (request.method != automaticMethod && request.method != "accumulation")
+        throw UsageError(
+            fmt::format("--lens-images needs the method accumulation, not '{}'; leave out --method", request.method));
+    if (request.targetError || request.timeLimit)
+        throw UsageError(
+            "--lens-images needs a fixed number of images; give --samples instead of --target-error and "
+            "--time-limit");
+    request.method = "accumulation";
+    if (!request.samples) request.samples = defaultSamples;
+    if (*request.samples > maxImageParts)
+        throw UsageError(fmt::format("--lens-images keeps at most {} images; --samples asks for {}", maxImageParts,
+                                     *request.samples));
+    return request;
+}
+
+void LightFieldOutput::start(const Progress& progress) {
+    const Request& request = driver_.firstRequest();
+    // The image without a margin gives the visible surfaces and the metadata.
+    FrameParts parts{.untiledReason = "--lens-images needs whole images"};
+    driver_.start(request, parts, progress);
+    const double own = driver_.frame().view.lens.focusDistance;
+    FocusRange range = range_ ? *range_ : visibleRange(driver_.aovs().depth).value_or(FocusRange{own, own});
+    range = {std::min(range.nearest, own), std::max(range.farthest, own)};
+    info_ = lightFieldInfo(driver_.frame().view, range);
+    info_.metadata = driver_.metadata();
+    info_.metadata["defocus:samples"] = static_cast<int>(*request.samples);
+    info_.metadata.erase("defocus:seconds");
+
+    parts.lensImages =
+        LensImageOrder{info_.range, info_.size.margin,
+                       [this](std::uint32_t, Image&& colour, Image&& depth) { writer_->write(colour, depth); }};
+    driver_.start(request, parts, progress);
+    const FramePlan& plan = driver_.driver().plan();
+    if (plan.usesOwnBlur)
+        fail(
+            "--lens-images cannot draw objects or vertices with their own blur (--node-blur, vertex attributes): a "
+            "change of focus would not move each image as a whole");
+    for (const LensSample& sample : plan.samples) info_.points.emplace_back(sample.lens);
+    writer_.emplace(path_, info_.size, partMetadata(info_));
+}
+
+bool LightFieldOutput::advance() {
+    return driver_.advance();
+}
+
+void LightFieldOutput::finish() {
+    writer_->finish();
+    writer_.reset();
+}
+
+}  // namespace defocus::engine

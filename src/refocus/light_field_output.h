@@ -1,0 +1,49 @@
+#pragma once
+// Renders a scene to a file of lens images, one image at a time:
+//
+//   LightFieldOutput output(driver, path, range);
+//   output.start();
+//   while (output.advance()) {}
+//   output.finish();
+
+#include <filesystem>
+#include <optional>
+
+#include "frame/driver/scene_driver.h"
+#include "refocus/light_field.h"
+
+namespace defocus::engine {
+
+class LightFieldOutput {
+public:
+    // Number of lens samples if the request gives none.
+    static constexpr std::uint32_t defaultSamples = 64;
+
+    // `driver` must outlive the output. `range`: focus distances that the file must allow, in addition to the
+    // request's own; none: from the nearest to the farthest visible surface.
+    LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range)
+        : driver_(driver), path_(std::move(path)), range_(range) {}
+
+    // Returns the request with the method and the number of samples that lens images need. Throws UsageError if the
+    // request has other ones, or a target error or a time limit.
+    static Request suited(Request request);
+
+    // Begins the frame of the driver's request, which must come from suited(). Throws Error if the lens or the focus
+    // range is not suited (lightFieldInfo), and in the cases of SceneDriver::start.
+    void start(const Progress& progress = {});
+    // Draws and writes the next image. Returns false once all images are written.
+    bool advance();
+    // Completes the file.
+    void finish();
+
+    [[nodiscard]] const LightFieldInfo& info() const { return info_; }  // after start()
+
+private:
+    SceneDriver& driver_;
+    std::filesystem::path path_;
+    std::optional<FocusRange> range_;
+    LightFieldInfo info_;
+    std::optional<ImagePartWriter> writer_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,30 @@
+#pragma once
+// Writes a web page in which a visitor refocuses the picture: one HTML file with the images as WebP and a WebGL 2
+// shader that moves and adds them (refocus.h). It needs no network.
+//
+// A radiance r is stored as log2(1 + k·r) / log2(1 + k·maximum) in 8 bits, so that lights far above white stay bright
+// when they are blurred. Each image has its own offset within one step of 8 bits, so that the steps average out.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "core/progress.h"
+#include "image/image_io.h"
+#include "refocus/refocus.h"
+
+namespace defocus::engine {
+
+// Maximum number of images in a page. Of more lens images, the page has the first: any number of the first points is
+// spread evenly over the lens.
+inline constexpr std::size_t maxPageImages = 64;
+// Maximum size in bytes of a page at 1024 × 768 px; pages of other sizes are limited in proportion. WebP's quality is
+// lowered until the page fits.
+inline constexpr std::size_t pageBytes = 12'000'000;
+
+// Returns the page as HTML. `start`: focus and f-number that the page shows first; the shape is ignored. `write`: tone
+// curve and exposure. Throws Error if `start` is outside the rendered range, or if the file of lens images is damaged.
+std::string refocusPage(LightField& field, const std::string& title, const Refocusing& start, const WriteOptions& write,
+                        const Progress& progress = {});
+
+}  // namespace defocus::engine

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace defocus::engine {
+
+// Text of page.html, embedded at build time. @PAGE_TITLE@, @PAGE_DATA@ and @PAGE_TONE_MAP@ stand for its contents.
+extern const std::string_view refocusPageText;
+
+}  // namespace defocus::engine

@@ -1,0 +1,108 @@
+#include "refocus/refocus.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "core/error.h"
+#include "lens/aperture.h"
+#include "lens/lens_fields.h"
+#include "refocus/shifted_sum.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr double tolerance = 1e-6;  // relative, for values that were written as text and read again
+
+double numberOr(const Metadata& metadata, const char* name, double standard) {
+    const auto found = metadata.find(name);
+    const double* const value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return value != nullptr ? *value : standard;
+}
+
+void checkRanges(const LightFieldInfo& info, const Refocusing& refocusing, const std::string& name) {
+    const double dioptres = 1 / refocusing.focusDistance;
+    const double nearest = 1 / info.range.nearest;
+    const double farthest = 1 / info.range.farthest;
+    if (!(dioptres <= nearest * (1 + tolerance) && dioptres >= farthest * (1 - tolerance)))
+        fail(
+            "{}: the focus distance of {:.4g} m is outside the rendered range of {:.4g} to {:.4g} m; render the file "
+            "again with --focus-range",
+            name, refocusing.focusDistance, info.range.nearest, info.range.farthest);
+    if (!(refocusing.fStop >= info.fStop * (1 - tolerance)))
+        fail("{}: f/{:g} is wider than the rendered aperture of f/{:g}; render the file again with --fstop {:g}", name,
+             refocusing.fStop, info.fStop, refocusing.fStop);
+    if (!info.disk && (refocusing.shape || refocusing.fStop > info.fStop * (1 + tolerance)))
+        fail(
+            "{}: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file again "
+            "without blades and other shapes",
+            name);
+}
+
+}  // namespace
+
+Refocusing asRendered(const LightFieldInfo& info) {
+    return {info.focusDistance, info.fStop, {}};
+}
+
+std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
+                                        const std::string& name) {
+    checkRanges(info, refocusing, name);
+    const Aperture aperture = makeAperture(refocusing.shape.value_or(Lens()));
+    const double shift = info.shift(refocusing.focusDistance);
+    const double scale = std::max(refocusing.fStop / info.fStop, 1.0);
+    std::vector<ShiftedImage> images;
+    for (std::size_t i = 0; i < info.points.size(); ++i) {
+        const double weight = info.disk ? lightDensity(aperture, scale * info.points[i]) : 1;
+        if (weight > 0) images.push_back({i, shift * info.points[i], weight});
+    }
+    if (images.empty())
+        fail(
+            "{}: none of its {} lens points lies within the aperture at f/{:g}; render the file again with more "
+            "--samples",
+            name, info.points.size(), refocusing.fStop);
+    return images;
+}
+
+Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
+    const std::vector<ShiftedImage> images = shiftedImages(field.info(), refocusing, field.name());
+    const double white = std::exp2(-refocusedExposure(field.info(), asRendered(field.info())));
+    ShiftedSum sum(field.info().size, static_cast<float>(white));
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        sum.add(*field.colour(images[i].image), images[i].shift, static_cast<float>(images[i].weight));
+        report(progress, "lens images", i + 1, images.size());
+    }
+    return sum.mean();
+}
+
+double focusAtPixel(LightField& field, const Pixel& pixel) {
+    const PartSize& size = field.info().size;
+    if (pixel.column < 0 || pixel.row < 0 || pixel.column >= size.width || pixel.row >= size.height)
+        fail("--focus-pixel {},{}: the image has {}x{} pixels", pixel.column, pixel.row, size.width, size.height);
+    const Image depth = field.depth(field.central());
+    const double metres = static_cast<double>(*depth.at(pixel.column + size.margin, pixel.row + size.margin));
+    if (!(metres > 0) || std::isinf(metres))
+        fail("--focus-pixel {},{}: no surface is visible at this pixel", pixel.column, pixel.row);
+    return metres;
+}
+
+Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocusing) {
+    Metadata metadata = info.metadata;
+    metadata["focus"] = metadata["defocus:focusDistance"] = refocusing.focusDistance;
+    metadata["aperture"] = metadata["defocus:fStop"] = refocusing.fStop;
+    if (refocusing.shape)
+        for (const LensField& field : lensFields())
+            if (field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio"))
+                metadata[std::string("defocus:") + field.name] = lensFieldValue(*refocusing.shape, field);
+    return metadata;
+}
+
+double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing) {
+    const double rendered = numberOr(info.metadata, "defocus:exposure", 0);
+    const bool timed = numberOr(info.metadata, "defocus:exposureTime", 0) > 0;
+    return timed ? rendered + 2 * std::log2(info.fStop / refocusing.fStop) : rendered;
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,53 @@
+#pragma once
+// Computes pictures with another focus, f-number and aperture shape from lens images: shift and add (Levoy and Hanrahan
+// 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light Fields).
+//
+// Each image moves as light_field.h says. A smaller aperture uses the images of the lens points within it. An aperture
+// shape weights each image by the shape's light density at its lens point.
+
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "lens/lens.h"
+#include "refocus/light_field.h"
+
+namespace defocus::engine {
+
+struct Refocusing {
+    double focusDistance = 1;        // m; within LightFieldInfo::range
+    double fStop = 1;                // not below LightFieldInfo::fStop
+    std::optional<Lens> shape = {};  // lens with the aperture's shape; none: as rendered
+};
+
+// Returns the focus and the aperture with which the lens images were rendered.
+Refocusing asRendered(const LightFieldInfo& info);
+
+// An image's part in a refocused picture.
+struct ShiftedImage {
+    std::size_t image = 0;  // index of the lens image
+    glm::dvec2 shift{0};    // px, right and up
+    double weight = 1;      // > 0
+};
+
+// Returns the images that the picture combines, in order. Throws Error, with `name` in its message, if the focus
+// distance or the f-number is outside the rendered range, if the shape needs light that the rendered aperture blocks,
+// or if no lens point lies within the aperture.
+std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
+                                        const std::string& name);
+
+// Returns the picture: linear, premultiplied RGBA. Throws Error in the cases of shiftedImages, and if the file is
+// damaged. Reads one image at a time.
+Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
+
+// Returns the distance in m of the surface at a pixel. Throws Error if the pixel is outside the image or shows no
+// surface.
+double focusAtPixel(LightField& field, const Pixel& pixel);
+
+// Returns the metadata of the picture.
+Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocusing);
+
+// Returns the exposure in EV of 8-bit images. It changes with the f-number if the lens has an exposure time.
+double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing);
+
+}  // namespace defocus::engine

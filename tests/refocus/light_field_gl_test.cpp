@@ -1,0 +1,119 @@
+// Compares pictures from lens images with direct renders of the built-in school of fish.
+
+#include <glm/geometric.hpp>
+
+#include "image/image_io.h"
+#include "plan/frame_plan.h"
+#include "refocus/focal_stack.h"
+#include "refocus/lens_images.h"
+#include "render/methods.h"
+
+namespace defocus::engine {
+namespace {
+
+// The layers of method accumulation are half floats. With a transparent background, nothing is composited over them, so
+// the file keeps every bit.
+TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
+    Request request = smallSchool();
+    request.background = TransparentBackground{};
+    request.samples = 100;  // more than a block
+    LightField field(lensImages(request, FocusRange{1.5, 3}));
+    const LightFieldInfo& info = field.info();
+    ASSERT_EQ(info.points.size(), 100u);
+
+    const auto context = createHeadlessContext();
+    PreparedFrame frame = prepareFrame(request);
+    RenderSettings settings = frame.settings;
+    settings.refocus = info.range;
+    const FramePlan plan = planFrame(frame.world, withMargin(frame.view, info.size.margin), settings);
+    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(frame.world, {});
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(renderer->image(), info.size.margin).pixels);
+}
+
+// A lens point p of the wide aperture is the lens point 2·p of an aperture that is two stops smaller.
+TEST_F(LightFieldTest, stoppingDownIsARenderOfTheRemainingSamples) {
+    Request request = smallSchool();
+    request.samples = 256;
+    request.lod = LodMode::off;
+    LightField field(lensImages(request, FocusRange{2, 2}));
+    Refocusing refocusing = asRendered(field.info());
+    refocusing.fStop = 1.9;
+    const Image stopped = refocused(field, refocusing);
+
+    const auto context = createHeadlessContext();
+    request.lens.fStop = 1.9;
+    PreparedFrame frame = prepareFrame(request);
+    std::vector<LensSample> remaining = lensSamples(Lens(), Sequence::sobol, 0, 256, 0);
+    std::erase_if(remaining, [](const LensSample& sample) { return glm::length(sample.lens) > 0.5f; });
+    for (LensSample& sample : remaining) sample.lens *= 2;
+    RenderSettings settings = frame.settings;
+    settings.sampleCount = static_cast<std::uint32_t>(remaining.size());
+    FramePlan plan = planFrame(frame.world, withMargin(frame.view, field.info().size.margin), settings);
+    plan.samples = remaining;
+    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(frame.world, {});
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    EXPECT_NEAR(static_cast<double>(remaining.size()), 64, 3);
+    EXPECT_GT(compareImages(within(renderer->image(), field.info().size.margin), stopped).psnr, 60);
+}
+
+TEST_F(LightFieldTest, findsTheFocusOfAPixel) {
+    Request request = smallSchool();
+    LightField field(lensImages(request, {}));
+    request.focus = FocusPixel{{64, 48}};
+    SceneDriver driver(nullptr, request, {}, {});
+    EXPECT_NEAR(focusAtPixel(field, {64, 48}), driver.frame().view.lens.focusDistance, 0.03);
+    EXPECT_THROW(focusAtPixel(field, {128, 0}), Error);
+}
+
+// The picture with everything in focus is that of a pinhole with antialiasing. Only outlines may differ, where few lens
+// images show the surface.
+TEST_F(LightFieldTest, theSharpPictureIsThatOfAPinhole) {
+    Request request = smallSchool();
+    request.lod = LodMode::off;
+    LightField field(lensImages(request, FocusRange{1.5, 3}));
+    const Image sharp = allInFocus(field);
+    Request pinhole = request;
+    pinhole.lens.dofEnabled = false;
+    EXPECT_GT(compareImages(render(pinhole), sharp).psnr, 30);
+    const Image depth = centralDepth(field);
+    EXPECT_EQ(*depth.at(64, 48), static_cast<float>(focusAtPixel(field, {64, 48})));
+}
+
+TEST_F(LightFieldTest, refusesObjectsWithTheirOwnBlur) {
+    Request request = smallSchool();
+    request.nodeBlur["0"] = 0.5;
+    EXPECT_NE(refusalOf(request).find("--node-blur"), std::string::npos);
+}
+
+TEST_F(LightFieldTest, refusesDamagedFiles) {
+    Request request = smallSchool();
+    request.samples = 4;
+    const std::filesystem::path path = lensImages(request, FocusRange{2, 2});
+    const auto size = std::filesystem::file_size(path);
+    const auto messageAfter = [&](std::uintmax_t bytes) -> std::string {
+        std::filesystem::resize_file(path, bytes);
+        try {
+            LightField field(path);
+            refocused(field, asRendered(field.info()));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const std::uintmax_t bytes :
+         {size - 100, size / 2, std::uintmax_t{3000}, std::uintmax_t{100}, std::uintmax_t{0}}) {
+        const std::string message = messageAfter(bytes);
+        EXPECT_NE(message.find("a.lens.exr"), std::string::npos) << bytes << " bytes: " << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+    writeImage(path, Image(4, 4, 4), Metadata());
+    EXPECT_THROW(LightField{path}, Error);
+}
+
+}  // namespace
+}  // namespace defocus::engine
