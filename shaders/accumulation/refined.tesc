@@ -1,6 +1,6 @@
 // Chooses tessellation levels for which the circle of confusion C is linear in each part of a triangle, within the
-// tolerance cocLimits.w. The level of an edge depends only on the edge, so neighbouring triangles agree. OpenGL divides
-// an edge into at most 64 parts; triangles that need more keep an error above the tolerance.
+// tolerance cocLimits.w. The level of an edge depends only on the edge, so neighbouring triangles agree. An edge has at
+// most object.levels.y parts; triangles that need more keep an error above the tolerance.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -75,7 +75,7 @@ float partsOf(int first, int second) {
         }
         deviation = max(deviation, max(away.x, away.y) / max(middle.z, near) * frame.coc.z);
     }
-    return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, 64.0);
+    return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, object.levels.y);
 }
 
 void main() {

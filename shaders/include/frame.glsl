@@ -22,7 +22,8 @@ layout(std140, binding = 1) uniform ObjectBlock {
     vec4 values;
     // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
     ivec4 posing;
-    vec4 levels;          // x: max deviation of the drawn levels from full detail (m)
+    // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
+    vec4 levels;
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {

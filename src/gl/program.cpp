@@ -63,12 +63,13 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Returns the #version and #extension directives of a stage. The extensions let a vertex shader write gl_Layer.
+// Returns the #version and #extension directives of a stage. The extensions let a shader before the geometry stage
+// write gl_Layer.
 std::string directivesOf(const Stage& stage) {
     std::string text = "#version 450 core\n";
-    if (stage.type == GL_VERTEX_SHADER)
-        text +=
-            "#extension GL_ARB_shader_viewport_layer_array : enable\n#extension GL_AMD_vertex_shader_layer : enable\n";
+    if (stage.type == GL_VERTEX_SHADER || stage.type == GL_TESS_EVALUATION_SHADER)
+        text += "#extension GL_ARB_shader_viewport_layer_array : enable\n";
+    if (stage.type == GL_VERTEX_SHADER) text += "#extension GL_AMD_vertex_shader_layer : enable\n";
     return text;
 }
 
@@ -128,6 +129,10 @@ Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {
 bool vertexShaderMayPickLayer() {
     return epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array") ||
            epoxy_has_gl_extension("GL_AMD_vertex_shader_layer");
+}
+
+bool tessellationMayPickLayer() {
+    return epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
 }
 
 }  // namespace defocus::engine

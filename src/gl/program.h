@@ -44,5 +44,7 @@ std::string shaderText(const std::string& path, const ShaderDefines& defines,
 // Returns whether vertex shaders may write gl_Layer, by GL_ARB_shader_viewport_layer_array or
 // GL_AMD_vertex_shader_layer.
 bool vertexShaderMayPickLayer();
+// Returns whether tessellation evaluation shaders may write gl_Layer, by GL_ARB_shader_viewport_layer_array.
+bool tessellationMayPickLayer();
 
 }  // namespace defocus::engine

@@ -153,8 +153,44 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
             cocDeviation(plan.coc, box, longest * largestScale(object.pose),
                          plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect), plan.view.width);
     }
+    object.cuts = object.cocDeviation.kinks > 0;
     if (object.cocDeviation.kinks > plan.settings.cocTolerance) object.refinement = Refinement::split;
     if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
+}
+
+// Approximate max number of small triangles per lens sample into which all objects are divided.
+constexpr double maxSmallTriangles = 4e6;
+
+// Returns the approximate number of small triangles of the object's drawn levels with at most `maxParts` parts per
+// edge. The number of parts of an edge is proportional to its length; most triangles have edges of the mean length.
+// Objects that reach the near plane have no bound on the curvature, but few of their triangles are near.
+double smallTriangles(const ObjectPlan& object, const World& world, const FramePlan& plan, double maxParts) {
+    constexpr double partsNearby = 8;
+    const bool bounded = std::isfinite(object.cocDeviation.curved);
+    const double needed = bounded ? std::sqrt(object.cocDeviation.curved / plan.settings.cocTolerance) : partsNearby;
+    double count = 0;
+    for (const LevelDraw& draw : {object.coarse, object.fine}) {
+        if (draw.sampleCount == 0) continue;
+        const PyramidLevel& level = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[draw.level];
+        const bool varied = bounded && level.longestEdge > 0;
+        const double share = varied ? std::min(1.0, level.meanEdge / level.longestEdge) : 1;
+        const double parts = std::clamp(needed * share, 1.0, maxParts);
+        count = std::max(count, draw.triangleCount * parts * parts);
+    }
+    return count;
+}
+
+// Bounds the divisions of objects with a curved C, so that a lens sample has at most maxSmallTriangles small triangles.
+void boundDivisions(FramePlan& plan, const World& world) {
+    const auto fits = [&](std::uint32_t parts) {
+        double count = 0;
+        for (const ObjectPlan& object : plan.objects)
+            if (object.refinement == Refinement::subdivide) count += smallTriangles(object, world, plan, parts);
+        return count <= maxSmallTriangles;
+    };
+    std::uint32_t parts = maxEdgeParts;
+    while (parts > 1 && !fits(parts)) parts /= 2;
+    for (ObjectPlan& object : plan.objects) object.maxParts = parts;
 }
 
 // Returns the reason why the object need not be drawn; empty if the object must be drawn.
@@ -375,6 +411,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
         chooseRefinement(object, world, plan);
         if (!settings.keepAll) leaveOutClusters(object, world, plan);
     });
+    if (plan.usesCocControls) boundDivisions(plan, world);
     noteUnusedPaths(plan, world);
     noteLevels(plan, world);
     return plan;

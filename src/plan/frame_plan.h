@@ -44,8 +44,10 @@ struct VisibleLevel {
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
-    subdivide,  // triangles are divided into small triangles because C is curved, then split
+    subdivide,  // triangles are divided into small triangles because C is curved, then split if ObjectPlan::cuts
 };
+
+inline constexpr std::uint32_t maxEdgeParts = 64;  // max of OpenGL's tessellator
 
 // Vertex transforms and morph weights of an object at one instant.
 struct ObjectPose {
@@ -82,6 +84,9 @@ struct ObjectPlan {
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
     bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
+    // Max number of parts into which Refinement::subdivide divides an edge.
+    std::uint32_t maxParts = maxEdgeParts;
+    bool cuts = false;      // refined triangles may reach the near plane, or contain a jump of the slope of C
     bool mirrored = false;  // the transform flips the winding of triangles
     bool blended = false;   // the object has alpha-blended primitives
     // true: each lens sample draws or drops a blended fragment by its alpha. false: fragments are blended back to

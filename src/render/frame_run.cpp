@@ -141,7 +141,7 @@ bool FrameRun::endTrial() {
     const bool halved = trial.estimate.samples() > 0;
     if (halved) trial.estimate.add(renderer_->image(), samples());
     const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);
-    if (excess <= 1) return false;
+    if (excess <= 1 || blursBeyondSamples(plan_)) return false;
     keepStats();
     schedule_ =
         BlockSchedule::automatic(trial.settings, trial.quality, samples() * std::pow(excess, 1 / lensSampleExponent));

@@ -322,5 +322,30 @@ TEST(FramePlan, tableNamesObjectsAndReasons) {
     EXPECT_NE(table.find("no lens sample can see it"), std::string::npos);
 }
 
+// Extreme curvature would divide each of 80,000 triangles into thousands. The bound is common to all objects.
+TEST(PlanFrame, divisionsOfAFrameAreBounded) {
+    const auto parts = [](int slices, double curvature) {
+        SmallWorld small;
+        small.scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+        small.scene.meshes = {bumpySphere(slices, slices, 0), quad(0)};
+        place(small, 0, glm::translate(glm::dmat4(1), {0, 0, -4}));
+        place(small, 1, glm::translate(glm::dmat4(1), {0, 0, -8}));
+        for (const Mesh& mesh : small.scene.meshes) small.world.pyramids.push_back(fullDetail(mesh));
+        small.view.lens.focusDistance = 2;
+        small.view.lens.fStop = 1;
+        small.view.lens.fieldCurvature = curvature;
+        RenderSettings settings;
+        settings.lod = LodMode::off;
+        const FramePlan plan = planFrame(small.world, small.view, settings);
+        EXPECT_EQ(plan.objects.at(0).maxParts, plan.objects.at(1).maxParts);
+        EXPECT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
+        return plan.objects.at(0).maxParts;
+    };
+    EXPECT_EQ(parts(10, 1000), maxEdgeParts);
+    const std::uint32_t bounded = parts(200, 1000);
+    EXPECT_LT(bounded, maxEdgeParts);
+    EXPECT_LE(80'000.0 * bounded * bounded, 4e6 * 4);
+}
+
 }  // namespace
 }  // namespace defocus::engine

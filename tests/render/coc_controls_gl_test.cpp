@@ -124,6 +124,39 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
     return small;
 }
 
+// Triangles without a jump of the slope of C are sheared by the tessellator itself. The image is that of the geometry
+// shader, which cuts other triangles.
+TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
+    const auto floor = checkeredFloor(3, 2, 12);
+    floor->view.lens.fieldCurvature = 0.5;
+    RenderSettings settings;
+    settings.sampleCount = 16;
+    settings.lod = LodMode::off;
+    FramePlan plan = planFrame(floor->world, floor->view, settings);
+    ASSERT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
+    ASSERT_FALSE(plan.objects[0].cuts);
+    const Image direct = imageInFloats(floor->world, plan);
+    plan.objects[0].cuts = true;
+    EXPECT_EQ(imageInFloats(floor->world, plan).pixels, direct.pixels);
+}
+
+TEST_F(CocControls, maxPartsBoundTheDivision) {
+    const auto floor = checkeredFloor(3, 2, 12);
+    floor->view.lens.fieldCurvature = 2;
+    RenderSettings settings;
+    settings.sampleCount = 16;
+    settings.lod = LodMode::off;
+    settings.cocTolerance = 0.05;
+    FramePlan plan = planFrame(floor->world, floor->view, settings);
+    EXPECT_EQ(plan.objects.at(0).maxParts, maxEdgeParts);
+    const Image whole = imageInFloats(floor->world, plan);
+    plan.objects[0].maxParts = 1;
+    const Image bounded = imageInFloats(floor->world, plan);
+    plan.objects[0].refinement = Refinement::none;
+    EXPECT_LT(rootMeanSquare(bounded, imageInFloats(floor->world, plan)), 1e-3) << "one part is no division";
+    EXPECT_GT(rootMeanSquare(bounded, whole), 0.01);
+}
+
 struct Control {
     const char* name;
     std::function<void(Lens&)> set;

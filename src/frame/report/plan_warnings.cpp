@@ -74,6 +74,33 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
         blur, grouped(samples), more, roundNumber(scale));
 }
 
+// Returns a warning if the blur of some object is too large for any number of samples; otherwise empty.
+std::vector<std::string> immenseBlur(const FramePlan& plan) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects)
+        if (std::isfinite(object.coc.largest)) largest = std::max(largest, object.coc.largest);
+    if (largest <= largestSampledBlur(plan)) return {};
+    return {fmt::format(
+        "blur of up to {:.2g} px spreads points over more than {} images and is drawn with few samples; check "
+        "the f-number and the lens values in the camera's extras, or use --blur-scale {:g}",
+        largest, grouped(maxAutomaticSamples),
+        roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
+}
+
+// Returns a warning if the blur bends so much that triangles are divided less than planned; otherwise empty.
+std::vector<std::string> coarseDivisions(const FramePlan& plan) {
+    const auto bounded = [](const ObjectPlan& object) {
+        return object.refinement == Refinement::subdivide && object.maxParts < maxEdgeParts;
+    };
+    const auto count = std::ranges::count_if(plan.objects, bounded);
+    if (count == 0) return {};
+    return {
+        fmt::format("the blur of {} object(s) bends so strongly that it is approximated: edges are divided into at "
+                    "most {} parts; use "
+                    "a smaller --field-curvature, --radial-blur-gain or astigmatism, or levels of detail",
+                    count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
+}
+
 // Returns the names or numbers of all nodes that the request refers to.
 std::vector<std::string> namedNodes(const Request& request) {
     std::vector<std::string> names = request.hide;
@@ -112,8 +139,11 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& us
         lines.push_back(fmt::format("method {}: shadows are not supported; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < minBlur) lines.push_back(nothingBlurred(plan));
+    for (std::string& line : coarseDivisions(plan)) lines.push_back(std::move(line));
+    if (!method.usesLensSamples) return lines;
+    for (std::string& line : immenseBlur(plan)) lines.push_back(std::move(line));
     const double blur = largestBoundedBlur(plan);
-    if (!method.usesLensSamples || !std::isfinite(blur)) return lines;
+    if (!std::isfinite(blur)) return lines;
     if (const Gaps gaps = gapsOf(plan, use, blur, samples); gaps.size > gaps.max)
         lines.push_back(copiesShow(plan, blur, gaps, samples));
     return lines;

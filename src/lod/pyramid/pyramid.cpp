@@ -251,6 +251,16 @@ std::vector<double> vertexShares(LevelVertices vertices) {
 // Approximate progress after each stage; on one core, collapsing takes half of the time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
+// Returns why the pyramid has only level 0, without an attempt to collapse edges; nullopt if further levels may save
+// time.
+std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOptions& options) {
+    if (options.maxLevels <= 1) return PyramidEnd::maxLevels;
+    if (options.vertices == LevelVertices::quarters) return {};  // levels with a fixed number of vertices
+    if (mesh.triangleCount() <= options.minTriangles) return PyramidEnd::minTriangles;
+    if (mesh.triangleCount() < minTrianglesPerPrimitive * mesh.primitives.size()) return PyramidEnd::smallSaving;
+    return {};
+}
+
 // Builds the pyramid except for the measurements on finished levels (blurred errors and deformation bounds).
 Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
                   const std::function<void(double)>& reach) {
@@ -282,7 +292,9 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     Simplification simplification;
     double diagonal = 0;
     const bool fits = options.vertices == LevelVertices::fitted;
-    if (options.maxLevels > 1) {
+    if (const std::optional<PyramidEnd> end = endWithoutCollapses(mesh, options)) {
+        simplification.end = *end;
+    } else {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
         // Created only when level 1 is complete, because memory use peaks while the complete mesh collapses.
         std::optional<FitSource> source;
@@ -459,7 +471,8 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    const auto cores = std::llround(share * std::max(1u, std::thread::hardware_concurrency()));
+    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // a system call
+    const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);
 }
 

@@ -50,6 +50,10 @@ struct Cluster {
 
 inline constexpr std::uint32_t maxClusterTriangles = 64;
 
+// Meshes with fewer triangles per primitive have only level 0. Their draw calls, one for each primitive, take longer
+// than the triangles that further levels would save.
+inline constexpr std::size_t minTrianglesPerPrimitive = 4;
+
 // Table of the RMS of a radiance difference after averaging over square patches of growing size. Entry 0: per point,
 // without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Values are relative to the mean
 // radiance of the mesh.

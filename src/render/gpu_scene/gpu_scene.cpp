@@ -28,9 +28,29 @@ GLenum colorTypeOf(std::size_t level) {
     return level == 0 ? GL_UNSIGNED_SHORT : GL_HALF_FLOAT;
 }
 
-void appendColors(std::vector<glm::u16vec4>& result, const std::vector<glm::vec4>& colors, GLenum type) {
+std::vector<glm::u16vec4> packed(const std::vector<glm::vec4>& colors, GLenum type) {
+    std::vector<glm::u16vec4> result;
+    result.reserve(colors.size());
     for (const glm::vec4& color : colors)
         result.push_back(type == GL_HALF_FLOAT ? glm::packHalf(color) : glm::packUnorm<glm::uint16>(color));
+    return result;
+}
+
+// Returns a buffer with the values of all parts, one after another. Calls part(i), which returns values of type T or a
+// view of them, for each part i. A single part is uploaded without a copy.
+template <typename T>
+Buffer joinedBuffer(std::size_t partCount, std::size_t valueCount, const auto& part) {
+    if (valueCount == 0) return {};
+    if (partCount == 1) return Buffer::of(std::span<const T>(part(0)));
+    Buffer buffer(valueCount * sizeof(T));
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < partCount; ++i) {
+        const auto& values = part(i);
+        const std::span<const T> view(values);
+        buffer.update(at, view.size_bytes(), view.data());
+        at += view.size_bytes();
+    }
+    return buffer;
 }
 
 GLenum wrapMode(Wrap wrap) {
@@ -63,8 +83,19 @@ void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
     }
 }
 
-void addRelative(std::vector<glm::vec3>& list, const std::vector<glm::vec3>& positions, const glm::dvec3& origin) {
-    for (const glm::vec3& position : positions) list.emplace_back(glm::dvec3(position) - origin);
+// Returns the indices of a level's triangles, which are contiguous in Pyramid::indices.
+std::span<const std::uint32_t> indicesOf(const Pyramid& pyramid, std::size_t level) {
+    const std::vector<IndexRange>& ranges = pyramid.levels[level].primitives;
+    if (ranges.empty()) return {};
+    const std::uint32_t end = ranges.back().first + ranges.back().count;
+    return std::span(pyramid.indices).subspan(ranges.front().first, end - ranges.front().first);
+}
+
+std::vector<glm::vec3> relative(const std::vector<glm::vec3>& positions, const glm::dvec3& origin) {
+    std::vector<glm::vec3> result;
+    result.reserve(positions.size());
+    for (const glm::vec3& position : positions) result.emplace_back(glm::dvec3(position) - origin);
+    return result;
 }
 
 }  // namespace
@@ -114,21 +145,21 @@ void GpuScene::prepare(const FramePlan& plan) {
 
 void GpuScene::prepareObjects(const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
     for (const ObjectPlan& object : objects) {
-        std::vector<bool> wanted = plan.levelsUsed[static_cast<std::size_t>(object.mesh)];
+        const std::vector<bool>& used = plan.levelsUsed[static_cast<std::size_t>(object.mesh)];
         const auto found = meshes_.find(object.mesh);
         if (found == meshes_.end()) {
-            uploadMesh(object.mesh, wanted);
+            uploadMesh(object.mesh, used);
             for (const Primitive& primitive : world_->scene->meshes[static_cast<std::size_t>(object.mesh)].primitives)
                 prepareMaterial(primitive.material);
             continue;
         }
         const std::vector<GpuLevel>& levels = found->second.levels;
         bool missing = false;
-        for (std::size_t level = 0; level < wanted.size(); ++level) {
-            missing |= wanted[level] && !levels[level].uploaded;
-            wanted[level] = wanted[level] || levels[level].uploaded;
-        }
-        if (missing) uploadMesh(object.mesh, wanted);
+        for (std::size_t level = 0; level < used.size(); ++level) missing |= used[level] && !levels[level].uploaded;
+        if (!missing) continue;
+        std::vector<bool> wanted = used;
+        for (std::size_t level = 0; level < used.size(); ++level) wanted[level] = used[level] || levels[level].uploaded;
+        uploadMesh(object.mesh, wanted);
     }
 }
 
@@ -140,57 +171,62 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
 
     // Each level uses a prefix of the pyramid's vertices, so the finest requested level determines the vertex count.
     std::size_t vertexCount = 0;
-    std::vector<glm::vec3> positions, normals;
-    std::vector<glm::u16vec4> colors;
-    std::vector<glm::vec2> uv0, uv1;
-    std::vector<glm::u16vec4> colorRanges;
-    std::vector<std::uint32_t> indices;
+    std::size_t vectors = 0, colors = 0, uvs0 = 0, uvs1 = 0, indices = 0;  // numbers of values
+    std::vector<std::size_t> used;                                         // levels
     for (std::size_t level = 0; level < levels.size(); ++level) {
         if (!levels[level]) continue;
+        used.push_back(level);
         const PyramidLevel& source = pyramid.levels[level];
         GpuLevel& target = result.levels[level];
         vertexCount = std::max<std::size_t>(vertexCount, source.vertexCount);
         target.uploaded = true;
-        target.vectorOffset = normals.size() * sizeof(glm::vec3);
-        addRelative(positions, source.positions, result.origin);
-        normals.insert(normals.end(), source.normals.begin(), source.normals.end());
-        target.colorOffset = colors.size() * sizeof(glm::u16vec4);
+        target.vectorOffset = vectors * sizeof(glm::vec3);
+        target.colorOffset = colors * sizeof(glm::u16vec4);
         target.colorType = colorTypeOf(level);
-        appendColors(colors, source.colors, target.colorType);
-        target.uvOffset = std::max(uv0.size(), uv1.size()) * sizeof(glm::vec2);
-        uv0.insert(uv0.end(), source.uv0.begin(), source.uv0.end());
-        uv1.insert(uv1.end(), source.uv1.begin(), source.uv1.end());
+        target.uvOffset = std::max(uvs0, uvs1) * sizeof(glm::vec2);
         for (const IndexRange& range : source.primitives) {
-            target.indexOffsets.push_back(indices.size() * sizeof(std::uint32_t));
-            const auto first = pyramid.indices.begin() + range.first;
-            indices.insert(indices.end(), first, first + range.count);
+            target.indexOffsets.push_back(indices * sizeof(std::uint32_t));
+            indices += range.count;
         }
-        if (level == 0)  // level 0 is first, so `indices` holds only its triangles
-            colorRanges = cornerColorRanges(source.colors, indices);
-        else
-            measureColors(source.colors, target);
+        if (level > 0) measureColors(source.colors, target);
+        vectors += source.normals.size();
+        colors += source.colors.size();
+        uvs0 += source.uv0.size();
+        uvs1 += source.uv1.size();
     }
+    const auto ofLevels = [&]<typename T>(std::vector<T> PyramidLevel::*values, std::size_t count) {
+        return joinedBuffer<T>(used.size(), count,
+                               [&](std::size_t i) { return std::span(pyramid.levels[used[i]].*values); });
+    };
+    result.positions = joinedBuffer<glm::vec3>(used.size(), vectors, [&](std::size_t i) {
+        return relative(pyramid.levels[used[i]].positions, result.origin);
+    });
+    result.normals = ofLevels(&PyramidLevel::normals, vectors);
+    result.colors = joinedBuffer<glm::u16vec4>(used.size(), colors, [&](std::size_t i) {
+        return packed(pyramid.levels[used[i]].colors, colorTypeOf(used[i]));
+    });
+    result.uv0 = ofLevels(&PyramidLevel::uv0, uvs0);
+    result.uv1 = ofLevels(&PyramidLevel::uv1, uvs1);
+    result.indices =
+        joinedBuffer<std::uint32_t>(used.size(), indices, [&](std::size_t i) { return indicesOf(pyramid, used[i]); });
+    if (levels.front() && !pyramid.levels.front().colors.empty())
+        result.colorRanges = Buffer::of(
+            std::span<const glm::u16vec4>(cornerColorRanges(pyramid.levels.front().colors, indicesOf(pyramid, 0))));
     const Vertices& vertices = pyramid.vertices;
-    result.positions = prefixBuffer(positions, positions.size());
-    result.normals = prefixBuffer(normals, normals.size());
-    result.colors = prefixBuffer(colors, colors.size());
-    result.colorRanges = prefixBuffer(colorRanges, colorRanges.size());
-    result.uv0 = prefixBuffer(uv0, uv0.size());
-    result.uv1 = prefixBuffer(uv1, uv1.size());
     result.tangents = prefixBuffer(vertices.tangents, vertexCount);
     result.blurs = prefixBuffer(vertices.blurs, vertexCount);
-    result.indices = prefixBuffer(indices, indices.size());
 
     VertexArray& array = result.vertexArray;
+    // bindLevel binds the buffers of attributes that each level has of its own.
+    array.attribute(positionLocation, 3, GL_FLOAT, false);
+    array.attribute(normalLocation, 3, GL_FLOAT, false);
+    if (result.uv0) array.attribute(uv0Location, 2, GL_FLOAT, false);
+    if (result.uv1) array.attribute(uv1Location, 2, GL_FLOAT, false);
     const auto attach = [&](unsigned location, const Buffer& buffer, GLint components, std::size_t stride) {
         if (!buffer) return;
         array.attribute(location, components, GL_FLOAT, false);
         array.bind(location, buffer, 0, stride);
     };
-    attach(positionLocation, result.positions, 3, sizeof(glm::vec3));
-    attach(normalLocation, result.normals, 3, sizeof(glm::vec3));
-    attach(uv0Location, result.uv0, 2, sizeof(glm::vec2));
-    attach(uv1Location, result.uv1, 2, sizeof(glm::vec2));
     attach(tangentLocation, result.tangents, 4, sizeof(glm::vec4));
     attach(blurLocation, result.blurs, 3, sizeof(VertexBlur));
     if (result.colorRanges) {

@@ -50,7 +50,7 @@ UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, st
         blocks.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
                           glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
-                          poses.back().layout, glm::vec4(levelError(scene.world(), object), 0, 0, 0)});
+                          poses.back().layout, glm::vec4(levelError(scene.world(), object), object.maxParts, 0, 0)});
     }
     return UniformBlocks<GpuObject>(blocks);
 }

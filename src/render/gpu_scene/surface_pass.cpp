@@ -1,5 +1,7 @@
 #include "render/gpu_scene/surface_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 
@@ -44,6 +46,10 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame, con
     frame_ = &frame;
     shadows_ = shadows != nullptr && !shadows->defines().empty() ? shadows : nullptr;
     objectBlocks_ = objectBlocks(plan, *scene_, poses_);
+    for (const bool vertexShaderLayers : {false, true}) {
+        passDefines_[vertexShaderLayers] = passDefines(vertexShaderLayers);
+        passPrograms_[vertexShaderLayers] = &programs_[keyOf(passDefines_[vertexShaderLayers])];
+    }
     addDraws(plan);
     uploadMaterials();
     skyArray_.attribute(lensLocation, 4, GL_FLOAT, false, true);
@@ -82,11 +88,12 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             draw.material = mesh.primitives[p].material;
             draw.mirrored = object.mirrored;
             draw.refinement = object.refinement;
+            draw.cuts = object.cuts;
             draw.blurMoves = object.blurMoves;
             const Material& material = scene_->material(draw.material);
             draw.stochasticAlpha = info_.stochasticAlpha && object.stochasticAlpha &&
                                    material.alphaMode == AlphaMode::blend && !material.transmits();
-            materialSlots_.try_emplace(draw.material, materialSlots_.size());
+            draw.materialSlot = materialSlots_.try_emplace(draw.material, materialSlots_.size()).first->second;
             addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
         }
@@ -139,12 +146,17 @@ ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
     return defines;
 }
 
+// Returns whether a geometry shader cuts the triangles or selects their layer.
+bool SurfacePass::needsGeometryShader(const Draw& draw) const {
+    if (draw.refinement == Refinement::none) return !info_.vertexShaderLayers;
+    return draw.refinement == Refinement::split || draw.cuts || !info_.vertexShaderLayers ||
+           !tessellationMayPickLayer();
+}
+
 const Program& SurfacePass::program(const Draw& draw) {
     const Material& material = scene_->material(draw.material);
     const GpuMesh& mesh = scene_->mesh(draw.mesh);
-    ShaderDefines defines = passDefines(info_.vertexShaderLayers && draw.refinement == Refinement::none);
-    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.look);
-    defines.insert(defines.end(), surface.begin(), surface.end());
+    ShaderDefines defines = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.look);
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "true");
     };
@@ -164,29 +176,35 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(draw.screenDoor == ScreenDoor::coarseShare, "coarseShare");
     set(draw.screenDoor == ScreenDoor::fineShare, "fineShare");
     poseDefines(defines, poses_[draw.object], mesh);
-    std::vector<std::string> shaders = shadersOf(draw.refinement);
-    std::string key = keyOf(defines);
-    for (const std::string& shader : shaders) key += shader;
-    const auto [entry, isNew] = programs_.try_emplace(key);
-    if (isNew) entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
+    const std::size_t pass = needsGeometryShader(draw) ? 0 : 1;
+    const std::string key = fmt::format("{}{}", keyOf(defines), static_cast<int>(draw.refinement));
+    const auto [entry, isNew] = passPrograms_[pass]->try_emplace(key);
+    if (isNew) {
+        defines.insert(defines.begin(), passDefines_[pass].begin(), passDefines_[pass].end());
+        entry->second = Program({shadersOf(draw), std::move(defines), info_.shaderFolder});
+    }
     return entry->second;
 }
 
-std::vector<std::string> SurfacePass::shadersOf(Refinement refinement) const {
-    if (refinement == Refinement::none) {
+std::vector<std::string> SurfacePass::shadersOf(const Draw& draw) const {
+    const bool geometry = needsGeometryShader(draw);
+    if (draw.refinement == Refinement::none) {
         const bool casts = info_.look == SurfaceLook::caster;
         std::vector<std::string> shaders = {casts ? "shadows/caster.vert" : "accumulation/object.vert",
                                             info_.fragmentShader};
-        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/object.geom");
+        if (geometry) shaders.emplace_back("accumulation/object.geom");
         return shaders;
     }
-    std::vector<std::string> shaders = {"accumulation/refined.vert", "accumulation/refined.geom", info_.fragmentShader};
-    if (refinement == Refinement::subdivide)
-        shaders.insert(shaders.end(), {"accumulation/refined.tesc", "accumulation/refined.tese"});
+    std::vector<std::string> shaders = {"accumulation/refined.vert", info_.fragmentShader};
+    if (geometry) shaders.emplace_back("accumulation/refined.geom");
+    if (draw.refinement == Refinement::subdivide)
+        shaders.insert(shaders.end(), {"accumulation/refined.tesc",
+                                       geometry ? "accumulation/refined.tese" : "accumulation/divided.tese"});
     return shaders;
 }
 
 void SurfacePass::bindFrame() {
+    bound_ = {};
     frame_->bind(0);
     glEnable(GL_DEPTH_TEST);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -203,16 +221,31 @@ void SurfacePass::bindSamples(VertexArray& array) const {
 
 // Binds all inputs of draw `item`, whose first sample is `sample`.
 void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
+    const bool otherProgram = bound_.program != item.program;
+    if (otherProgram || bound_.mesh != item.mesh || bound_.level != item.level || bound_.indices != indices.name())
+        bindVertices(item, indices);
+    if (otherProgram || bound_.sample != sample) {
+        frame_->bindWave(sample);
+        if (shadows_ != nullptr) shadows_->bind(sample);  // also sets a uniform of the program
+        bound_.sample = sample;
+    }
+    objectBlocks_.bind(1, item.object);
+    if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
+    if (bound_.materialSlot != item.materialSlot) {
+        materialBlocks_.bind(2, item.materialSlot);
+        scene_->textures(item.material).attach();
+        bound_.materialSlot = item.materialSlot;
+    }
+    glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
+}
+
+// Binds the program and the vertices of draw `item`.
+void SurfacePass::bindVertices(const Draw& item, const Buffer& indices) {
     GpuMesh& mesh = scene_->mesh(item.mesh);
     mesh.vertexArray.use();
     item.program->use();
-    frame_->bindWave(sample);
-    objectBlocks_.bind(1, item.object);
-    materialBlocks_.bind(2, materialSlots_.at(item.material));
-    if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
-    scene_->textures(item.material).attach();
-    if (shadows_ != nullptr) shadows_->bind(sample);
     if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
     bindSamples(mesh.vertexArray);
     bindLevel(mesh, item.level);
@@ -221,8 +254,10 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         glUniform4fv(0, 1, &level.minColor.x);
         glUniform4fv(1, 1, &level.maxColor.x);
     }
-    glFrontFace(item.mirrored ? GL_CW : GL_CCW);
-    if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
+    bound_.program = item.program;
+    bound_.mesh = item.mesh;
+    bound_.level = item.level;
+    bound_.indices = indices.name();
 }
 
 // Calls drawSamples(first, count) for consecutive parts of samples [first, end), each with at most the triangles that
@@ -311,6 +346,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
 // Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
+    bound_ = {};  // the name of `indices` may be that of a deleted buffer
     std::uint64_t triangles = 0;
     for (const RemainingDraw& part : remaining.draws) {
         const SampleSpan samples = samplesOf(part, first, count);

@@ -4,6 +4,7 @@
 // if the sample at the change draws both levels in different pixels. A level with culled clusters needs one draw per
 // index range.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,7 +24,7 @@ struct SurfacePassInfo {
     SurfaceLook look = SurfaceLook::seenThrough;
     bool stochasticAlpha = false;    // draws ObjectPlan::stochasticAlpha; false: all blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
-    bool vertexShaderLayers = true;  // false: a geometry shader selects the layer
+    bool vertexShaderLayers = true;  // false: geometry shaders select the layer
     std::filesystem::path shaderFolder;
 };
 
@@ -85,17 +86,33 @@ private:
         std::uint32_t primitive = 0;
         std::uint32_t object = 0;  // index into the object blocks
         int material = -1;
+        std::size_t materialSlot = 0;  // index into the material blocks
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
         std::vector<IndexRun> runs;  // index ranges of the primitive
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
+        bool cuts = false;
         bool blurMoves = false;
         bool stochasticAlpha = false;
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
     };
+
+    // Inputs of the latest draw. A draw with the same inputs does not bind them again, which takes longer than drawing
+    // a small object.
+    struct Bound {
+        const Program* program = nullptr;
+        int mesh = -1;
+        std::uint32_t level = 0;
+        GLuint indices = 0;
+        std::optional<std::uint32_t> sample;  // first sample of the draw
+        std::optional<std::size_t> materialSlot;
+    };
+
+    // Programs by the defines of their draws. The defines of a pass are the same for all draws of a frame.
+    using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
     void addDraws(const FramePlan& plan);
@@ -104,8 +121,9 @@ private:
     [[nodiscard]] bool shaded() const {
         return info_.look == SurfaceLook::lit || info_.look == SurfaceLook::seenThrough;
     }
+    [[nodiscard]] bool needsGeometryShader(const Draw& draw) const;
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
-    [[nodiscard]] std::vector<std::string> shadersOf(Refinement refinement) const;
+    [[nodiscard]] std::vector<std::string> shadersOf(const Draw& draw) const;
     void bindFrame();
     void bindSolid(GLenum depthTest);
     void bindSamples(VertexArray& array) const;
@@ -119,11 +137,16 @@ private:
     std::uint64_t drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count);
     void setFaces(const Draw& item) const;
     void bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices);
+    void bindVertices(const Draw& item, const Buffer& indices);
     void submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples);
 
     GpuScene* scene_;
     SurfacePassInfo info_;
-    std::map<std::string, Program> programs_;
+    std::map<std::string, Programs> programs_;  // key: defines of the pass
+    std::array<ShaderDefines, 2>
+        passDefines_;  // defines of the frame's pass; index 1: no geometry shader selects the layer
+    std::array<Programs*, 2> passPrograms_{};  // programs with passDefines_
+    Bound bound_;
     SubmissionPacer pacer_;
     Program sky_;
     ShaderDefines skyDefines_;  // defines of sky_

@@ -7,18 +7,12 @@
 
 namespace defocus::engine {
 
-namespace {
-
-constexpr double maxParts = 64;  // max of OpenGL's tessellator, which method accumulation uses
-
-}  // namespace
-
 std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles) {
     if (object.refinement == Refinement::none || triangles == 0) return 1;
     // The deviation at a kink falls with n, that of a curve with n².
     const double needed =
         std::max(object.cocDeviation.kinks / tolerance, std::sqrt(object.cocDeviation.curved / tolerance));
-    const double most = std::min(maxParts, std::sqrt(maxTriangles / static_cast<double>(triangles)));
+    const double most = std::min(double{maxEdgeParts}, std::sqrt(maxTriangles / static_cast<double>(triangles)));
     return static_cast<std::uint32_t>(std::max(1.0, std::min(std::ceil(needed), std::floor(most))));
 }
 

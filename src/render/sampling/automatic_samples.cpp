@@ -47,10 +47,24 @@ double flipOf(Quality quality) {
     return limitsOf(quality).flip;
 }
 
+double largestSampledBlur(const FramePlan& plan) {
+    const double pixels = static_cast<double>(plan.view.width) * plan.view.height;
+    return std::sqrt(4 / std::numbers::pi * maxAutomaticSamples * pixels);
+}
+
+bool blursBeyondSamples(const FramePlan& plan) {
+    const double max = largestSampledBlur(plan);
+    return std::ranges::any_of(plan.objects, [&](const ObjectPlan& object) {
+        return std::isfinite(object.coc.largest) && object.coc.largest > max;
+    });
+}
+
 double largestBoundedBlur(const FramePlan& plan) {
+    const double max = largestSampledBlur(plan);
     double largest = 0;
     for (const ObjectPlan& object : plan.objects)
-        if (object.nearestDepth > plan.view.nearPlane) largest = std::max(largest, object.coc.largest);
+        if (object.nearestDepth > plan.view.nearPlane && object.coc.largest <= max)
+            largest = std::max(largest, object.coc.largest);
     return largest;
 }
 

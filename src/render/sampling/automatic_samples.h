@@ -17,7 +17,7 @@ double flipOf(Quality quality);
 // Returns the number of samples to begin with: 16 (draft), 32 (good) or 64 (fine), or complete blocks of 64 up to
 // 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart; N is chosen for at most
 // 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects that extend to the near
-// plane have unbounded blur and are ignored.
+// plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
@@ -25,7 +25,16 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 // apart.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
-// Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects.
+// Returns the blur diameter in px from which on a blurred point covers maxAutomaticSamples images, so that less than
+// one of that many samples has the point in the image.
+double largestSampledBlur(const FramePlan& plan);
+
+// Returns whether the bounded blur of some object exceeds largestSampledBlur(). Further samples then do not make the
+// image better soon, because single samples show the object sharply.
+bool blursBeyondSamples(const FramePlan& plan);
+
+// Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above
+// largestSampledBlur() is ignored, because no number of samples resolves it.
 double largestBoundedBlur(const FramePlan& plan);
 
 }  // namespace defocus::engine

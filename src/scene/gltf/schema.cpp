@@ -286,35 +286,60 @@ constexpr Property rootProperties[] = {
 // JSON numbers represent all integers exactly only up to 2^53.
 constexpr std::uint64_t largestSize = 1ull << 53;
 
+// Place in the document, such as "nodes[3].mesh". It becomes text only for an error, because a file may have millions
+// of properties.
+class Place {
+public:
+    Place() = default;  // the document's root
+    [[nodiscard]] Place property(std::string_view name) const { return {this, name, noIndex}; }
+    [[nodiscard]] Place entry(std::size_t index) const { return {this, {}, index}; }
+
+    [[nodiscard]] std::string text() const {
+        if (parent_ == nullptr) return "";
+        const std::string before = parent_->text();
+        if (index_ != noIndex) return fmt::format("{}[{}]", before, index_);
+        return before.empty() ? std::string(name_) : fmt::format("{}.{}", before, name_);
+    }
+
+private:
+    static constexpr std::size_t noIndex = std::numeric_limits<std::size_t>::max();
+
+    Place(const Place* parent, std::string_view name, std::size_t index)
+        : parent_(parent), name_(name), index_(index) {}
+
+    const Place* parent_ = nullptr;
+    std::string_view name_;
+    std::size_t index_ = noIndex;  // entry of an array
+};
+
 class Checker {
 public:
     explicit Checker(Document& document) : document_(document) {}
 
-    void checkObject(Json& json, std::span<const Property> properties, const std::string& place) {
-        if (!json.is_object()) fault(document_, "{} must be an object", place);
+    void checkObject(Json& json, std::span<const Property> properties, const Place& place) {
+        if (!json.is_object()) fault(document_, "{} must be an object", place.text());
         for (const Property& property : properties) {
             const auto found = json.find(property.name);
             if (found == json.end() && !property.required) continue;
-            const std::string inside =
-                place.empty() ? std::string(property.name) : fmt::format("{}.{}", place, property.name);
+            const Place inside = place.property(property.name);
             if (found != json.end())
                 checkValue(*found, property, inside);
             else
-                fault(document_, "{} is missing", inside);
+                fault(document_, "{} is missing", inside.text());
         }
     }
 
 private:
-    void checkValue(Json& json, const Property& property, const std::string& place) {
+    void checkValue(Json& json, const Property& property, const Place& place) {
         switch (property.kind) {
             case Kind::string:
-                if (!json.is_string()) fault(document_, "{} must be a string", place);
+                if (!json.is_string()) fault(document_, "{} must be a string", place.text());
                 break;
             case Kind::boolean:
-                if (!json.is_boolean()) fault(document_, "{} must be true or false", place);
+                if (!json.is_boolean()) fault(document_, "{} must be true or false", place.text());
                 break;
             case Kind::number:
-                if (!json.is_number()) fault(document_, "{} must be a number", place);
+                if (!json.is_number()) fault(document_, "{} must be a number", place.text());
                 break;
             case Kind::size:
                 checkSize(json, place);
@@ -338,10 +363,10 @@ private:
         }
     }
 
-    void checkArray(Json& json, const Property& property, const std::string& place) {
-        if (!json.is_array()) fault(document_, "{} must be an array", place);
+    void checkArray(Json& json, const Property& property, const Place& place) {
+        if (!json.is_array()) fault(document_, "{} must be an array", place.text());
         if (property.length != 0 && json.size() != property.length)
-            fault(document_, "{} must have {} numbers, not {}", place, property.length, json.size());
+            fault(document_, "{} must have {} numbers, not {}", place.text(), property.length, json.size());
         Property entry = property;
         switch (property.kind) {
             case Kind::strings:
@@ -350,7 +375,7 @@ private:
             case Kind::numbers:
                 if (std::all_of(json.begin(), json.end(), [](const Json& number) { return number.is_number(); }))
                     return;
-                fault(document_, "{} must hold numbers only", place);
+                fault(document_, "{} must hold numbers only", place.text());
             case Kind::indices:
                 entry.kind = Kind::index;
                 break;
@@ -361,13 +386,13 @@ private:
                 entry.kind = Kind::object;
                 break;
         }
-        for (std::size_t i = 0; i < json.size(); ++i) checkValue(json[i], entry, fmt::format("{}[{}]", place, i));
+        for (std::size_t i = 0; i < json.size(); ++i) checkValue(json[i], entry, place.entry(i));
     }
 
-    void checkIndexMap(Json& json, std::string_view target, const std::string& place) {
-        if (!json.is_object()) fault(document_, "{} must be an object", place);
+    void checkIndexMap(Json& json, std::string_view target, const Place& place) {
+        if (!json.is_object()) fault(document_, "{} must be an object", place.text());
         for (auto entry = json.begin(); entry != json.end(); ++entry) {
-            const std::string inside = fmt::format("{}.{}", place, entry.key());
+            const Place inside = place.property(entry.key());
             if (target.empty())
                 checkSize(*entry, inside);
             else
@@ -375,22 +400,23 @@ private:
         }
     }
 
-    void checkSize(Json& json, const std::string& place) {
+    void checkSize(Json& json, const Place& place) {
         if (json.is_number_float()) {
             const auto number = json.get<double>();
             if (number >= 0 && number <= static_cast<double>(largestSize) && number == std::floor(number))
                 json = static_cast<std::uint64_t>(number);
         }
         if (!json.is_number_integer() || (!json.is_number_unsigned() && json.get<std::int64_t>() < 0))
-            fault(document_, "{} must be an integer of at least 0", place);
-        if (json.get<std::uint64_t>() > largestSize) fault(document_, "{} is too large", place);
+            fault(document_, "{} must be an integer of at least 0", place.text());
+        if (json.get<std::uint64_t>() > largestSize) fault(document_, "{} is too large", place.text());
     }
 
-    void checkIndex(Json& json, std::string_view target, const std::string& place) {
+    void checkIndex(Json& json, std::string_view target, const Place& place) {
         checkSize(json, place);
         const std::size_t count = entryCount(document_, target);
         if (json.get<std::uint64_t>() >= std::min<std::uint64_t>(count, std::numeric_limits<int>::max()))
-            fault(document_, "{} is {}, but the file has {} {}", place, json.get<std::uint64_t>(), count, target);
+            fault(document_, "{} is {}, but the file has {} {}", place.text(), json.get<std::uint64_t>(), count,
+                  target);
     }
 
     Document& document_;
@@ -399,7 +425,7 @@ private:
 }  // namespace
 
 void checkSchema(Document& document) {
-    Checker(document).checkObject(document.json, rootProperties, "");
+    Checker(document).checkObject(document.json, rootProperties, Place());
 }
 
 }  // namespace defocus::engine::gltf

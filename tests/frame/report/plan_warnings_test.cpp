@@ -43,6 +43,32 @@ TEST(PlanWarnings, thereAreNoneForABlurThatShowsAndIsFilled) {
     EXPECT_TRUE(warningsOf(*small).empty());
 }
 
+TEST(PlanWarnings, aBlurThatNoSamplesResolveIsNamedWithAScaleThatHelps) {
+    const auto small = quadsAt({2});
+    small->view.lens.fStop = 1e-4;
+    const std::vector<std::string> lines = warningsOf(*small, 32);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("more than 1,024 images"), std::string::npos) << lines[0];
+    small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
+    EXPECT_TRUE(warningsOf(*small, 256).empty());
+}
+
+TEST(PlanWarnings, boundedDivisionsAreNamed) {
+    const auto small = quadsAt({3});
+    small->view.lens.fieldCurvature = 10;
+    RenderSettings settings;
+    FramePlan plan = planFrame(small->world, small->view, settings);
+    ASSERT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
+    const auto says = [&] {
+        for (const std::string& line : planWarnings(plan, parseMethodUse("accumulation")))
+            if (line.find("1 object(s) bends") != std::string::npos) return line.find("at most 8 parts") != line.npos;
+        return false;
+    };
+    EXPECT_FALSE(says());
+    plan.objects[0].maxParts = 8;
+    EXPECT_TRUE(says());
+}
+
 TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
     const auto small = quadsAt({227, 600});
     small->view.lens.fStop = 1.4;

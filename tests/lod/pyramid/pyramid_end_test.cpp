@@ -68,5 +68,24 @@ TEST(PyramidEnd, AsManyLevelsAsAskedFor) {
     EXPECT_EQ(fullDetail(sphere(48, 32)).end, PyramidEnd::maxLevels);
 }
 
+// Each primitive of a level needs a draw call, so levels of a mesh with many small primitives save little.
+TEST(PyramidEnd, PrimitivesOfFewTrianglesHaveNoLevels) {
+    const auto divided = [](std::size_t trianglesPerPrimitive) {
+        Mesh mesh = sphere(48, 32);
+        const std::vector<std::uint32_t> indices = mesh.primitives.at(0).indices;
+        mesh.primitives.clear();
+        const std::size_t step = 3 * trianglesPerPrimitive;
+        for (std::size_t i = 0; i < indices.size(); i += step)
+            mesh.primitives.push_back(
+                {0,
+                 {indices.begin() + static_cast<std::ptrdiff_t>(i),
+                  indices.begin() + static_cast<std::ptrdiff_t>(std::min(i + step, indices.size()))}});
+        return buildPyramid(mesh);
+    };
+    EXPECT_EQ(divided(3).levels.size(), 1u);
+    EXPECT_EQ(divided(3).end, PyramidEnd::smallSaving);
+    EXPECT_GT(divided(8).levels.size(), 1u);
+}
+
 }  // namespace
 }  // namespace defocus::engine

@@ -72,6 +72,17 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
+// 1,024 samples of a point whose blur covers more than 1,024 images show it less than once, so more samples do not
+// help.
+TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
+    const FramePlan plan = planOf(0);
+    const double pixels = 1.0 * plan.view.width * plan.view.height;
+    const double largest = largestSampledBlur(plan);
+    EXPECT_NEAR(std::numbers::pi / 4 * largest * largest, 1024 * pixels, 1e-6 * pixels);
+    EXPECT_EQ(firstSamples(planOf(0.99 * largest), Quality::good), maxAutomaticSamples);
+    EXPECT_EQ(firstSamples(planOf(1.01 * largest), Quality::good), 32u);
+}
+
 TEST(SamplesForBlur, followMotion) {
     FramePlan plan = planOf(0);
     plan.moments.resize(1);
