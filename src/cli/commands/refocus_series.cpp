@@ -32,7 +32,7 @@ public:
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
 
-    [[nodiscard]] std::filesystem::path frame(int index) const { return path_ / fmt::format("{:05}.exr", index); }
+    [[nodiscard]] std::filesystem::path frame(int index) const { return path_ / fmt::format("{:05}.png", index); }
 
 private:
     std::filesystem::path path_;
@@ -69,8 +69,8 @@ void writeFocusPull(LightField& field, const Refocusing& refocusing, const Focus
     for (int i = 0; i < pull.frames; ++i) {
         Refocusing frame = refocusing;
         frame.focusDistance = distanceAt(pull.from, pull.to, i, pull.frames);
-        frames.push_back({folder.frame(i), write});
-        writeImage(frames.back().file, refocused(field, frame), Metadata());
+        frames.push_back({folder.frame(i), {}});  // PNG files already have display values
+        writeImage(frames.back().file, refocused(field, frame), Metadata(), write);
         report(progress, "frames", static_cast<std::uint64_t>(i) + 1, static_cast<std::uint64_t>(pull.frames));
     }
     const double seconds = millisecondsSince(start) / 1000;

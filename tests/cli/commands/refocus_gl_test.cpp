@@ -66,6 +66,22 @@ TEST_F(RefocusCommand, writesPicturesStacksAndPages) {
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 }
 
+TEST_F(RefocusCommand, filmsFocusPulls) {
+    ASSERT_EQ(lensImages({"--samples", "4", "--focus-range", "2:5", "--lens-images", "a.exr"}).exitCode, 0);
+    const std::size_t files = fileCount();
+    const auto film = [&](const std::string& frames, const std::string& rate) {
+        const Outcome outcome = run(
+            {"refocus", "a.exr", "--focus-pull", "5:2", "--video", "a.gif", "--frames", frames, "--frame-rate", rate});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return textIn("a.gif");
+    };
+    const std::string two = film("2", "10");
+    EXPECT_TRUE(two.starts_with("GIF8"));
+    EXPECT_NE(film("3", "10"), two);
+    EXPECT_NE(film("2", "20"), two);
+    EXPECT_EQ(fileCount(), files + 1);  // temporary frames are removed
+}
+
 TEST_F(RefocusCommand, refusesWhatWasNotRendered) {
     ASSERT_EQ(lensImages({"--samples", "4", "--focus-range", "2:5", "--lens-images", "a.exr"}).exitCode, 0);
     expectRefused({"refocus", "a.exr", "--focus-distance", "1"}, "outside the rendered range of 2 to 5 m");
