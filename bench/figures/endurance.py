@@ -160,7 +160,7 @@ def kills(program, folder, arguments):
         if start(f"killed{number}", "--resume").wait() != 0:
             sys.exit(f"capture {number} cannot be resumed")
         lost += sum(not (folder / f"killed{number}" / file.name).exists() or
-                    (folder / f"killed{number}" / file.name).read_bytes() != file.read_bytes() for file in (folder / "whole").iterdir())
+                    (folder / f"killed{number}" / file.name).read_bytes() != file.read_bytes() for file in (folder / "whole").glob("*.exr"))
     return [f"{arguments.kills} captures of {frames} frames were killed (SIGKILL) at random times, {within} of them before their end, and resumed. "
             f"{lost} frames were lost or differ from those of a capture that nothing interrupts; the {done} frames that existed at "
             "the kills were complete."], lost == 0
