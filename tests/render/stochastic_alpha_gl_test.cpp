@@ -144,7 +144,7 @@ TEST_F(StochasticAlpha, layersOfOnePrimitiveAreIndependent) {
     EXPECT_LT(found.rms, 0.03);
 }
 
-// Layers that don't cross are sorted, whatever their order in the file. A single lens sample then has the blended colour.
+// Layers that don't cross are sorted, even if the file lists the nearer layer first. One lens sample is enough.
 TEST_F(StochasticAlpha, layersOfOnePrimitiveAreSorted) {
     const auto small = twoLayers();
     for (const char* method : {"accumulation", "layered"}) {
