@@ -33,8 +33,8 @@ struct SurfacePoint {
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
     vec3 emission;        // only if emissive
-    // Sum of the squared changes of the interpolated normal over one pixel to the right and one pixel up.
-    float footprint;
+    vec3 normalRight;     // change of the interpolated normal over one pixel to the right
+    vec3 normalUp;        // change of the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // normalSpread(agreement)
@@ -112,28 +112,53 @@ float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
 
-// Returns 2σ², where σ² is the variance along each axis of the slopes of all normals that the sample represents.
-//
+// Variance σ² of the slopes of all normals that a sample represents, in two perpendicular directions along the surface.
+struct Spread {
+    vec3 axis;            // unit vector of the direction with the larger variance; 0 if the variances are equal
+    float along;          // 2σ² along the axis
+    float across;         // 2σ² across the axis
+};
+
 // Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
 // bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents 1/(n + 1)
-// of the pixel's area, as a normal distribution whose σ is half the width of that area. With few samples, a lobe
-// narrower than the pixel's variation of normals would give isolated white pixels. The first block of samples therefore
-// widens such a lobe to that variation, and later blocks to a fraction of it. Both widths depend only on the sample's
-// number, so blocks that are drawn separately add up to the same image. Both vanish as the number of samples grows, so
-// highlights converge. The footprint's part of the result is proportional to the pixel's area, and 0 on flat surfaces.
-float slopeSpread(SurfacePoint point) {
-    float ofPixel = 0.25 * point.footprint;
-    float ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
+// of the pixel's area, as a normal distribution whose σ is half the width of that area. The same variance in all
+// directions leaves the fewest white pixels on rippled surfaces. On a wire, however, normals vary by half a turn across
+// the wire and hardly along it, and a highlight that is widened along the wire would light parts that face away from the
+// light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
+//
+// With few samples, a lobe narrower than the pixel's variation of normals would give isolated white pixels. The first
+// block of samples therefore widens such a lobe to that variation, and later blocks to a fraction of it. Both widths
+// depend only on the sample's number, so blocks that are drawn separately add up to the same image. Both vanish as the
+// number of samples grows, so highlights converge. The footprint's part of the result is proportional to the pixel's
+// area, and 0 on flat surfaces.
+Spread slopeSpread(SurfacePoint point) {
+    float right2 = dot(point.normalRight, point.normalRight);
+    float up2 = dot(point.normalUp, point.normalUp);
+    float product = dot(point.normalRight, point.normalUp);
+    float mean = 0.5 * (right2 + up2);
+    float difference = 0.5 * (right2 - up2);
+    float deviation = sqrt(difference * difference + product * product);   // eigenvalues: mean ± deviation
+    vec3 axis = difference >= 0.0 ? (deviation + difference) * point.normalRight + product * point.normalUp
+                                  : product * point.normalRight + (deviation - difference) * point.normalUp;
+    axis -= point.normal * dot(point.normal, axis);
+    float axis2 = dot(axis, axis);
+    float ofEqual = 0.5 * mean;   // if both variances were equal
+    vec2 ofPixel = vec2(ofEqual, min(ofEqual, max(0.5 * (mean - deviation), 0.03)));
+    vec2 ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
     float width = point.roughness * point.roughness;
-    float ofSample = min(ofPixel / (sampleNumber() + 1.0), 0.18);
-    float spread = max(ofBlock - width * width, ofSample);
-    return coarseLevel ? spread + coarseSpread(point) : spread;
+    vec2 ofSample = min(ofPixel / (sampleNumber() + 1.0), 0.18);
+    vec2 spread = max(ofBlock - width * width, ofSample);
+    if (coarseLevel) spread += coarseSpread(point);
+    return Spread(axis2 > 1e-20 ? axis * inversesqrt(axis2) : vec3(0.0), spread.x, spread.y);
 }
+
+float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 
 // Specular lobe of GGX slopes of width α, convolved with a normal distribution of slopes of variance σ². If σ
 // dominates, the result is close to Beckmann's distribution, but its far tail remains that of GGX. The model mixes
 // Beckmann with weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's
-// tail α²/(π tan⁴).
+// tail α²/(π tan⁴). Beckmann's distribution has its own width along and across the axis of the variance. GGX and the
+// weights use the mean of 2σ².
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
 // like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
@@ -144,24 +169,25 @@ float slopeSpread(SurfacePoint point) {
 // rough, a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // α
-    float alpha;          // √(α² + 2σ²)
-    float spread;         // weight of Beckmann's distribution
+    float alpha2;         // α² + 2σ², with the mean of 2σ²
+    vec3 axis;            // Spread::axis
+    vec2 widths2;         // α² + 2σ² along and across the axis
+    float share;          // weight of Beckmann's distribution
     float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
     float shownOfH;       // coefficient of v·h in that cosine
 };
 
-Lobe lobeOf(SurfacePoint point, float nv, float spread) {
+Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {
     float width = point.roughness * point.roughness;
-    float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
-    if (!coarseLevel) {
-        float share = min(spread / alpha2, 1.0);
-        return Lobe(width, sqrt(alpha2), share, 0.0, 1.0);
-    }
+    float mean = meanSpread(spread);
+    float alpha2 = clamp(width * width + mean, 1e-6, 1.0);
+    vec2 widths2 = clamp(width * width + vec2(spread.along, spread.across), 1e-6, 1.0);
+    if (!coarseLevel) return Lobe(width, alpha2, spread.axis, widths2, min(mean / alpha2, 1.0), 0.0, 1.0);
     float coarse = min(coarseSpread(point) * (1.0 - width) / alpha2, 1.0);
-    float share = min(coarse + (spread - coarseSpread(point)) / alpha2, 1.0);
+    float share = min(coarse + (mean - coarseSpread(point)) / alpha2, 1.0);
     float ofCoarse = share > 0.0 ? min(coarse / share, 1.0) : 0.0;
     float seen = meanCosine(point.agreement * nv, nv, point.spread);
-    return Lobe(width, sqrt(alpha2), share, ofCoarse * seen, 1.0 - ofCoarse);
+    return Lobe(width, alpha2, spread.axis, widths2, share, ofCoarse * seen, 1.0 - ofCoarse);
 }
 
 // Returns 2·(n·l)·V for height-correlated Smith masking by GGX slopes of width α, for the cosines n·l to the light and
@@ -185,16 +211,19 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float vh = 0.5 * sqrt(sum2);
     float cosines = max(cosine + nv, 0.0);
     float cosines2 = cosines * cosines;
-    float alpha2 = lobe.alpha * lobe.alpha;
-    float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // the max enforces (n·h)² ≤ 1
-    float ggx = alpha2 / (base * base);
+    float base = max(cosines2 * (lobe.alpha2 - 1.0) + sum2, lobe.alpha2 * sum2);  // the max enforces (n·h)² ≤ 1
+    float ggx = lobe.alpha2 / (base * base);
     float away = max(cosines2, 1e-4 * sum2);  // (n·h)²·|l + v|², bounded away from 0
-    float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
+    float slope2 = max(sum2 - away, 0.0);
+    float along = dot(lobe.axis, toLight + point.toEye);
+    float along2 = min(along * along, slope2);
+    float slopes = along2 / lobe.widths2.x + (slope2 - along2) / lobe.widths2.y;
+    float beckmann = exp(-slopes / away) * inversesqrt(lobe.widths2.x * lobe.widths2.y) / (away * away);
     float width2 = lobe.width * lobe.width;
-    float reflected = mix(ggx * unmasked(cosine, nv, width2), beckmann * unmasked(vh, lobe.shown + lobe.shownOfH * vh, width2), lobe.spread);
+    float reflected = mix(ggx * unmasked(cosine, nv, width2), beckmann * unmasked(vh, lobe.shown + lobe.shownOfH * vh, width2), lobe.share);
     float specular = 0.5 * sum2 * sum2 * reflected;
     if (anisotropic && point.widths.x > 0.0)
-        specular = anisotropicReflection(point, cosine, nv, max(alpha2 - width2, 0.0), toLight);
+        specular = anisotropicReflection(point, cosine, nv, max(lobe.alpha2 - width2, 0.0), toLight);
     float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
@@ -312,7 +341,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
 // and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
-    float spread = slopeSpread(point);
+    Spread spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, nv, spread);
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     float sheenToEye = sheen ? sheenAlbedo(max(nv, 0.0), point.sheenRoughness) : 0.0;
@@ -342,7 +371,7 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     }
     if (diffusesThrough) diffuse += point.through * remaining(specularAlbedo(point, max(nv, 0.0))) * sums.behind;
     if (multipleScattering) specular *= severalReflections(reflectanceOf(point), specularAlbedos2(point, max(nv, 0.0)));
-    vec3 radiance = diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
+    vec3 radiance = diffuse + specular + environmentLight(point, max(nv, 0.0), meanSpread(spread), occlusion);
     if (transmissive) {
         vec3 transmitted = point.transmitted * remaining(specularAlbedo(point, max(nv, 0.0)));
         radiance += sheen ? transmitted * sheenRemaining(point, sheenToEye) : transmitted;

@@ -29,10 +29,9 @@ float sampleNumber() { return wave.firstSample + float(gl_Layer); }
 
 bool showsFront() { return gl_FrontFacing; }
 
-float surfaceFootprint(vec3 normal) {
-    vec3 right = dFdx(normal);   // Use the interpolated normal only, because mip levels already average normal maps.
-    vec3 up = dFdy(normal);
-    return dot(right, right) + dot(up, up);
+void addNormalChanges(inout SurfacePoint point, vec3 normal) {
+    point.normalRight = dFdx(normal);   // Use the interpolated normal only, because mip levels already average normal maps.
+    point.normalUp = dFdy(normal);
 }
 
 uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }

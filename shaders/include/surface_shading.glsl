@@ -2,7 +2,8 @@
 
 // Each including shader defines these two functions.
 bool showsFront();                       // true if the triangle's front is visible
-float surfaceFootprint(vec3 normal);     // SurfacePoint::footprint of the normalised interpolated normal
+// Sets the changes of `normal`, the normalised interpolated normal.
+void addNormalChanges(inout SurfacePoint point, vec3 normal);
 
 // Returns the interpolated unit normal perturbed by the value `texel` of a normal map. `scale`: the map's normal scale.
 vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
@@ -116,7 +117,7 @@ vec3 shaded(vec3 baseColor) {
     vec3 normal = normalize(surface.normal);
     point.normal = shadingNormal(normal);
     point.toEye = normalize(surface.toEye);
-    point.footprint = surfaceFootprint(normal);
+    addNormalChanges(point, normal);
     if (emissive) point.emission = material.emissiveCutoff.rgb * materialTexel(emissiveTexture).rgb;
     if (coarseLevel) {
         point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond their corners

@@ -45,8 +45,7 @@ float sampleNumber() { return wave.firstOfBlock + 12.5; }
 
 bool showsFront() { return surface.showsFront; }
 
-float surfaceFootprint(vec3 normal) {
-    vec3 right = normalize(surface.normalRight) - normal;
-    vec3 up = normalize(surface.normalUp) - normal;
-    return dot(right, right) + dot(up, up);
+void addNormalChanges(inout SurfacePoint point, vec3 normal) {
+    point.normalRight = normalize(surface.normalRight) - normal;
+    point.normalUp = normalize(surface.normalUp) - normal;
 }

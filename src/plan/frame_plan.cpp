@@ -254,33 +254,38 @@ double largestBlur(const FramePlan& plan, const World& world) {
     return largest;
 }
 
+// Switches to a pinhole if no blur is visible.
 void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
-    const double blur = plan.largestBlur;
-    if (plan.settings.keepAll || plan.settings.refocus || blur >= minBlur) return;
-    const bool stochastic = std::ranges::any_of(plan.objects, &ObjectPlan::stochasticAlpha);
-    const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
-    const std::uint32_t kept =
-        still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
-    plan.leftOut.push_back(
-        {"lens samples",
-         fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", blur, kept,
-                     still                   ? "antialiasing"
-                     : !plan.moments.empty() ? "motion"
-                     : stochastic            ? "transparency"
-                                             : "shadow")});
-    plan.usesLens = false;
+    plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
+    if (plan.usesLens) return;
     const double aspect = plan.coc.aspect;  // a pinhole needs the aspect ratio, too
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
-    plan.samples.resize(kept);
-    plan.frameSamples = plan.frameFirst + kept;
     for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);
     for (ObjectPlan& object : plan.objects) {
         object.coc = {};
         object.own = {};
     }
+}
+
+// Without a lens, keeps only the samples that antialiasing needs, unless something else changes between samples.
+void leaveOutSamples(FramePlan& plan) {
+    if (plan.usesLens) return;
+    const bool stochastic = std::ranges::any_of(plan.blendOrder, &BlendRun::stochastic);
+    const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
+    const std::uint32_t kept =
+        still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
+    plan.leftOut.push_back(
+        {"lens samples",
+         fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", plan.largestBlur, kept,
+                     still                   ? "antialiasing"
+                     : !plan.moments.empty() ? "motion"
+                     : stochastic            ? "transparency"
+                                             : "shadow")});
+    plan.samples.resize(kept);
+    plan.frameSamples = plan.frameFirst + kept;
 }
 
 bool hasOwnBlur(const FramePlan& plan, const World& world) {
@@ -302,9 +307,12 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
         object.transmits = transmits(scene, mesh);
         plan.usesBlending |= object.blended;
-        plan.sortsBlending |= object.blended && !object.stochasticAlpha;
         plan.usesTransmission |= object.transmits;
         plan.usesTextures |= hasTextures(scene, mesh);
+    }
+    for (const BlendRun& run : plan.blendOrder) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(plan.objects[run.object].mesh)];
+        plan.sortsBlending |= !run.stochastic && !materialOf(scene, mesh.primitives[run.primitive]).transmits();
     }
     if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
@@ -400,14 +408,21 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
-    chooseBlending(plan, world);
-    // If no blur is visible, switch to a pinhole before the levels are chosen, because they depend on the blur.
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());
+    const auto chooseAllLevels = [&] {
+        parallelFor(plan.objects.size(), [&](std::size_t i) {
+            ObjectPlan& object = plan.objects[i];
+            chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
+        });
+    };
+    chooseAllLevels();
+    chooseBlending(plan, world);
+    leaveOutSamples(plan);
+    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // splits the remaining samples
     parallelFor(plan.objects.size(), [&](std::size_t i) {
         ObjectPlan& object = plan.objects[i];
-        chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
         chooseRefinement(object, world, plan);
         if (!settings.keepAll) leaveOutClusters(object, world, plan);
     });

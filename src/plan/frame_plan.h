@@ -86,14 +86,23 @@ struct ObjectPlan {
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
-    bool cuts = false;      // refined triangles may reach the near plane, or contain a jump of the slope of C
-    bool mirrored = false;  // the transform flips the winding of triangles
-    bool blended = false;   // the object has alpha-blended primitives
-    // true: each lens sample draws or drops a blended fragment by its alpha. false: fragments are blended back to
-    // front.
-    bool stochasticAlpha = false;
+    bool cuts = false;       // refined triangles may reach the near plane, or contain a jump of the slope of C
+    bool mirrored = false;   // the transform flips the winding of triangles
+    bool blended = false;    // the object has alpha-blended primitives
     bool transmits = false;  // the object has transmissive primitives
     bool ground = false;     // the object is the ground plane, which casts no shadow
+};
+
+// An alpha-blended or transmissive primitive of an object, or some of its triangles.
+struct BlendRun {
+    std::uint32_t object = 0;     // index into FramePlan::objects
+    std::uint32_t primitive = 0;  // index into Mesh::primitives
+    std::uint32_t level = 0;      // level of `triangles`
+    // Ranges in Pyramid::indices, back to front. Empty: the entire primitive, at all levels that are drawn.
+    std::vector<IndexRange> triangles;
+    // true: each lens sample draws or drops a blended fragment by its alpha, so that the position in the order doesn't
+    // matter. false: fragments are blended over what is behind them.
+    bool stochastic = false;
 };
 
 // One shadow map of a light, rendered for each lens sample. A point light inside the scene has six maps.
@@ -144,7 +153,8 @@ struct FramePlan {
     // Transforms from view space at each shutter time to view space in the middle of the exposure; empty if the camera
     // doesn't move.
     std::vector<glm::dmat4> middleFromView;
-    std::vector<ObjectPlan> objects;  // objects to draw, front to back
+    std::vector<ObjectPlan> objects;   // objects to draw, front to back
+    std::vector<BlendRun> blendOrder;  // all alpha-blended and transmissive primitives, back to front
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
@@ -153,7 +163,7 @@ struct FramePlan {
     bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;   // some object is alpha-blended
-    bool sortsBlending = false;  // some object is blended back to front
+    bool sortsBlending = false;  // some primitive is blended back to front
     bool usesTransmission = false;
     bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
     bool showsMap = false;    // the background is an environment map

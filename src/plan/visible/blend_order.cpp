@@ -2,101 +2,254 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <iterator>
+#include <queue>
 
 #include "core/bounds.h"
+#include "core/parallel.h"
+#include "plan/visible/blend_part.h"
 
 namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxTriangles = 1000;  // of a primitive that isConvex() tests
-constexpr double tolerance = 1e-4;          // of the primitive's size; rounding of flat and round shapes
+constexpr std::size_t maxConvexTriangles = 1000;  // of a primitive that isConvex() tests
+constexpr std::size_t maxParts = 5000;            // of all primitives, because all pairs that overlap are compared
+constexpr double tolerance = 1e-4;                // of the primitive's size; rounding of flat and round shapes
 
-bool blends(const Scene& scene, const Primitive& primitive) {
-    return primitive.material >= 0 &&
-           scene.materials[static_cast<std::size_t>(primitive.material)].alphaMode == AlphaMode::blend;
-}
-
-// Returns whether the object's surfaces have one order in depth from every viewpoint.
-bool hasOneOrder(const ObjectPlan& object, const Scene& scene) {
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-    if (object.deformed || object.skinned) return false;
-    const Primitive* only = nullptr;
-    for (const Primitive& primitive : mesh.primitives) {
-        if (!blends(scene, primitive)) continue;
-        if (only != nullptr) return false;
-        only = &primitive;
-    }
-    return only != nullptr && isConvex(mesh.vertices, *only);
-}
-
-// Rectangle of the image in px, relative to its centre, that all lens samples' images of the object lie in.
-struct Place {
-    glm::dvec2 low{0}, high{0};
-    bool known = false;  // false: the object reaches the near plane
+// A blended or transmissive primitive of an object.
+struct Candidate {
+    std::uint32_t object = 0;
+    std::uint32_t primitive = 0;
+    bool transmits = false;
+    bool doubleSided = false;
 };
 
-Place placeOf(const ObjectPlan& object, const FramePlan& plan) {
-    Place place;
-    place.known = object.nearestDepth > plan.view.nearPlane;
-    if (!place.known) return place;
-    const double pixels = 0.5 * plan.view.width / plan.tanHalfHorizontal;
-    const double margin = 1 + 0.5 * object.coc.largest;
-    const Bounds& box = object.viewBox;
-    place.low = glm::dvec2(std::numeric_limits<double>::infinity());
-    place.high = -place.low;
-    for (const double depth : {object.nearestDepth, object.farthestDepth})
-        for (const glm::dvec2& corner : {glm::dvec2(box.minimum), glm::dvec2(box.maximum)}) {
-            place.low = glm::min(place.low, corner * (pixels / depth) - margin);
-            place.high = glm::max(place.high, corner * (pixels / depth) + margin);
+// A part of a primitive, or an entire primitive.
+struct Node {
+    std::size_t candidate = 0;
+    BlendRun run;
+    BlendPart part;  // unused for entire primitives that transmit or are drawn by stochastic transparency
+};
+
+// Nodes that are related to an earlier node.
+struct Relations {
+    std::vector<std::size_t> before;     // must be drawn before the node
+    std::vector<std::size_t> after;      // must be drawn after the node
+    std::vector<std::size_t> unordered;  // have no order with the node
+};
+
+class BlendSorter {
+public:
+    BlendSorter(FramePlan& plan, const World& world) : plan_(&plan), world_(&world) {}
+
+    // Returns FramePlan::blendOrder and sets ObjectPlan::blended.
+    std::vector<BlendRun> runs();
+
+private:
+    void findCandidates();
+    void addNodes(std::size_t candidate);
+    [[nodiscard]] std::vector<Node> partsOf(std::size_t candidate) const;
+    void relate();
+    [[nodiscard]] Relations relationsOf(std::size_t node) const;
+    [[nodiscard]] std::vector<std::size_t> backToFront();
+    [[nodiscard]] bool transmits(std::size_t node) const { return candidates_[nodes_[node].candidate].transmits; }
+
+    FramePlan* plan_;
+    const World* world_;
+    std::vector<Candidate> candidates_;  // those of the nearest objects first
+    std::vector<Node> nodes_;
+    std::vector<Relations> relations_;  // of each node to the nodes before it in nodes_
+};
+
+void BlendSorter::findCandidates() {
+    const Scene& scene = *world_->scene;
+    for (std::uint32_t i = 0; i < plan_->objects.size(); ++i) {
+        ObjectPlan& object = plan_->objects[i];
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+            if (mesh.primitives[p].material < 0) continue;
+            const Material& material = scene.materials[static_cast<std::size_t>(mesh.primitives[p].material)];
+            object.blended |= material.alphaMode == AlphaMode::blend;
+            if (material.alphaMode == AlphaMode::blend || material.transmits())
+                candidates_.push_back({i, p, material.transmits(), material.doubleSided});
         }
-    return place;
+    }
 }
 
-// Returns whether the order of the objects' nearest depths is right wherever they overlap in the image.
-bool areOrdered(const ObjectPlan& a, const ObjectPlan& b, const FramePlan& plan) {
-    if (a.farthestDepth <= b.nearestDepth || b.farthestDepth <= a.nearestDepth) return true;
-    const Place p = placeOf(a, plan);
-    const Place q = placeOf(b, plan);
-    if (!p.known || !q.known) return false;
-    return p.high.x < q.low.x || q.high.x < p.low.x || p.high.y < q.low.y || q.high.y < p.low.y;
+// Returns the parts of a candidate at its drawn levels; none if there are too many, or if the surface changes its
+// shape.
+std::vector<Node> BlendSorter::partsOf(std::size_t candidate) const {
+    const Candidate& from = candidates_[candidate];
+    const ObjectPlan& object = plan_->objects[from.object];
+    if (object.deformed || object.skinned) return {};
+    const Pyramid& pyramid = world_->pyramids[static_cast<std::size_t>(object.mesh)];
+    std::vector<std::uint32_t> levels;
+    for (const LevelDraw& draw : {object.fine, object.coarse})
+        if (draw.sampleCount > 0) levels.push_back(draw.level);
+    const auto positionsOf = [&](std::uint32_t level) -> const auto& {
+        return pyramid.levels[level].positions;
+    };
+    const auto rangeOf = [&](std::uint32_t level) { return pyramid.levels[level].primitives[from.primitive]; };
+    const auto indicesOf = [&](const IndexRange& range) {
+        return std::span(pyramid.indices).subspan(range.first, range.count);
+    };
+    const auto node = [&](std::uint32_t level, const IndexRange& range, std::vector<IndexRange> triangles) {
+        BlendRun run{from.object, from.primitive, level, std::move(triangles), false};
+        return Node{candidate, std::move(run), blendPart(object, *plan_, positionsOf(level), indicesOf(range))};
+    };
+    const auto convex = [&](std::uint32_t level) { return isConvex(positionsOf(level), indicesOf(rangeOf(level))); };
+    std::vector<Node> nodes;
+    if (std::ranges::all_of(levels, convex)) {
+        nodes.push_back(node(levels.front(), rangeOf(levels.front()), {}));
+        return nodes;
+    }
+    std::size_t count = nodes_.size();
+    for (const std::uint32_t level : levels) count += rangeOf(level).count / 3;
+    if (count > maxParts) return nodes;
+    for (const std::uint32_t level : levels)
+        for (std::uint32_t i = 0; i < rangeOf(level).count; i += 3) {
+            const IndexRange triangle{rangeOf(level).first + i, 3};
+            nodes.push_back(node(level, triangle, {triangle}));
+        }
+    if (!from.doubleSided) std::erase_if(nodes, [&](const Node& part) { return showsOnlyBacks(part.part, *plan_); });
+    return nodes;
+}
+
+void BlendSorter::addNodes(std::size_t candidate) {
+    const Candidate& from = candidates_[candidate];
+    std::vector<Node> parts;
+    if (!from.transmits) parts = partsOf(candidate);
+    if (parts.empty()) parts.push_back({candidate, {from.object, from.primitive, 0, {}, !from.transmits}, {}});
+    std::ranges::move(parts, std::back_inserter(nodes_));
+}
+
+// Returns the relations of a node to the nodes before it.
+Relations BlendSorter::relationsOf(std::size_t node) const {
+    Relations relations;
+    const Node& b = nodes_[node];
+    for (std::size_t i = 0; i < node; ++i) {
+        const Node& a = nodes_[i];
+        if (transmits(i) || transmits(node)) {
+            if (a.candidate != b.candidate) relations.after.push_back(i);  // a's object is nearer
+            continue;
+        }
+        if (a.run.stochastic || b.run.stochastic || !overlap(a.part, b.part)) continue;
+        // An object's levels are drawn in different samples, or in different pixels of a sample.
+        if (a.run.object == b.run.object && a.run.level != b.run.level) continue;
+        const bool aMayHide = mayHide(a.part, b.part, *plan_);
+        const bool bMayHide = mayHide(b.part, a.part, *plan_);
+        if (aMayHide && bMayHide) relations.unordered.push_back(i);
+        if (aMayHide && !bMayHide) relations.after.push_back(i);
+        if (bMayHide && !aMayHide) relations.before.push_back(i);
+    }
+    return relations;
+}
+
+// Finds the relations of all nodes, and makes each node stochastic that has no order with an earlier sorted node.
+void BlendSorter::relate() {
+    relations_.resize(nodes_.size());
+    parallelFor(nodes_.size(), [&](std::size_t i) { relations_[i] = relationsOf(i); });
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+        nodes_[i].run.stochastic |= std::ranges::any_of(
+            relations_[i].unordered, [&](std::size_t earlier) { return !nodes_[earlier].run.stochastic; });
+}
+
+// Returns the indices of the nodes in an order that fulfils the relations between sorted nodes. Where there is a
+// choice, the farthest objects come first. A cycle is broken by making one of its nodes, or a node behind it,
+// stochastic.
+std::vector<std::size_t> BlendSorter::backToFront() {
+    const std::size_t count = nodes_.size();
+    std::vector<std::vector<std::size_t>> later(count);
+    std::vector<std::size_t> earlier(count);  // number of nodes left that must be drawn before
+    const auto constrain = [&](std::size_t first, std::size_t then) {
+        const bool free = nodes_[first].run.stochastic || nodes_[then].run.stochastic;
+        if (free && !transmits(first) && !transmits(then)) return;
+        later[first].push_back(then);
+        ++earlier[then];
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const std::size_t first : relations_[i].before) constrain(first, i);
+        for (const std::size_t then : relations_[i].after) constrain(i, then);
+    }
+    const auto isLater = [&](std::size_t a, std::size_t b) {
+        const std::size_t candidateA = nodes_[a].candidate;
+        const std::size_t candidateB = nodes_[b].candidate;
+        return candidateA != candidateB ? candidateA < candidateB : a > b;
+    };
+    std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(isLater)> ready(isLater);
+    for (std::size_t i = 0; i < count; ++i)
+        if (earlier[i] == 0) ready.push(i);
+    std::vector<std::size_t> order;
+    std::vector<bool> placed(count);
+    while (order.size() < count) {
+        if (ready.empty()) {
+            std::size_t chosen = count;
+            for (std::size_t i = 0; i < count; ++i)
+                if (!placed[i] && !transmits(i) && (chosen == count || earlier[i] <= earlier[chosen])) chosen = i;
+            nodes_[chosen].run.stochastic = true;
+            ready.push(chosen);
+        }
+        const std::size_t next = ready.top();
+        ready.pop();
+        if (placed[next]) continue;
+        placed[next] = true;
+        order.push_back(next);
+        for (const std::size_t i : later[next])
+            if (--earlier[i] == 0) ready.push(i);
+    }
+    return order;
+}
+
+// Appends a run, or extends the last one if both have triangles of the same level of a primitive.
+void append(std::vector<BlendRun>& runs, const BlendRun& run) {
+    const bool extends = !runs.empty() && !runs.back().triangles.empty() && !run.triangles.empty() &&
+                         runs.back().object == run.object && runs.back().primitive == run.primitive &&
+                         runs.back().level == run.level && runs.back().stochastic == run.stochastic;
+    if (!extends) {
+        runs.push_back(run);
+        return;
+    }
+    IndexRange& last = runs.back().triangles.back();
+    if (last.first + last.count == run.triangles.front().first)
+        last.count += run.triangles.front().count;
+    else
+        runs.back().triangles.push_back(run.triangles.front());
+}
+
+std::vector<BlendRun> BlendSorter::runs() {
+    findCandidates();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) addNodes(i);
+    relate();
+    std::vector<BlendRun> runs;
+    for (const std::size_t i : backToFront()) append(runs, nodes_[i].run);
+    return runs;
 }
 
 }  // namespace
 
-bool isConvex(const Vertices& vertices, const Primitive& primitive) {
-    const std::vector<std::uint32_t>& indices = primitive.indices;
-    if (indices.size() > 3 * maxTriangles) return false;
-    std::vector<std::uint32_t> used = indices;
+bool isConvex(const std::vector<glm::vec3>& positions, std::span<const std::uint32_t> indices) {
+    if (indices.size() > 3 * maxConvexTriangles) return false;
+    std::vector<std::uint32_t> used(indices.begin(), indices.end());
     std::ranges::sort(used);
     used.erase(std::ranges::unique(used).begin(), used.end());
     Bounds box;
-    for (const std::uint32_t i : used) box.extend(glm::dvec3(vertices.positions[i]));
+    for (const std::uint32_t i : used) box.extend(glm::dvec3(positions[i]));
     if (box.empty()) return true;
     const double above = tolerance * glm::length(box.maximum - box.minimum);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::dvec3 corner = vertices.positions[indices[i]];
-        const glm::dvec3 normal = glm::cross(glm::dvec3(vertices.positions[indices[i + 1]]) - corner,
-                                             glm::dvec3(vertices.positions[indices[i + 2]]) - corner);
+        const glm::dvec3 corner = positions[indices[i]];
+        const glm::dvec3 normal =
+            glm::cross(glm::dvec3(positions[indices[i + 1]]) - corner, glm::dvec3(positions[indices[i + 2]]) - corner);
         const double limit = above * glm::length(normal);
         for (const std::uint32_t j : used)
-            if (!(glm::dot(normal, glm::dvec3(vertices.positions[j]) - corner) <= limit)) return false;
+            if (!(glm::dot(normal, glm::dvec3(positions[j]) - corner) <= limit)) return false;
     }
     return true;
 }
 
 void chooseBlending(FramePlan& plan, const World& world) {
-    const Scene& scene = *world.scene;
-    std::vector<const ObjectPlan*> sorted;
-    for (ObjectPlan& object : plan.objects) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        object.blended = std::ranges::any_of(mesh.primitives, [&](const Primitive& p) { return blends(scene, p); });
-        if (!object.blended) continue;
-        const auto isOrdered = [&](const ObjectPlan* other) { return areOrdered(object, *other, plan); };
-        object.stochasticAlpha = !hasOneOrder(object, scene) || !std::ranges::all_of(sorted, isOrdered);
-        if (!object.stochasticAlpha) sorted.push_back(&object);
-    }
+    plan.blendOrder = BlendSorter(plan, world).runs();
 }
 
 }  // namespace defocus::engine

@@ -1,20 +1,27 @@
 #pragma once
-// Chooses how alpha-blended objects are drawn: back to front, or by stochastic transparency, where each lens sample
+// Chooses how alpha-blended primitives are drawn: back to front, or by stochastic transparency, where each lens sample
 // shows or skips a fragment according to its alpha (Enderton et al. 2010, Stochastic Transparency). Sorting adds no
-// noise, but it is right only where surfaces have one order in depth. Stochastic transparency needs no order.
+// noise, but it is right only where surfaces have one order in depth for the whole lens. Stochastic transparency needs
+// no order.
+//
+// A convex primitive is one part; of other primitives, each triangle is a part. A part may be drawn before another if a
+// plane separates it from the other part and the lens, because it then never hides the other part (Newell, Newell and
+// Sancha 1972, A Solution to the Hidden Surface Problem). If two parts have no order, because they cross or because the
+// lens sees both sides of their planes, one of them is drawn by stochastic transparency. So is one part of each cycle.
 
+#include <span>
 #include <vector>
 
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
-// Returns whether the primitive is part of the surface of a convex body whose fronts face outwards, such as a flat
-// pane. From any viewpoint, its back faces lie behind its front faces, and neither overlap themselves. Primitives with
-// more than 1,000 triangles are not tested and count as not convex.
-bool isConvex(const Vertices& vertices, const Primitive& primitive);
+// Returns whether the triangles are part of the surface of a convex body whose fronts face outwards, such as a flat
+// pane. From any viewpoint, their back faces lie behind their front faces, and neither overlap themselves. More than
+// 1,000 triangles are not tested and count as not convex.
+bool isConvex(const std::vector<glm::vec3>& positions, std::span<const std::uint32_t> indices);
 
-// Sets ObjectPlan::blended and ObjectPlan::stochasticAlpha of all objects.
+// Sets FramePlan::blendOrder and ObjectPlan::blended. The levels of the objects must be chosen.
 void chooseBlending(FramePlan& plan, const World& world);
 
 }  // namespace defocus::engine

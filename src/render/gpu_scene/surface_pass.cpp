@@ -26,6 +26,10 @@ SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count
     return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
 }
 
+bool isTranslucent(const Material& material) {
+    return material.alphaMode == AlphaMode::blend || material.transmits();
+}
+
 GLenum modeOf(Refinement refinement) {
     return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
 }
@@ -70,35 +74,28 @@ void SurfacePass::uploadMaterials() {
 
 void SurfacePass::addDraws(const FramePlan& plan) {
     opaque_.clear();
+    dissolved_.clear();
     translucent_.clear();
     transmittingObjects_ = 0;
     blursBackdrop_ = false;
     materialSlots_.clear();
+    std::vector<std::uint32_t> partIndices;
+    const auto ordered = [&](int material) {
+        return info_.look != SurfaceLook::caster && isTranslucent(scene_->material(material));
+    };
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
         GpuMesh& gpuMesh = scene_->mesh(object.mesh);
         if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 3, GL_FLOAT, false, true);
         if (frame_->bandShifts()) gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
-        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
-            Draw draw;
-            draw.mesh = object.mesh;
-            draw.primitive = p;
-            draw.object = static_cast<std::uint32_t>(index);
-            draw.material = mesh.primitives[p].material;
-            draw.mirrored = object.mirrored;
-            draw.refinement = object.refinement;
-            draw.cuts = object.cuts;
-            draw.blurMoves = object.blurMoves;
-            const Material& material = scene_->material(draw.material);
-            draw.stochasticAlpha = info_.stochasticAlpha && object.stochasticAlpha &&
-                                   material.alphaMode == AlphaMode::blend && !material.transmits();
-            draw.materialSlot = materialSlots_.try_emplace(draw.material, materialSlots_.size()).first->second;
-            addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
-            addLevel(draw, object, object.fine, ScreenDoor::fineShare);
-        }
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p)
+            if (!ordered(mesh.primitives[p].material))
+                addPrimitive(plan, {static_cast<std::uint32_t>(index), p, 0, {}, false}, partIndices);
     }
-    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects are sorted from near to far
+    if (info_.look != SurfaceLook::caster)
+        for (const BlendRun& run : plan.blendOrder) addPrimitive(plan, run, partIndices);
+    partIndices_ = Buffer::of(std::span<const std::uint32_t>(partIndices));
     for (const ObjectPlan& object : plan.objects) transmittingObjects_ += object.transmits ? 1 : 0;
     for (const Draw& item : translucent_) {
         const Material& material = scene_->material(item.material);
@@ -106,25 +103,53 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
+// Adds the draws of a primitive, or of some triangles of one of its levels, whose indices it appends to `partIndices`.
+void SurfacePass::addPrimitive(const FramePlan& plan, const BlendRun& run, std::vector<std::uint32_t>& partIndices) {
+    const ObjectPlan& object = plan.objects[run.object];
+    const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
+    Draw draw;
+    draw.mesh = object.mesh;
+    draw.primitive = run.primitive;
+    draw.object = run.object;
+    draw.material = mesh.primitives[run.primitive].material;
+    draw.mirrored = object.mirrored;
+    draw.refinement = object.refinement;
+    draw.cuts = object.cuts;
+    draw.blurMoves = object.blurMoves;
+    draw.stochasticAlpha = info_.stochasticAlpha && run.stochastic;
+    draw.partial = !run.triangles.empty();
+    materialSlots_.try_emplace(draw.material, materialSlots_.size());
+    const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
+    const std::size_t first = partIndices.size();
+    for (const IndexRange& range : run.triangles) {
+        const auto begin = pyramid.indices.begin() + range.first;
+        partIndices.insert(partIndices.end(), begin, begin + range.count);
+    }
+    draw.runs = {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(partIndices.size() - first)}};
+    const auto add = [&](const LevelDraw& level, ScreenDoor boundary) {
+        if (level.sampleCount == 0 || (draw.partial && level.level != run.level)) return;
+        if (!draw.partial)
+            draw.runs = indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, run.primitive);
+        addLevel(draw, object, level, boundary);
+    };
+    add(object.coarse, ScreenDoor::coarseShare);
+    add(object.fine, ScreenDoor::fineShare);
+}
+
 // Adds the draws of a level of detail: one for the samples that draw only this level, one for the boundary sample,
 // which draws two levels in different pixels.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
-    if (level.sampleCount == 0) return;
-    const std::vector<IndexRun> runs =
-        indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, draw.primitive);
     std::uint32_t indexCount = 0;
-    for (const IndexRun& run : runs) indexCount += run.count;
+    for (const IndexRun& run : draw.runs) indexCount += run.count;
     if (indexCount == 0) return;
-    const Material& material = scene_->material(draw.material);
-    const bool blended = material.alphaMode == AlphaMode::blend || material.transmits();
-    auto& list = blended && !draw.stochasticAlpha ? translucent_ : opaque_;
+    const bool translucent = isTranslucent(scene_->material(draw.material)) && !draw.stochasticAlpha;
+    auto& list = translucent ? translucent_ : draw.partial ? dissolved_ : opaque_;
     const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
         if (first >= end) return;
         Draw& added = list.emplace_back(draw);
         added.level = level.level;
         added.firstSample = first;
         added.sampleCount = end - first;
-        added.runs = runs;
         added.triangleCount = indexCount / 3;
         added.screenDoor = screenDoor;
         added.program = &program(added);
@@ -275,7 +300,7 @@ void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t t
 void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
     const SampleSpan samples = samplesOf(item, first, count);
     if (samples.empty()) return;
-    bindDraw(item, samples.begin, scene_->mesh(item.mesh).indices);
+    bindDraw(item, samples.begin, item.partial ? partIndices_ : scene_->mesh(item.mesh).indices);
     submit(samples.begin, samples.end, item.triangleCount, [&](std::uint32_t at, std::uint32_t size) {
         for (const IndexRun& run : item.runs) drawIndices(modeOf(item.refinement), run.first, run.count, at, size);
     });
@@ -316,6 +341,7 @@ void SurfacePass::setFaces(const Draw& item) const {
 
 void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);
+    drawSolid(dissolved_, first, count);
 }
 
 void SurfacePass::findHidden(const FramePlan& plan) {
@@ -340,7 +366,9 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
     for (const Draw& item : opaque_) all += std::uint64_t{item.triangleCount} * samplesOf(item, first, count).size();
     bindSolid(GL_GREATER);
     const std::uint64_t shown = drawRemaining(occlusion_.shown(), first, count);
-    return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
+    const std::uint64_t uncovered = drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
+    drawFronts(dissolved_, first, count);
+    return all - shown - uncovered;
 }
 
 // Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
@@ -363,7 +391,7 @@ std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::u
 }
 
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
-    drawSolid(opaque_, first, count);
+    drawOpaque(first, count);
     drawSolid(translucent_, first, count);
 }
 
@@ -387,8 +415,7 @@ void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
-    drawFronts(opaque_, first, count);
-    drawFronts(translucent_, first, count);
+    for (const auto* list : {&opaque_, &dissolved_, &translucent_}) drawFronts(*list, first, count);
     glDisable(GL_BLEND);
 }
 
@@ -422,13 +449,15 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, marksBlended_ ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
-    glEnable(GL_CULL_FACE);
-    if (scene_->material(item.material).doubleSided) {  // draw back faces before front faces
-        glCullFace(GL_FRONT);
+    if (scene_->material(item.material).doubleSided && !item.partial) {
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);  // draw back faces before front faces
         draw(item, first, count);
+        glCullFace(GL_BACK);
+        draw(item, first, count);
+    } else {
+        drawFront(item, first, count);
     }
-    glCullFace(GL_BACK);
-    draw(item, first, count);
 }
 
 void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {

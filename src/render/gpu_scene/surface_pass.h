@@ -22,7 +22,7 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
-    bool stochasticAlpha = false;    // draws ObjectPlan::stochasticAlpha; false: all blended surfaces are sorted
+    bool stochasticAlpha = false;    // draws BlendRun::stochastic; false: all blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
     std::filesystem::path shaderFolder;
@@ -48,7 +48,7 @@ public:
     void findHidden(const FramePlan& plan);
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer);
-    // Draws sorted alpha-blended and transmitting surfaces, object by object from back to front. `colors` is the render
+    // Draws sorted alpha-blended and transmitting surfaces, in FramePlan::blendOrder. `colors` is the render
     // target and already contains the environment. A transmitting surface shows a copy of `colors` made before its
     // object is drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible
     // through each other. `objects` must contain all transmitting objects or none.
@@ -95,6 +95,7 @@ private:
         bool cuts = false;
         bool blurMoves = false;
         bool stochasticAlpha = false;
+        bool partial = false;  // `runs` are ranges of partIndices_ instead of GpuMesh::indices
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
@@ -116,6 +117,7 @@ private:
 
     void uploadMaterials();
     void addDraws(const FramePlan& plan);
+    void addPrimitive(const FramePlan& plan, const BlendRun& run, std::vector<std::uint32_t>& partIndices);
     void addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary);
     const Program& program(const Draw& draw);
     [[nodiscard]] bool shaded() const {
@@ -159,6 +161,8 @@ private:
     std::vector<GpuPoses> poses_;  // one per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
+    std::vector<Draw> dissolved_;  // parts of stochastically transparent primitives
+    Buffer partIndices_;           // indices of BlendRun::triangles
     bool marksBlended_ = false;
     std::vector<Draw> translucent_;  // sorted alpha-blended or transmitting; farthest first
     std::size_t transmittingObjects_ = 0;

@@ -31,7 +31,9 @@ Mesh coneMesh(int sides, bool inwards) {
 }
 
 TEST(BlendOrder, convexBodiesFaceOutwards) {
-    const auto isConvexMesh = [](const Mesh& mesh) { return isConvex(mesh.vertices, mesh.primitives[0]); };
+    const auto isConvexMesh = [](const Mesh& mesh) {
+        return isConvex(mesh.vertices.positions, mesh.primitives[0].indices);
+    };
     EXPECT_TRUE(isConvexMesh(quad(0)));
     EXPECT_TRUE(isConvexMesh(coneMesh(20, false)));
     EXPECT_FALSE(isConvexMesh(coneMesh(20, true)));
@@ -41,34 +43,93 @@ TEST(BlendOrder, convexBodiesFaceOutwards) {
     EXPECT_FALSE(isConvexMesh(dented));
 }
 
+// Returns blended panes, objects with the mesh quad() at the given places in front of the camera.
+std::unique_ptr<SmallWorld> panes(const std::vector<glm::dmat4>& places) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({1, 1, 1, 0.5f}));
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.meshes.push_back(quad(0));
+    for (const glm::dmat4& worldFromObject : places) place(*small, 0, worldFromObject);
+    finish(*small);
+    return small;
+}
+
 // Returns whether each of the panes, at the given places, is drawn by stochastic transparency.
 std::vector<bool> choicesFor(const std::vector<glm::dmat4>& places) {
-    SmallWorld small;
-    small.scene.materials.push_back(unlitMaterial({1, 1, 1, 0.5f}));
-    small.scene.materials[0].alphaMode = AlphaMode::blend;
-    small.scene.meshes.push_back(quad(0));
-    for (const glm::dmat4& worldFromObject : places) place(small, 0, worldFromObject);
-    finish(small);
-    const FramePlan plan = planFrame(small.world, small.view, {});
+    const auto small = panes(places);
+    const FramePlan plan = planFrame(small->world, small->view, {});
     std::vector<bool> choices(places.size());
-    for (const ObjectPlan& object : plan.objects) {
+    EXPECT_EQ(plan.blendOrder.size(), places.size());
+    for (const BlendRun& run : plan.blendOrder) {
+        const ObjectPlan& object = plan.objects[run.object];
         EXPECT_TRUE(object.blended);
-        choices[static_cast<std::size_t>(object.object)] = object.stochasticAlpha;
+        choices[static_cast<std::size_t>(object.object)] = run.stochastic;
     }
     return choices;
 }
 
+glm::dmat4 turnedPane(double x, double z, double degrees) {
+    return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, z)), glm::radians(degrees), glm::dvec3(0, 1, 0));
+}
+
 TEST(BlendOrder, panesAreSortedUnlessTheyMayCross) {
-    const auto at = [](double x, double z, double degrees) {
-        return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, z)), glm::radians(degrees),
-                           glm::dvec3(0, 1, 0));
-    };
+    const auto& at = turnedPane;
     using Choices = std::vector<bool>;
     EXPECT_EQ(choicesFor({at(0, -10, 40)}), Choices{false});
     EXPECT_EQ(choicesFor({at(0, -10, 40), at(0.5, -12, 40)}), (Choices{false, false})) << "behind each other";
     EXPECT_EQ(choicesFor({at(-2, -10, 40), at(2, -10, 30)}), (Choices{false, false})) << "side by side";
     const Choices crossing = choicesFor({at(0, -10, 40), at(0, -10, -40)});
     EXPECT_EQ(std::ranges::count(crossing, true), 1) << "crossing";
+}
+
+// Returns the numbers of the drawn objects of sorted panes, back to front.
+std::vector<int> orderOf(const SmallWorld& small) {
+    const FramePlan plan = planFrame(small.world, small.view, {});
+    std::vector<int> order;
+    for (const BlendRun& run : plan.blendOrder) {
+        EXPECT_FALSE(run.stochastic);
+        order.push_back(plan.objects[run.object].object);
+    }
+    return order;
+}
+
+// Two parallel panes, turned by 80°, whose depths overlap. Pane 0 reaches nearer to the camera, but is behind pane 1.
+TEST(BlendOrder, overlappingDepthsAreSortedByPlanes) {
+    const auto small = panes({turnedPane(-0.2, -10, 80), turnedPane(0.1, -10.1, 80)});
+    EXPECT_EQ(orderOf(*small), (std::vector<int>{0, 1}));
+    small->world.pose.objects[0].worldFromObject = turnedPane(0.4, -10, 80);
+    EXPECT_EQ(orderOf(*small), (std::vector<int>{1, 0}));
+}
+
+// The plane of a pane that is seen edge-on passes through a large lens, which sees both of its sides.
+TEST(BlendOrder, lensOnBothSidesOfAPaneHasNoOrder) {
+    auto small = panes({turnedPane(-0.05, -4, 90), turnedPane(0.05, -4, 90)});
+    small->view.lens.dofEnabled = false;
+    EXPECT_EQ(orderOf(*small).size(), 2u);
+    small->view.lens.dofEnabled = true;
+    small->view.lens.fStop = 0.1;
+    small->view.lens.focusDistance = 4;
+    const FramePlan plan = planFrame(small->world, small->view, {});
+    EXPECT_EQ(std::ranges::count(plan.blendOrder, true, &BlendRun::stochastic), 1);
+}
+
+// Each of three bars lies over the next one at one end and under the previous one at the other: a cycle. The plane of
+// each bar is parallel to the next bar, so that two bars always have an order.
+TEST(BlendOrder, cyclesAreBroken) {
+    const auto turned = [](int i, const glm::dvec3& vector) {
+        return glm::dvec3(glm::rotate(glm::dmat4(1), i * 2 * std::numbers::pi / 3, {0, 0, 1}) * glm::dvec4(vector, 0));
+    };
+    std::vector<glm::dmat4> places;
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 along = turned(i, {1, 0, 0.2});
+        const glm::dvec3 across = 0.1 * turned(i + 1, {1, 0, 0.2});
+        places.emplace_back(glm::dvec4(along, 0), glm::dvec4(across, 0), glm::dvec4(glm::cross(along, across), 0),
+                            glm::dvec4(turned(i, {0, 0.4, 0}) - glm::dvec3(0, 0, 10), 1));
+    }
+    const auto stochastic = [](const std::vector<bool>& choices) { return std::ranges::count(choices, true); };
+    EXPECT_EQ(stochastic(choicesFor(places)), 1);
+    places.pop_back();
+    EXPECT_EQ(stochastic(choicesFor(places)), 0);
 }
 
 }  // namespace
