@@ -118,7 +118,7 @@ void SurfacePass::addPrimitive(const FramePlan& plan, const BlendRun& run, std::
     draw.blurMoves = object.blurMoves;
     draw.stochasticAlpha = info_.stochasticAlpha && run.stochastic;
     draw.partial = !run.triangles.empty();
-    materialSlots_.try_emplace(draw.material, materialSlots_.size());
+    draw.materialSlot = materialSlots_.try_emplace(draw.material, materialSlots_.size()).first->second;
     const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
     const std::size_t first = partIndices.size();
     for (const IndexRange& range : run.triangles) {
