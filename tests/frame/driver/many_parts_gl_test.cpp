@@ -1,4 +1,5 @@
-// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file.
+// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file,
+// and that extreme lens values in a file do not multiply it.
 
 #include <ctime>
 #include <functional>
@@ -84,6 +85,37 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyParts,
                          testing::Values(Parts{"roots", addRoots}, Parts{"chain", addChain},
                                          Parts{"materials", addMaterials}, Parts{"meshes", addMeshes}),
                          [](const auto& parts) { return std::string(parts.param.name); });
+
+class ExtremeLens : public OwnContextTest {};
+
+// The blur of this triangle covers millions of images, so hardly any of 1,024 samples would show it.
+TEST_F(ExtremeLens, takesFewSamples) {
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}});
+    builder.add("cameras", {{"type", "perspective"},
+                            {"perspective", {{"yfov", 0.6}, {"znear", 0.01}}},
+                            {"extras",
+                             {{"fieldCurvature", 1000},
+                              {"radialBlurGain", 1000},
+                              {"coma", 100},
+                              {"astigmatism", -100},
+                              {"focusTilt", 89.9},
+                              {"axialChromaticAberration", 100},
+                              {"fStop", 0.001},
+                              {"focusDistance", 2}}}});
+    builder.add("nodes", {{"camera", 0}, {"translation", {0.3, 0.3, 3}}});
+    const ScratchFolder folder;
+    Request request;
+    request.scene = folder / "lens.glb";
+    GltfBuilder::save(request.scene, builder.glb());
+    request.size = {64, 48};
+    request.noCache = true;
+    SceneRenderer renderer(request);
+    renderer.start();
+    while (renderer.advance()) {
+    }
+    EXPECT_LE(renderer.samples(), 64u);
+}
 
 }  // namespace
 }  // namespace defocus::engine
