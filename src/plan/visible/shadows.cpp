@@ -99,7 +99,7 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
     });
 }
 
-struct Candidate {
+struct ShadowCandidate {
     int light = 0;
     double share = 0;  // share of the visible illuminance
     int faces = 1;
@@ -110,25 +110,25 @@ struct Candidate {
 std::vector<ShadowMap> chosenMaps(const World& world, const FramePlan& plan, const std::vector<glm::dvec3>& corners,
                                   const std::vector<double>& shares) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);
-    std::vector<Candidate> candidates;
+    std::vector<ShadowCandidate> candidates;
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const bool local = i < world.lights.size() && world.lights[i].light.type != LightType::directional;
         const bool several = local && !oneMapShows(world.lights[i], world.lights[i].position - camera, corners);
         candidates.push_back(
             {i < world.lights.size() ? static_cast<int>(i) : surroundings, shares[i], several ? 6 : 1});
     }
-    std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::share);
+    std::ranges::stable_sort(candidates, std::greater<>(), &ShadowCandidate::share);
     std::size_t count = 0;
-    std::vector<Candidate> chosen;
-    for (const Candidate& one : candidates) {
+    std::vector<ShadowCandidate> chosen;
+    for (const ShadowCandidate& one : candidates) {
         if (!(one.share >= minShare)) continue;
         if (count + static_cast<std::size_t>(one.faces) > maxShadowMaps) continue;
         count += static_cast<std::size_t>(one.faces);
         chosen.push_back(one);
     }
-    std::ranges::sort(chosen, {}, &Candidate::light);
+    std::ranges::sort(chosen, {}, &ShadowCandidate::light);
     std::vector<ShadowMap> maps;
-    for (const Candidate& one : chosen)
+    for (const ShadowCandidate& one : chosen)
         for (int face = 0; face < one.faces; ++face)
             maps.push_back({.light = one.light, .face = one.faces > 1 ? face : -1});
     return maps;
