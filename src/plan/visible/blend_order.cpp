@@ -26,7 +26,7 @@ struct Candidate {
 };
 
 // A part of a primitive, or an entire primitive.
-struct Node {
+struct BlendNode {
     std::size_t candidate = 0;
     BlendRun run;
     BlendPart part;  // unused for entire primitives that transmit or are drawn by stochastic transparency
@@ -49,7 +49,7 @@ public:
 private:
     void findCandidates();
     void addNodes(std::size_t candidate);
-    [[nodiscard]] std::vector<Node> partsOf(std::size_t candidate) const;
+    [[nodiscard]] std::vector<BlendNode> partsOf(std::size_t candidate) const;
     void relate();
     [[nodiscard]] Relations relationsOf(std::size_t node) const;
     [[nodiscard]] std::vector<std::size_t> backToFront();
@@ -58,7 +58,7 @@ private:
     FramePlan* plan_;
     const World* world_;
     std::vector<Candidate> candidates_;  // those of the nearest objects first
-    std::vector<Node> nodes_;
+    std::vector<BlendNode> nodes_;
     std::vector<Relations> relations_;  // of each node to the nodes before it in nodes_
 };
 
@@ -79,7 +79,7 @@ void BlendSorter::findCandidates() {
 
 // Returns the parts of a candidate at its drawn levels; none if there are too many, or if the surface changes its
 // shape.
-std::vector<Node> BlendSorter::partsOf(std::size_t candidate) const {
+std::vector<BlendNode> BlendSorter::partsOf(std::size_t candidate) const {
     const Candidate& from = candidates_[candidate];
     const ObjectPlan& object = plan_->objects[from.object];
     if (object.deformed || object.skinned) return {};
@@ -96,10 +96,10 @@ std::vector<Node> BlendSorter::partsOf(std::size_t candidate) const {
     };
     const auto node = [&](std::uint32_t level, const IndexRange& range, std::vector<IndexRange> triangles) {
         BlendRun run{from.object, from.primitive, level, std::move(triangles), false};
-        return Node{candidate, std::move(run), blendPart(object, *plan_, positionsOf(level), indicesOf(range))};
+        return BlendNode{candidate, std::move(run), blendPart(object, *plan_, positionsOf(level), indicesOf(range))};
     };
     const auto convex = [&](std::uint32_t level) { return isConvex(positionsOf(level), indicesOf(rangeOf(level))); };
-    std::vector<Node> nodes;
+    std::vector<BlendNode> nodes;
     if (std::ranges::all_of(levels, convex)) {
         nodes.push_back(node(levels.front(), rangeOf(levels.front()), {}));
         return nodes;
@@ -112,13 +112,14 @@ std::vector<Node> BlendSorter::partsOf(std::size_t candidate) const {
             const IndexRange triangle{rangeOf(level).first + i, 3};
             nodes.push_back(node(level, triangle, {triangle}));
         }
-    if (!from.doubleSided) std::erase_if(nodes, [&](const Node& part) { return showsOnlyBacks(part.part, *plan_); });
+    if (!from.doubleSided)
+        std::erase_if(nodes, [&](const BlendNode& part) { return showsOnlyBacks(part.part, *plan_); });
     return nodes;
 }
 
 void BlendSorter::addNodes(std::size_t candidate) {
     const Candidate& from = candidates_[candidate];
-    std::vector<Node> parts;
+    std::vector<BlendNode> parts;
     if (!from.transmits) parts = partsOf(candidate);
     if (parts.empty()) parts.push_back({candidate, {from.object, from.primitive, 0, {}, !from.transmits}, {}});
     std::ranges::move(parts, std::back_inserter(nodes_));
@@ -127,9 +128,9 @@ void BlendSorter::addNodes(std::size_t candidate) {
 // Returns the relations of a node to the nodes before it.
 Relations BlendSorter::relationsOf(std::size_t node) const {
     Relations relations;
-    const Node& b = nodes_[node];
+    const BlendNode& b = nodes_[node];
     for (std::size_t i = 0; i < node; ++i) {
-        const Node& a = nodes_[i];
+        const BlendNode& a = nodes_[i];
         if (transmits(i) || transmits(node)) {
             if (a.candidate != b.candidate) relations.after.push_back(i);  // a's object is nearer
             continue;

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 PosedPart posedPart(const glm::dmat4& viewFromObject, const std::vector<glm::vec3>& positions,
                     std::span<const std::uint32_t> indices, double side) {
@@ -17,8 +17,8 @@ PosedPart posedPart(const glm::dmat4& viewFromObject, const std::vector<glm::vec
     const auto corner = [&](std::size_t i) {
         return glm::dvec3(viewFromObject * glm::dvec4(positions[indices[i]], 1));
     };
-    part.nearest = infinity;
-    part.farthest = -infinity;
+    part.nearest = unbounded;
+    part.farthest = -unbounded;
     double largest = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::dvec3& place = part.corners.emplace_back(corner(i));
@@ -68,7 +68,7 @@ BlendPart blendPart(const ObjectPlan& object, const FramePlan& plan, const std::
                     std::span<const std::uint32_t> indices) {
     BlendPart part;
     part.flat = indices.size() == 3;
-    part.low = glm::dvec2(infinity);
+    part.low = glm::dvec2(unbounded);
     part.high = -part.low;
     const double pixels = 0.5 * plan.view.width / plan.tanHalfHorizontal;
     const double margin = 1 + 0.5 * object.coc.largest;
@@ -79,8 +79,8 @@ BlendPart blendPart(const ObjectPlan& object, const FramePlan& plan, const std::
         for (const glm::dvec3& corner : posed.corners) {
             const glm::dvec2 place = glm::dvec2(corner) * (pixels / -corner.z);
             const bool seen = posed.nearest > plan.view.nearPlane && std::isfinite(margin);
-            part.low = seen ? glm::min(part.low, place - margin) : glm::dvec2(-infinity);
-            part.high = seen ? glm::max(part.high, place + margin) : glm::dvec2(infinity);
+            part.low = seen ? glm::min(part.low, place - margin) : glm::dvec2(-unbounded);
+            part.high = seen ? glm::max(part.high, place + margin) : glm::dvec2(unbounded);
         }
     };
     if (object.motion.empty()) add(object.pose);
