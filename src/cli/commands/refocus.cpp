@@ -37,7 +37,7 @@ struct RefocusArguments {
     Request request;                 // values of refocusSettings
     std::optional<double> exposure;  // EV; none: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
-    FocusPull pull;                  // write the film of a focus pull if pull.video isn't empty
+    FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };
 

@@ -45,7 +45,7 @@ double distanceAt(double from, double to, int i, int count) {
 
 }  // namespace
 
-void parseFocusPull(const std::string& text, FocusPull& pull) {
+void parseFocusPull(const std::string& text, FocusPullFilm& pull) {
     const std::vector<std::string> parts = splitAt(text, ':');
     if (parts.size() != 2) fail("'{}' is not a pair A:B of distances in m, such as 1.2:4", text);
     const Range metres{1e-6, 1e12};
@@ -53,8 +53,8 @@ void parseFocusPull(const std::string& text, FocusPull& pull) {
     pull.to = parseNumber(parts[1], metres);
 }
 
-void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPull& pull, const WriteOptions& write,
-                    const GlobalOptions& global) {
+void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPullFilm& pull,
+                    const WriteOptions& write, const GlobalOptions& global) {
     const Clock::time_point start = Clock::now();
     for (const double distance : {pull.from, pull.to}) {
         Refocusing end = refocusing;

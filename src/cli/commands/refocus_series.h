@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-struct FocusPull {
+struct FocusPullFilm {
     double from = 1;  // m
     double to = 1;    // m
     int frames = 96;
@@ -20,12 +20,12 @@ struct FocusPull {
 };
 
 // Parses "A:B", two distances in m. Throws Error for other text.
-void parseFocusPull(const std::string& text, FocusPull& pull);
+void parseFocusPull(const std::string& text, FocusPullFilm& pull);
 
 // Writes a film in which the focus moves from one distance to the other, evenly in 1/distance. `refocusing` gives the
 // aperture.
-void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPull& pull, const WriteOptions& write,
-                    const GlobalOptions& global);
+void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPullFilm& pull,
+                    const WriteOptions& write, const GlobalOptions& global);
 
 // Returns the file of picture `name` of a stack: out.exr and "02" give out.02.exr.
 std::filesystem::path stackPath(const std::filesystem::path& output, const std::string& name);
