@@ -34,7 +34,7 @@ double largestSampledBlur(const FramePlan& plan);
 bool blursBeyondSamples(const FramePlan& plan);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above
-// largestSampledBlur() is ignored, because no number of samples resolves it.
+// largestSampledBlur() is ignored, because even maxSamples lens samples do not resolve it.
 double largestBoundedBlur(const FramePlan& plan);
 
 }  // namespace defocus::engine
