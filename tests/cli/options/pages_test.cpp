@@ -50,7 +50,7 @@ protected:
 
 TEST_F(Pages, bashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(said("bash -n bash"), "");
-    EXPECT_EQ(offered("defocus re"), Words({"render"}));
+    EXPECT_EQ(offered("defocus ren"), Words({"render"}));
     EXPECT_EQ(offered("defocus bench spe"), Words({"speedup"}));
     EXPECT_EQ(offered("defocus render --fst"), Words({"--fstop"}));
     EXPECT_EQ(offered("defocus render --qui"), Words({"--quiet"})) << "includes the program's own options";
@@ -89,7 +89,7 @@ cat lines
     const auto completed = [&](const std::vector<std::string>& lines) {
         return said(fmt::format("timeout 60 zsh -f ./type '{}'", fmt::join(lines, "' '")));
     };
-    EXPECT_EQ(completed({"defocus re", "defocus bench spe", "defocus render --fst", "defocus --quiet render --fst",
+    EXPECT_EQ(completed({"defocus ren", "defocus bench spe", "defocus render --fst", "defocus --quiet render --fst",
                          "defocus render --lod o", "defocus render --lod=o", "defocus render --aov depth,c",
                          "defocus render --stats=sce", "defocus render sce", "defocus merge --fst"}),
               "defocus render \n"
@@ -110,7 +110,7 @@ TEST_F(Pages, fishCompletesCommandsOptionsAndValues) {
         return said("HOME=$PWD fish --no-config -c \"source ./fish; complete -C '" + line + "'\" | cut -f 1");
     };
     EXPECT_EQ(said("fish --no-execute fish"), "");
-    EXPECT_EQ(complete("defocus re"), "render\n");
+    EXPECT_EQ(complete("defocus ren"), "render\n");
     EXPECT_EQ(complete("defocus bench spe"), "speedup\n");
     EXPECT_EQ(complete("defocus render --fst"), "--fstop\n");
     EXPECT_EQ(complete("defocus render --lod o"), "off\n");
