@@ -114,7 +114,9 @@ struct Pyramid {
     double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
     // Standard deviation of level 0's radiance within patches; see blurred_error.h.
     BlurTables contrast{};
-    std::uint32_t repairedFaces = 0;  // faces that had to be repaired for the half-edge structure; see manifold.h
+    // Faces that had to be repaired for the half-edge structure, see manifold.h; 0 if the mesh needs no such structure
+    // because it has only level 0.
+    std::uint32_t repairedFaces = 0;
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
