@@ -18,8 +18,8 @@ namespace {
 class ViewSoak : public ViewProgram {};
 
 TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
-    const int scenes = roundsOr("DEFOCUS_SOAK_SCENES", 40);
-    const int early = std::max(scenes / 10, 10);
+    const int scenes = roundsOr("DEFOCUS_SOAK_SCENES", 60);
+    const int early = std::max(scenes / 10, 20);
     for (int i = 0; i < 2; ++i) writeTwoQuads(folder() / fmt::format("scene{}.gltf", i));
     start({"scene0.gltf", "--size", "320x240"});
     ASSERT_TRUE(showsScene("scene0.gltf")) << state();
