@@ -200,21 +200,7 @@ def error_times():
         f"\nCommand of the school on the H200: `{command_of('h200-school', run_of('h200-school'))}` (runs: {links}).\n")
 
 
-def window():
-    """Returns the table of `defocus bench view`."""
-    name = "llvmpipe-view"
-
-    def time(value):
-        return "–" if value is None else f"{value:.1f} s"
-
-    rows = [[f"`{row['method']}`", f"{row['framesPerSecond']:.0f}", f"{row['firstPictureMilliseconds']:.0f} ms",
-             f"{100 * row['movingResolution']:.0f} %, {row['movingSamples']}", f"{row['movingPsnr']:.1f} dB", time(row["stillPictureSeconds"]),
-             time(row["convergedSeconds"]), row["stillSamples"], f"{row['stillPsnr']:.1f} dB"] for row in run_of(name)["rows"]]
-    return run_table(name, ["method", "frames per second", "first picture", "resolution, lens samples", "PSNR, moving", "first still",
-                            "converged", "lens samples", "PSNR, still"], rows)
-
-
-TABLES = {"window": window, "gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
+TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
           "published": published, "lenses": lenses, "popping": popping}
