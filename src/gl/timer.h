@@ -8,6 +8,9 @@
 
 namespace defocus::engine {
 
+// Waits until the GPU has executed all commands of the current context.
+void waitForGpu();
+
 class GpuTimer {
 public:
     void begin();

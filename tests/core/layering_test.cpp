@@ -74,15 +74,17 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("eval", "frame", {});
         modules["stability"] = {};  // the folder is bench/stability; only a command includes it
         addOver("capture", "frame", {});
+        addOver("refocus", "frame", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
         addOver("view/picture", "view/document", {});
+        addOver("view/bench", "view/picture", {});
         addOver("view/export", "view/picture", {});
         addOver("view/widgets", "view/export", {});
         addOver("view/panels", "view/widgets", {});
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
-        addOver("cli", "view/window", {"eval", "stability"});
+        addOver("cli", "view/window", {"eval", "stability", "refocus", "view/bench"});
         modules["frame"].emplace_back("school");  // only frame includes the built-in scene
         return modules;
     }();
@@ -149,7 +151,7 @@ TEST(Layering, foreignLibrariesStayInTheirPlace) {
         {R"(#\s*include\s*[<"](imgui|backends/imgui))", "^view/"},
         {R"(#\s*include\s*<GLFW/|\bglfw[A-Z])", "^(gl/window|view/window/interface)\\."},
         {R"(#\s*include\s*"gl/window\.h")", "^(gl/window\\.|view/)"},
-        {R"(#\s*include\s*"view/)", "^(view/|cli/commands/view\\.)"},
+        {R"(#\s*include\s*"view/)", "^(view/|cli/commands/(bench_)?view\\.)"},
     };
     const std::vector<Line> lines = sourceLines();
     for (const Place& place : places) {

@@ -1,7 +1,5 @@
 #include "view/bench/view_bench.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -14,6 +12,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "frame/driver/reference_image.h"
+#include "gl/timer.h"
 #include "image/metrics.h"
 #include "view/picture/live_picture.h"
 
@@ -93,7 +92,7 @@ private:
         const std::string faultBefore = std::exchange(state_.fault, {});
         updateWorld(document_, state_, false);
         updatePicture(picture_, document_, state_, options_.software, 0, false);
-        glFinish();
+        waitForGpu();
         if (!state_.fault.empty()) throw Error(row_.method + ": " + state_.fault);
         state_.fault = faultBefore;
     }
