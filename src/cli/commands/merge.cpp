@@ -77,13 +77,7 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand(
         "merge", "Merge the parts of a frame (render or capture with --sample-range, render with --tile)");
     command->add_option("PART", arguments->parts, "Parts of one frame, in any order")->required()->type_name("FILE…");
-    command
-        ->add_option(
-            "-o,--output", arguments->outputs,
-            fmt::format("Image file to write: .exr, .png or .jpg. {}. Can be given several times", standardOutputHelp))
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->default_str("out.exr");
+    addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Exposure in EV for PNG and JPEG. Default: from the parts' lens if it has an exposure time, else 0");
     addChoice<ToneMap>(

@@ -133,13 +133,7 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     command->add_option("FILE", arguments->file, "File of lens images, from 'defocus render --lens-images'")
         ->required()
         ->type_name("FILE");
-    command
-        ->add_option(
-            "-o,--output", arguments->outputs,
-            fmt::format("Image file to write: .exr, .png or .jpg. {}. Can be given several times", standardOutputHelp))
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->default_str("out.exr");
+    addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Exposure in EV for PNG and JPEG. Default: as rendered");
     addParsed(*command, "--html", "FILE",

@@ -39,15 +39,7 @@ void parseAovs(const std::string& text, AovRequest& aovs) {
 void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
-    command
-        .add_option("-o,--output", arguments.outputs,
-                    fmt::format("Image file to write: .exr (linear floats with metadata), .png or .jpg (tone-mapped). "
-                                "{}. Can be given several times",
-                                standardOutputHelp))
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->default_str("out.exr")
-        ->group(group);
+    addImageOutputs(command, arguments.outputs)->group(group);
     advanced(addParsed(command, "--aov", "depth,coc,level,work,swept-work",
                        "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of "
                        "confusion in px. level: level of detail. work: triangles per pixel, including hidden ones, "

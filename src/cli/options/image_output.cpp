@@ -54,6 +54,16 @@ private:
 
 }  // namespace
 
+CLI::Option* addImageOutputs(CLI::App& command, std::vector<fs::path>& outputs) {
+    return command
+        .add_option("-o,--output", outputs,
+                    "Image file to write: .exr (linear floats with metadata), .png or .jpg (tone-mapped). -, exr:- or "
+                    "jpg:- writes PNG, EXR or JPEG to standard output. Can be given several times")
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr");
+}
+
 bool isStandardOutput(const fs::path& output) {
     const std::string text = output.string();
     return text == "-" || (text.ends_with(":-") && text.find(':') == text.size() - 2);

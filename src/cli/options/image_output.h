@@ -2,6 +2,7 @@
 // Writes a command's images to files or to standard output. "-" is a PNG image to standard output; "exr:-", "png:-" and
 // "jpg:-" name the format.
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,8 +11,8 @@
 
 namespace defocus::engine {
 
-// Text about standard output for --help, after the formats.
-inline constexpr const char* standardOutputHelp = "-, exr:- or jpg:- writes PNG, EXR or JPEG to standard output";
+// Adds the option --output with one or more images, which sets `outputs`. Its default text is out.exr.
+CLI::Option* addImageOutputs(CLI::App& command, std::vector<std::filesystem::path>& outputs);
 
 bool isStandardOutput(const std::filesystem::path& output);
 
