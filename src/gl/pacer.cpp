@@ -1,13 +1,13 @@
 #include "gl/pacer.h"
 
+#include <algorithm>
 #include <string_view>
 
 namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t softwareBatch = 500'000;  // triangles; each takes about 250 bytes in llvmpipe's bins
-constexpr std::size_t openBatches = 2;
+constexpr std::size_t openBatches = 2;  // batches that may be pending while the next batch is submitted
 constexpr GLuint64 longestWait = 10'000'000'000;  // ns; a timeout only costs memory
 
 bool softwareDriver() {
@@ -18,7 +18,8 @@ bool softwareDriver() {
 
 }  // namespace
 
-SubmissionPacer::SubmissionPacer() : batch_(softwareDriver() ? softwareBatch : 0) {}
+SubmissionPacer::SubmissionPacer(std::uint64_t bytes)
+    : batch_(softwareDriver() ? std::max<std::uint64_t>(1, bytes / pendingTriangleBytes / (openBatches + 1)) : 0) {}
 
 SubmissionPacer::~SubmissionPacer() {
     for (const GLsync fence : fences_) glDeleteSync(fence);

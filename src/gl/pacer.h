@@ -9,9 +9,15 @@
 
 namespace defocus::engine {
 
+// Memory of one pending triangle in llvmpipe, measured.
+inline constexpr std::uint64_t pendingTriangleBytes = 224;
+
 class SubmissionPacer {
 public:
-    SubmissionPacer();
+    static constexpr std::uint64_t defaultBytes = 1'500'000 * pendingTriangleBytes;
+
+    // `bytes`: max memory of all pending triangles of a software driver.
+    explicit SubmissionPacer(std::uint64_t bytes = defaultBytes);
     ~SubmissionPacer();
     SubmissionPacer(const SubmissionPacer&) = delete;
     SubmissionPacer& operator=(const SubmissionPacer&) = delete;

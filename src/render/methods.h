@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gl/pacer.h"
 #include "render/layer_format.h"
 #include "render/renderer.h"
 
@@ -36,6 +37,7 @@ struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;                  // lens samples per wave K; 0: as many as fit into waveBytes
     std::uint64_t waveBytes = 160ull << 20;  // max memory of a wave's layers
+    std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
     bool geometryShaderLayers = false;       // true: always select layers in a geometry shader
     std::filesystem::path shaderFolder;      // shaders in this folder replace embedded shaders; empty: none
     MethodSettings settings;                 // values of Method::settings; missing: default

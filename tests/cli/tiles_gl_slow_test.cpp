@@ -53,6 +53,16 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
+// A row at the top of the image has few of the objects. The memory of the others counts towards the limit as well.
+TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
+    const Outcome outcome = run({"render", "--quiet", "--fish", "6", "--size", "1024x768", "--samples", "16", "--lod",
+                                 "off", "--memory", "400MiB", "-o", "a.exr", "--stats", "stats.json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto stats = nlohmann::json::parse(textOf(folder() / "stats.json"));
+    EXPECT_GT(stats.at("tiles").get<int>(), 1);
+    EXPECT_LE(stats.at("peakBytes").get<double>(), 400 << 20);
+}
+
 // A run with enough memory resumes from the tiles that a run with little memory has finished.
 TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
     fs::create_directory(folder() / "a.tiles");

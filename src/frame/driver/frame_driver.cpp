@@ -229,6 +229,7 @@ void FrameDriver::makeRenderer() {
     options.layerFormat = options_.limits.layerFormat;
     options.wave = options_.limits.wave;
     options.waveBytes = waveBytesWithin(limit_);
+    options.pendingBytes = pendingBytesWithin(limit_);
     options.shaderFolder = options_.shaderFolder;
     options.settings = options_.method.settings;
     renderer_ = options_.method.method->make(*world_, options);

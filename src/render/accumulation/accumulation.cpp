@@ -54,7 +54,7 @@ enum class CellUse { never, always, automatic };
 class AccumulationRenderer final : public Renderer {
 public:
     AccumulationRenderer(const World& world, const RendererOptions& options, CellUse cellUse)
-        : options_(options), wave_(options.wave), cellUse_(cellUse), scene_(world) {}
+        : options_(options), wave_(options.wave), cellUse_(cellUse), scene_(world, options.pendingBytes) {}
 
     void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
 

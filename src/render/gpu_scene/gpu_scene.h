@@ -12,6 +12,7 @@
 
 #include "core/bounds.h"
 #include "gl/buffer.h"
+#include "gl/pacer.h"
 #include "gl/texel_buffer.h"
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
@@ -108,12 +109,15 @@ struct GpuMaterial {
 
 class GpuScene {
 public:
-    explicit GpuScene(const World& world) : world_(&world) {}
+    // `pendingBytes`: see SubmissionPacer.
+    explicit GpuScene(const World& world, std::uint64_t pendingBytes = SubmissionPacer::defaultBytes)
+        : world_(&world), pacer_(pendingBytes) {}
 
     // Uploads data of `plan` that are not yet on the GPU. Throws Error if GPU memory is insufficient.
     void prepare(const FramePlan& plan);
 
     [[nodiscard]] const World& world() const { return *world_; }
+    [[nodiscard]] SubmissionPacer& pacer() { return pacer_; }
     [[nodiscard]] GpuMesh& mesh(int index) { return meshes_.at(index); }
     [[nodiscard]] const GpuMaterialTextures& textures(int material) const { return materialTextures_.at(material); }
     [[nodiscard]] const Material& material(int index) const;
@@ -131,6 +135,7 @@ private:
     void prepareMaterial(int material);
 
     const World* world_;
+    SubmissionPacer pacer_;
     std::map<int, GpuMesh> meshes_;
     std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // key: the arguments of texture()
     std::map<int, GpuMaterialTextures> materialTextures_;

@@ -34,14 +34,29 @@ GLenum modeOf(Refinement refinement) {
     return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
 }
 
-// Draws indices [first, first + count) of the bound vertex array, with one instance per sample in [firstSample,
-// firstSample + sampleCount).
-void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
-                 std::uint32_t sampleCount) {
+// Draws the indices of the bound vertex array in `run`, with one instance per sample in `samples`.
+void drawIndices(GLenum mode, const IndexRun& run, const SampleSpan& samples) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL expects the offset as a pointer
-    const auto* const offset = reinterpret_cast<const void*>(std::size_t{first} * sizeof(std::uint32_t));
-    glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset,
-                                        static_cast<GLsizei>(sampleCount), firstSample);
+    const auto* const offset = reinterpret_cast<const void*>(std::size_t{run.first} * sizeof(std::uint32_t));
+    glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT, offset,
+                                        static_cast<GLsizei>(samples.size()), samples.begin);
+}
+
+// Draws as drawIndices does, in calls with at most as many triangles as the pacer allows.
+void submit(SubmissionPacer& pacer, GLenum mode, const IndexRun& run, const SampleSpan& samples) {
+    const std::uint64_t max = pacer.maxTriangles();
+    if (max == 0) return drawIndices(mode, run, samples);
+    const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.count, max * 3));
+    for (std::uint32_t index = 0; index < run.count; index += step) {
+        const std::uint32_t count = std::min(step, run.count - index);
+        const auto sampleStep =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max * 3 / count, 1, samples.size()));
+        for (std::uint32_t sample = samples.begin; sample < samples.end; sample += sampleStep) {
+            const SampleSpan part{sample, std::min(sample + sampleStep, samples.end)};
+            drawIndices(mode, {run.first + index, count}, part);
+            pacer.submitted(std::uint64_t{count / 3} * part.size());
+        }
+    }
 }
 
 }  // namespace
@@ -285,25 +300,11 @@ void SurfacePass::bindVertices(const Draw& item, const Buffer& indices) {
     bound_.indices = indices.name();
 }
 
-// Calls drawSamples(first, count) for consecutive parts of samples [first, end), each with at most the triangles that
-// the pacer allows. `triangles` is the number of triangles per sample.
-void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
-    const std::uint64_t max = pacer_.maxTriangles();
-    const std::uint64_t step = max == 0 ? end - first : std::max<std::uint64_t>(1, max / triangles);
-    for (std::uint64_t at = first; at < end; at += step) {
-        const std::uint64_t count = std::min(step, end - at);
-        drawSamples(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count));
-        pacer_.submitted(count * triangles);
-    }
-}
-
 void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
     const SampleSpan samples = samplesOf(item, first, count);
     if (samples.empty()) return;
     bindDraw(item, samples.begin, item.partial ? partIndices_ : scene_->mesh(item.mesh).indices);
-    submit(samples.begin, samples.end, item.triangleCount, [&](std::uint32_t at, std::uint32_t size) {
-        for (const IndexRun& run : item.runs) drawIndices(modeOf(item.refinement), run.first, run.count, at, size);
-    });
+    for (const IndexRun& run : item.runs) submit(scene_->pacer(), modeOf(item.refinement), run, samples);
 }
 
 void SurfacePass::bindSolid(GLenum depthTest) {
@@ -382,9 +383,7 @@ std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::u
         const Draw& item = opaque_[part.draw];
         setFaces(item);
         bindDraw(item, samples.begin, indices);
-        submit(samples.begin, samples.end, part.indexCount / 3, [&](std::uint32_t at, std::uint32_t size) {
-            drawIndices(modeOf(item.refinement), part.firstIndex, part.indexCount, at, size);
-        });
+        submit(scene_->pacer(), modeOf(item.refinement), {part.firstIndex, part.indexCount}, samples);
         triangles += std::uint64_t{part.indexCount / 3} * samples.size();
     }
     return triangles;

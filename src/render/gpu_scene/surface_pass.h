@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "gl/pacer.h"
 #include "gl/program.h"
 #include "render/gpu_scene/backdrop.h"
 #include "render/gpu_scene/object_set.h"
@@ -140,7 +139,6 @@ private:
     void setFaces(const Draw& item) const;
     void bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices);
     void bindVertices(const Draw& item, const Buffer& indices);
-    void submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples);
 
     GpuScene* scene_;
     SurfacePassInfo info_;
@@ -149,7 +147,6 @@ private:
         passDefines_;  // defines of the frame's pass; index 1: no geometry shader selects the layer
     std::array<Programs*, 2> passPrograms_{};  // programs with passDefines_
     Bound bound_;
-    SubmissionPacer pacer_;
     Program sky_;
     ShaderDefines skyDefines_;  // defines of sky_
     VertexArray skyArray_;

@@ -14,10 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Memory of a software driver: compiled programs, and triangles that it bins until a layer is complete.
-constexpr std::uint64_t programBytes = 80u << 20;
-constexpr std::uint64_t binnedTriangleBytes = 96;
-constexpr std::uint64_t maxBinnedBytes = 256u << 20;
+constexpr std::uint64_t programBytes = 80u << 20;     // of the compiled programs of a software driver
+constexpr std::uint64_t outputBytes = 16u << 20;      // of the libraries that write the image, measured
+constexpr std::uint64_t occlusionTriangleBytes = 12;  // of Occlusion, measured
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
@@ -32,9 +31,10 @@ std::uint64_t pixelsOf(int width, int height) {
     return std::uint64_t(width) * std::uint64_t(height);
 }
 
-// Returns the bytes that a software driver needs for the plan's meshes, the scene's textures and the compiled programs.
-std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
-    std::uint64_t bytes = programBytes;
+// Returns the bytes that a software driver needs for the plan's meshes and the scene's textures, and that the occlusion
+// test needs for the meshes.
+std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
+    std::uint64_t bytes = 0;
     for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {
         const Pyramid& pyramid = world.pyramids[mesh];
         std::uint64_t vertices = 0;
@@ -44,7 +44,7 @@ std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
             vertices = std::max<std::uint64_t>(vertices, own.vertexCount);
             bytes += own.positions.size() * (2 * sizeof(glm::vec3)) + own.colors.size() * (2 * sizeof(glm::u16vec4)) +
                      (own.uv0.size() + own.uv1.size()) * sizeof(glm::vec2) +
-                     std::uint64_t{own.triangleCount} * 3 * sizeof(std::uint32_t);
+                     std::uint64_t{own.triangleCount} * (3 * sizeof(std::uint32_t) + occlusionTriangleBytes);
         }
         const Mesh& source = world.scene->meshes[mesh];
         bytes += vertices * ((source.vertices.tangents.empty() ? 0 : sizeof(glm::vec4)) +
@@ -74,12 +74,11 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = limits.wave;
     needs.shared = currentIsSoftware();
+    needs.elsewhere = remainder(residentMemory(), needs.shared ? drawn : 0) + outputBytes;
     if (needs.shared) {
         needs.layerPixel += sizeof(float);  // copy of the depths for the occlusion test
-        needs.layerMaps += std::min(
-            plan.trianglesDrawn / std::max<std::size_t>(plan.samples.size(), 1) * binnedTriangleBytes, maxBinnedBytes);
+        needs.elsewhere += std::min(plan.trianglesDrawn * pendingTriangleBytes, pendingBytesWithin(limit));
     }
-    needs.elsewhere = remainder(residentMemory(), needs.shared ? drawn : 0);
     needs.hostMemory = remainder(limit, needs.elsewhere);
     needs.deviceMemory = needs.hostMemory;
     if (!needs.shared) {
@@ -88,6 +87,12 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     }
     needs.mayUseCells = !plan.usesTransmission;
     return needs;
+}
+
+// Subtracts memory that the scene will take from the available memory. For software drivers.
+void reserve(TilingNeeds& needs, std::uint64_t bytes) {
+    needs.elsewhere += bytes;
+    needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, bytes);
 }
 
 // Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing it allocates all
@@ -114,6 +119,10 @@ std::uint64_t waveBytesWithin(std::uint64_t limit) {
     return std::min(RendererOptions{}.waveBytes, remainder(limit, residentMemory()) / 4);
 }
 
+std::uint64_t pendingBytesWithin(std::uint64_t limit) {
+    return std::min(RendererOptions{}.pendingBytes, limit / 12);
+}
+
 std::uint32_t waveWithin(const TilingNeeds& needs) {
     if (needs.askedWave > 0) return needs.askedWave;
     const std::uint64_t pixels = pixelsOf(needs.width, needs.height);
@@ -128,9 +137,7 @@ TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const D
                               std::uint64_t limit) {
     TilingNeeds needs = currentNeeds(world, plan, limits, limit);
     if (!needs.shared) return needs;
-    const std::uint64_t upload = bytesToUpload(world, plan);
-    needs.elsewhere += upload;
-    needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, upload);
+    reserve(needs, programBytes + sceneBytes(world, plan));
     return needs;
 }
 
@@ -142,7 +149,10 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     renderer.start(tileOf(plan, trial));
     renderer.advance();
     static_cast<void>(renderer.image());  // drivers may keep layers until the result is read
-    return currentNeeds(world, plan, limits, limit, drawn, remainder(renderer.stats().peakBytes, drawn));
+    const std::uint64_t uploaded = remainder(renderer.stats().peakBytes, drawn);
+    TilingNeeds needs = currentNeeds(world, plan, limits, limit, drawn, uploaded);
+    if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));  // objects outside the trial row
+    return needs;
 }
 
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit) {

@@ -25,6 +25,9 @@ std::uint64_t memoryLimit(const DrawLimits& limits);
 // within `limit` if this is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit);
 
+// Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
+std::uint64_t pendingBytesWithin(std::uint64_t limit);
+
 // Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
 // a quarter of the memory. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
