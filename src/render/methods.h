@@ -38,9 +38,9 @@ struct RendererOptions {
     std::uint32_t wave = 0;                  // lens samples per wave K; 0: as many as fit into waveBytes
     std::uint64_t waveBytes = 160ull << 20;  // max memory of a wave's layers
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
-    bool geometryShaderLayers = false;       // true: always select layers in a geometry shader
-    std::filesystem::path shaderFolder;      // shaders in this folder replace embedded shaders; empty: none
-    MethodSettings settings;                 // values of Method::settings; missing: default
+    bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
+    std::filesystem::path shaderFolder;  // shaders in this folder replace embedded shaders; empty: none
+    MethodSettings settings;             // values of Method::settings; missing: default
 };
 
 // Features of the aperture that a method reproduces.
