@@ -49,7 +49,7 @@ struct Shard {
 struct CaptureArguments {
     std::vector<ShotOverride> overrides;
     Shot shot;
-    Request request;
+    Request request = filmRequest();
     std::optional<FrameRange> range;
     Shard shard;
     std::optional<SampleRange> sampleRange;

@@ -433,7 +433,7 @@ Rows sampleRows() {
             "lod", "--lod", modes, MEMBER(lod),
             "Levels of detail of blurred objects. fractional: the samples are split between two levels. continuous: "
             "like fractional, but one sample draws both levels, each in some of its pixels, so that the pixels switch "
-            "one after another. nearest: one level. off: full detail")
+            "one after another; default of capture. nearest: one level. off: full detail")
             .inShot("/lod"),
         rows::number(
             "blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),

@@ -47,6 +47,25 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
+// Films split pixels between levels by default, because that pops least. Shot, options and presets override it.
+TEST_F(Capture, levelsChangePixelByPixelByDefault) {
+    const auto lodWith = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--range", "0", "--overwrite"};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(capture(words).exitCode, 0);
+        Metadata metadata;
+        readImage(folder() / name(0), metadata);
+        return std::get<std::string>(metadata.at("defocus:lod"));
+    };
+    EXPECT_EQ(lodWith({}), "continuous");
+    EXPECT_EQ(lodWith({"--lod", "nearest"}), "nearest");
+    EXPECT_EQ(lodWith({"--preset", "jeong2011"}), "fractional");
+    json document = shot();
+    document["lod"] = "off";
+    writeShot(document);
+    EXPECT_EQ(lodWith({}), "off");
+}
+
 // A frame is bit-identical if it is rendered alone, in the sequence, by another shard, with a second output format, or
 // with another wave size.
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
