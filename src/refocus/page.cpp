@@ -37,7 +37,8 @@ std::string base64(const std::vector<unsigned char>& bytes) {
     return text;
 }
 
-// Returns the offset of an image's 8-bit values, in [−1/2, 1/2) steps. The golden ratio spreads the offsets evenly.
+// Returns the dither offset that is added to all values of an image before they are rounded to 8 bits, from −1/2 to 1/2
+// of a step. Multiples of the golden ratio spread the offsets of the images evenly.
 double stepOffset(std::size_t image) {
     const double place = static_cast<double>(image) * 0.6180339887498949;
     return place - std::floor(place) - 0.5;

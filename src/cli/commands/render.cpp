@@ -49,18 +49,19 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                        [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
                  ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
-                       "Range of the lens samples to draw, in multiples of 64. Writes their sums to an EXR file for "
-                       "'defocus merge'",
+                       "Draw only lens samples FIRST to END-1 (multiples of 64), to an EXR file that 'defocus merge' "
+                       "combines with the other parts",
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     advanced(addParsed(command, "--tile", "I/N",
-                       "Render only part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+                       "Divide the image into N horizontal bands and render only band I (0 to N-1), to an EXR file for "
+                       "'defocus merge'",
                        [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
                  ->group(group));
     command
         .add_flag("--resume", arguments.resume,
-                  "Continue an interrupted run with the same settings: keep its finished tiles (folder out.tiles "
-                  "beside the first output), or the finished file of --tile")
+                  "Continue an interrupted run with the same settings and keep the parts that it has finished, in "
+                  "folder out.tiles beside the first output or in the file of --tile")
         ->group(group);
     advanced(command
                  .add_flag("--keep-partial", arguments.keepPartial,
@@ -68,8 +69,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                            "far; the exit code is 1. A second signal ends the program at once")
                  ->group(group));
     advanced(addParsed(command, "--lens-images", "FILE.exr",
-                       "Write the image of each lens sample to a multi-part EXR file for 'defocus refocus', which then "
-                       "chooses focus, f-number and bokeh. Replaces --output",
+                       "Write the image of each lens sample to a multi-part EXR file. With 'defocus refocus', focus, "
+                       "f-number and bokeh can then be changed after rendering. Replaces --output",
                        [&arguments](const std::string& text) { arguments.lensImages = text; })
                  ->excludes("--output")
                  ->excludes("--aov")
@@ -78,8 +79,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->excludes("--resume")
                  ->group(group));
     advanced(addParsed(command, "--focus-range", "NEAR:FAR",
-                       "Focus distances in m that --lens-images must allow; FAR may be inf. Default: from the nearest "
-                       "to the farthest visible surface",
+                       "Range of focus distances in m that 'defocus refocus' can choose from; FAR may be inf. Default: "
+                       "from the nearest to the farthest visible surface",
                        [&arguments](const std::string& text) { arguments.focusRange = parseFocusRange(text); })
                  ->needs("--lens-images")
                  ->group(group));

@@ -100,8 +100,8 @@ private:
         const Program* program = nullptr;
     };
 
-    // Inputs of the latest draw. A draw with the same inputs does not bind them again, which takes longer than drawing
-    // a small object.
+    // Inputs of the latest draw. A draw with the same inputs does not bind them again, because binding takes longer
+    // than drawing a small object.
     struct Bound {
         const Program* program = nullptr;
         int mesh = -1;
