@@ -52,7 +52,8 @@ struct Request {
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first animation
     bool loop = false;              // true: the animation repeats; false: its first and last pose are held
-    double shutter = 0;             // s, duration of the exposure; > 0 gives motion blur
+    // s, duration of the exposure; > 0 gives motion blur. Default: the shutter of `cameraFrom`, else 0.
+    std::optional<double> shutter;
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::filesystem::path environment;  // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr file
@@ -69,6 +70,8 @@ struct Request {
 
     // Camera and image.
     CameraChoice camera;
+    // Camera in a file of its own, such as "shot.usda:/World/cam"; replaces the scene's camera. Empty: none.
+    std::string cameraFrom;
     std::optional<Vector3> cameraPosition;  // replaces the camera's position
     std::optional<Vector3> cameraTarget;    // point to look at; replaces the camera's direction
     std::optional<Vector3> cameraUp;        // replaces the camera's up vector

@@ -41,6 +41,7 @@ class Keywords(TypedDict, total=False):
     light_angle: Optional[float]  # degrees
     light_radius: Optional[float]  # m
     camera: Optional[str]
+    camera_from: Optional[Path]
     camera_position: Optional[Union[Point, str]]  # m
     camera_target: Optional[Union[Point, str]]  # m
     camera_up: Optional[Union[Point, str]]

@@ -447,7 +447,7 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus capture shot.json --shard 2/8 --resume");
     command->callback([arguments, command, &global] {
         const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
-        runCapture(*arguments, {given("--camera"), given("--shutter")}, global);
+        runCapture(*arguments, {given("--camera") || given("--camera-from"), given("--shutter")}, global);
     });
 }
 

@@ -18,6 +18,7 @@
 #include "core/source_date.h"
 #include "frame/program_facts.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/moment.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "render/sampling/block_schedule.h"
@@ -128,7 +129,7 @@ std::string statsJson(const RenderReport& report) {
         {"scene", report.frame.sceneName},
         {"camera", report.frame.cameraName},
         {"time", report.options.time},
-        {"shutter", report.options.shutter},
+        {"shutter", shutterOf(report.options, *report.frame.scene).seconds},
         {"width", report.plan.view.width},
         {"height", report.plan.view.height},
         {"method", report.method},
