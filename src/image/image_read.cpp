@@ -24,6 +24,7 @@
 #include "image/oiio_names.h"
 #include "image/packed_pixels.h"
 #include "image/png_structure.h"
+#include "image/time_code.h"
 
 namespace defocus::engine {
 
@@ -250,6 +251,11 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
         std::memcpy(&matrix, attribute.data(), sizeof matrix);
         return matrix;
     }
+    if (type == OIIO::TypeRational) {
+        const auto* const parts = static_cast<const int*>(attribute.data());
+        return Rational{parts[0], parts[1]};
+    }
+    if (type == OIIO::TypeTimeCode) return timeCodeOf(*static_cast<const std::uint32_t*>(attribute.data()));
     return std::nullopt;
 }
 

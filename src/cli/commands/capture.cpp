@@ -33,6 +33,7 @@
 #include "frame/setup/exposure.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "image/time_code.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -162,6 +163,8 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         metadata["capDate"] = std::string();  // empty, because the image library would insert the current time
         metadata["defocus:frame"] = frame.frame;
         metadata["defocus:frameRate"] = arguments.shot.frameRate;
+        metadata["framesPerSecond"] = rationalFrameRate(arguments.shot.frameRate);
+        if (const auto code = timeCodeOfFrame(frame.frame, arguments.shot.frameRate)) metadata["timeCode"] = *code;
         return metadata;
     };
 }

@@ -108,6 +108,8 @@ Metadata renderMetadata(const RenderReport& report) {
         metadata["expTime"] = lens.exposureTime;
         metadata["isoSpeed"] = lens.iso;
         metadata["defocus:exposure"] = photographicExposure(lens);
+    } else if (const double seconds = shutterOf(report.options, *report.frame.scene).seconds; seconds > 0) {
+        metadata["expTime"] = seconds;
     }
     if (report.exposure) metadata["defocus:exposure"] = *report.exposure;
     for (const LensField& field : lensFields()) {
