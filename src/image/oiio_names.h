@@ -9,14 +9,13 @@
 namespace defocus::engine {
 
 // Pairs of an EXR attribute name and the name that OpenImageIO uses for it.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 9> oiioNames = {{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> oiioNames = {{
     {"aperture", "FNumber"},
     {"expTime", "ExposureTime"},
     {"comments", "ImageDescription"},
     {"owner", "Copyright"},
     {"capDate", "DateTime"},
     {"worldToCamera", "worldtocamera"},
-    {"framesPerSecond", "FramesPerSecond"},
     {"timeCode", "smpte:TimeCode"},
     {"pixelAspectRatio", "PixelAspectRatio"},
 }};
