@@ -17,6 +17,7 @@
 #include "defocus/exposure.h"
 #include "defocus/focus.h"
 #include "defocus/image.h"
+#include "defocus/layers.h"
 #include "defocus/lens.h"
 #include "defocus/settings.h"
 
@@ -106,6 +107,11 @@ struct Request {
     std::string method = "auto";
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
+
+    // Layers in EXR files beside the picture. They need a method that sums lens samples; method "auto" then
+    // accumulates.
+    std::vector<Layer> layers;
+    ExrNames exrNames = ExrNames::nuke;
 
     // Conversion to PNG, JPEG and video.
     ToneMap toneMap = ToneMap::neutral;

@@ -36,6 +36,7 @@ RenderSettings renderSettings(const Request& request) {
     settings.multipleScattering = request.multipleScattering;
     settings.cocTolerance = request.cocTolerance;
     settings.keepAll = request.keepAll;
+    settings.layers = request.layers;
     return settings;
 }
 

@@ -81,6 +81,15 @@ struct ImageLayer {
     std::string name;
     Image image;  // 3 or 4 channels
 };
+// Writes named channels, of images of equal size, to one EXR file in the same format. Throws Error if images differ in
+// size or if two channels have the same name.
+struct NamedChannels {
+    std::vector<std::string> names;  // one per channel of `image`, such as "N.X"
+    Image image;
+};
+void writeChannels(const std::filesystem::path& path, const std::vector<NamedChannels>& parts,
+                   const Metadata& metadata);
+
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "frame/report/layer_file.h"
 #include "frame/report/picture_warnings.h"
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/exposure.h"
@@ -204,6 +205,12 @@ AovImages SceneDriver::aovs() {
     return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
 }
 
+std::optional<LayerImages> SceneDriver::layerImages() {
+    FrameDriver& driver = this->driver();
+    const InContext use(*context_);
+    return driver.layerImages();
+}
+
 Image SceneDriver::work() {
     const FramePlan& plan = driver().plan();
     const InContext use(*context_);
@@ -285,7 +292,9 @@ Metadata SceneDriver::metadata() {
 
 void SceneDriver::write(const std::filesystem::path& path, const ImageView& image) {
     const WriteOptions options = writeOptions();
-    writeImage(path, image, metadata(), options);
+    const std::optional<LayerImages> layers = holdsLayers(path) ? layerImages() : std::nullopt;
+    writePicture(path, image, layers ? &*layers : nullptr, *frame_.scene, frame_.world.pose, request_.exrNames,
+                 metadata(), options);
     const std::string ending = path.extension().string();
     if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
 }

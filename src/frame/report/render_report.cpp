@@ -180,6 +180,7 @@ std::string statsJson(const RenderReport& report) {
         json["samplesAutomatic"] = true;
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
+    for (const PassTime& pass : stats.passes) json["passMilliseconds"][pass.name] = pass.milliseconds;
     for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -29,6 +29,10 @@ std::string withoutShutter(const SettingContext& context) {
     return own || context.request.shutter.value_or(0) > 0 ? "" : "there is no motion blur without --shutter";
 }
 
+std::string withoutLayers(const SettingContext& context) {
+    return context.request.layers.empty() ? "there are no layers without --exr-layers" : "";
+}
+
 std::string withoutEnvironment(const SettingContext& context) {
     return context.request.environment.empty() ? "there is no environment map without --environment" : "";
 }

@@ -502,6 +502,19 @@ Rows methodRows() {
 
 Rows displayRows() {
     return {
+        rows::other(
+            "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
+            "Layers beside the picture in .exr files, drawn through the lens with the picture's samples and "
+            "premultiplied by the coverage: depth (mean and nearest, m), position, normal, albedo, emission, "
+            "motion (px while the shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            .clears(MEMBER(layers))
+            .example("depth,normal,albedo"),
+        rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
+                               MEMBER(exrNames),
+                               "Channel names of --exr-layers: Nuke's (depth.Z, N.X) or Blender's (ViewLayer.Depth.Z)")
+            .effect(SettingEffect::run)
+            .recorded()
+            .unused(withoutLayers),
         rows::choice<ToneMap>(
             "toneMap", "--tonemap",
             {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},

@@ -60,7 +60,7 @@ def Camera "cam"
 }
 )";
 
-// What a reader must pass over: comments, dictionaries, relationships, variants, list edits, assets and other prims.
+// Content that a reader must skip: comments, dictionaries, relationships, variants, list edits, assets and other prims.
 inline constexpr const char* everything = R"(#usda 1.0
 ( # a comment
     customLayerData = { string a = "b"; int[] c = [1, 2]; dictionary d = { double e = 1e-3 } }
