@@ -21,6 +21,7 @@
 #include "core/stopwatch.h"
 #include "frame/driver/frame_output.h"
 #include "frame/program_facts.h"
+#include "frame/report/layer_file.h"
 #include "frame/report/picture_warnings.h"
 #include "image/image_io.h"
 #include "plan/lens_cells/swept_work.h"
@@ -129,6 +130,10 @@ void checkOutputs(const RenderArguments& arguments) {
     checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
         fail("--aov writes files beside the first output; give a file as the first output");
+    if (!request.layers.empty()) {
+        if (std::ranges::none_of(arguments.outputs, holdsLayers)) fail("--exr-layers needs an .exr file as an output");
+        if (arguments.keepPartial) fail("--keep-partial keeps the picture only; leave out --exr-layers");
+    }
     FrameOutput::check(filesOf(arguments), request);
 }
 
@@ -257,7 +262,14 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     };
     if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
     const Metadata metadata = driver.metadata();
-    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
+    const std::optional<LayerImages> layers = driver.layerImages();
+    for (const std::filesystem::path& path : arguments.outputs) {
+        if (isStandardOutput(path))
+            writeOutput(path, image, metadata, options);
+        else
+            writePicture(path, image, layers ? &*layers : nullptr, *driver.frame().scene, driver.frame().world.pose,
+                         arguments.request.exrNames, metadata, options);
+    }
 }
 
 // Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.

@@ -54,8 +54,11 @@ Row shutterRow() {
     return rows::other(
                "shutter", "--shutter", "S",
                [](Request& request, const std::string& text) { request.shutter = parseSeconds(text); },
-               [](const Request& request) { return std::optional(fmt::format("{}", request.shutter)); },
-               "Time in seconds that the shutter is open, such as 0.02 or 1/48; gives motion blur. 0: no motion blur")
+               [](const Request& request) -> std::optional<std::string> {
+                   return request.shutter ? std::optional(fmt::format("{}", *request.shutter)) : std::nullopt;
+               },
+               "Time in seconds that the shutter is open, such as 0.02 or 1/48; gives motion blur. 0: no motion blur. "
+               "Default: the shutter of --camera-from, else 0")
         .kind(SettingKind::number)
         .range(0, 1e6)
         .clears(MEMBER(shutter));
@@ -215,6 +218,13 @@ Rows cameraRows() {
             .everyday()
             .example("Camera")
             .inShot("/camera/name"),
+        rows::words(
+            SettingKind::path, "cameraFrom", "--camera-from", "FILE[:CAMERA]", MEMBER(cameraFrom),
+            "Camera from another file, with lens, animation and shutter: a USD text file (.usda), a glTF file, or "
+            "the JSON of 'defocus export-camera'. CAMERA is a path such as /World/cam or a name; default: the "
+            "file's only camera")
+            .excludes({"camera"})
+            .example("shot.usda:/World/cam"),
         pointRow(
             "cameraPosition", "--camera-position", MEMBER(cameraPosition),
             "Position of the camera in m. Does not move the default lights. Default: the position of the file's camera")
@@ -491,6 +501,19 @@ Rows methodRows() {
 
 Rows displayRows() {
     return {
+        rows::other(
+            "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
+            "Layers beside the picture in .exr files, drawn through the lens with the picture's samples and "
+            "premultiplied by the coverage: depth (mean and nearest, m), position, normal, albedo, emission, "
+            "motion (px while the shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            .clears(MEMBER(layers))
+            .example("depth,normal,albedo"),
+        rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
+                               MEMBER(exrNames),
+                               "Channel names of --exr-layers: Nuke's (depth.Z, N.X) or Blender's (ViewLayer.Depth.Z)")
+            .effect(SettingEffect::run)
+            .recorded()
+            .unused(withoutLayers),
         rows::choice<ToneMap>(
             "toneMap", "--tonemap",
             {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
