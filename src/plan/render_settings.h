@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "defocus/focus.h"
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
@@ -13,12 +14,6 @@ enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
     blur,  // only the lens's blur, as with infinitely many pixels
-};
-
-// Focus distances in m; 0 < nearest ≤ farthest, and infinity is allowed.
-struct FocusRange {
-    double nearest = 0;
-    double farthest = 0;
 };
 
 struct RenderSettings {

@@ -30,12 +30,15 @@ struct LightFieldInfo {
     FocusRange range;                // focus distances for which margin and levels of detail are sufficient
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
+    std::vector<glm::dvec2> pixels;  // position of each image's samples in px from the pixel's centre, right and up
     Metadata metadata;               // of the frame, without the values above
 
     // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
+    // Returns a number of `metadata`, or `standard` if it is missing.
+    [[nodiscard]] double number(const char* name, double standard) const;
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for

@@ -168,6 +168,7 @@ std::string refocusPage(LightField& field, const std::string& title, const Refoc
                            {"images", encodedImages(field, count, maximum, limit, progress)}};
     for (std::size_t i = 0; i < count; ++i) {
         data["points"].push_back({info.points[i].x, info.points[i].y});
+        data["pixels"].push_back({info.pixels[i].x, info.pixels[i].y});
         data["offsets"].push_back(stepOffset(i) / 255);
     }
     std::string page(refocusPageText);

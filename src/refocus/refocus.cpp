@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <memory>
 #include <string_view>
 
 #include "core/error.h"
@@ -16,11 +19,7 @@ namespace {
 
 constexpr double tolerance = 1e-6;  // relative, for values that were written as text and read again
 
-double numberOr(const Metadata& metadata, const char* name, double standard) {
-    const auto found = metadata.find(name);
-    const double* const value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    return value != nullptr ? *value : standard;
-}
+constexpr std::size_t imagesAtOnce = 8;
 
 void checkRanges(const LightFieldInfo& info, const Refocusing& refocusing, const std::string& name) {
     const double dioptres = 1 / refocusing.focusDistance;
@@ -47,6 +46,12 @@ Refocusing asRendered(const LightFieldInfo& info) {
     return {info.focusDistance, info.fStop, {}};
 }
 
+glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift) {
+    constexpr double farthest = 1e6;  // px; keeps the result within the range of int
+    const double within = std::clamp(shift, -farthest, farthest);
+    return glm::ivec2(glm::floor(within * info.points[image] + info.pixels[image] + 0.5));
+}
+
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name) {
     checkRanges(info, refocusing, name);
@@ -56,7 +61,7 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
     std::vector<ShiftedImage> images;
     for (std::size_t i = 0; i < info.points.size(); ++i) {
         const double weight = info.disk ? lightDensity(aperture, scale * info.points[i]) : 1;
-        if (weight > 0) images.push_back({i, shift * info.points[i], weight});
+        if (weight > 0) images.push_back({i, wholeMove(info, i, shift), weight});
     }
     if (images.empty())
         fail(
@@ -68,11 +73,17 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
 
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
     const std::vector<ShiftedImage> images = shiftedImages(field.info(), refocusing, field.name());
-    const double white = std::exp2(-refocusedExposure(field.info(), asRendered(field.info())));
-    ShiftedSum sum(field.info().size, static_cast<float>(white));
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        sum.add(*field.colour(images[i].image), images[i].shift, static_cast<float>(images[i].weight));
-        report(progress, "lens images", i + 1, images.size());
+    ShiftedSum sum(field.info().size);
+    for (std::size_t first = 0; first < images.size(); first += imagesAtOnce) {
+        const std::size_t end = std::min(first + imagesAtOnce, images.size());
+        std::vector<std::shared_ptr<const Image>> colours;
+        std::vector<MovedImage> moved;
+        for (std::size_t i = first; i < end; ++i) {
+            colours.push_back(field.colour(images[i].image));
+            moved.push_back({colours.back().get(), images[i].move, static_cast<float>(images[i].weight)});
+        }
+        sum.add(moved);
+        report(progress, "lens images", end, images.size());
     }
     return sum.mean();
 }
@@ -100,8 +111,8 @@ Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocus
 }
 
 double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing) {
-    const double rendered = numberOr(info.metadata, "defocus:exposure", 0);
-    const bool timed = numberOr(info.metadata, "defocus:exposureTime", 0) > 0;
+    const double rendered = info.number("defocus:exposure", 0);
+    const bool timed = info.number("defocus:exposureTime", 0) > 0;
     return timed ? rendered + 2 * std::log2(info.fStop / refocusing.fStop) : rendered;
 }
 

@@ -20,47 +20,31 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "refocus/page.h"
+#include "refocus/refocus_settings.h"
 
 namespace defocus::engine {
 
 namespace {
 
-// Settings of `render` that can be chosen afterwards.
-const std::vector<std::string> refocusSettings = {"focusDistance",   "focusPixel",    "fStop",
-                                                  "bladeCount",      "bladeRotation", "bladeCurvature",
-                                                  "anamorphicRatio", "obstruction",   "sphericalAberration",
-                                                  "apertureImage",   "toneMap"};
+// Returns the names of the settings of `render` that the command has.
+std::vector<std::string> ownSettings() {
+    std::vector<std::string> names = refocusSettings();
+    names.emplace_back("toneMap");
+    return names;
+}
 
 struct RefocusArguments {
     std::filesystem::path file;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
-    Request request;                 // values of refocusSettings
+    Request request;                 // values of ownSettings()
     std::optional<double> exposure;  // EV; none: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
     FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };
 
-// Returns the aperture's shape that the request gives; none if it gives no shape.
-std::optional<Lens> requestedShape(const Request& request) {
-    LensValues values = givenLensValues(request);
-    for (const char* other : {"fStop", "focusDistance"}) values.erase(other);
-    if (values.empty() && request.lens.apertureImage.empty()) return {};
-    Lens lens;
-    setLensFields(lens, values);
-    if (!request.lens.apertureImage.empty()) lens.apertureImage = loadApertureImage(request.lens.apertureImage);
-    return lens;
-}
-
 Refocusing requested(const Request& request, LightField& field) {
-    Refocusing refocusing = asRendered(field.info());
-    if (const auto* const distance = std::get_if<FocusDistance>(&request.focus))
-        refocusing.focusDistance = distance->metres;
-    if (const auto* const at = std::get_if<FocusPixel>(&request.focus))
-        refocusing.focusDistance = focusAtPixel(field, at->pixel);
-    refocusing.fStop = request.lens.fStop.value_or(refocusing.fStop);
-    refocusing.shape = requestedShape(request);
-    return refocusing;
+    return refocusingOf({request.focus, request.lens}, field);
 }
 
 void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
@@ -68,7 +52,7 @@ void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
     if (extension != ".html" && extension != ".htm")
         throw UsageError(fmt::format("--html writes a web page; end '{}' with .html", arguments.page.string()));
     checkImageOutputs({}, {arguments.page}, {arguments.file});
-    if (requestedShape(arguments.request))
+    if (apertureShape(arguments.request.lens))
         throw UsageError("--html has its own choice of aperture shapes; leave out the options of the aperture");
     LightField field(arguments.file);
     const Refocusing start = requested(arguments.request, field);
@@ -162,7 +146,7 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
         ->default_str("")
         ->excludes("--html")
         ->excludes(pull);
-    addSettings(*command, arguments->request, refocusSettings);
+    addSettings(*command, arguments->request, ownSettings());
     command->footer(
         "Examples:\n"
         "  defocus render scene.glb --lens-images scene.lens.exr --fstop 1.4 --samples 128\n"
