@@ -529,8 +529,8 @@ void defineRenderer(py::module_& package) {
 }
 
 // Returns the choices of a request that are possible after rendering.
-defocus::RefocusSettings refocusing(const defocus::Request& request) {
-    return {request.focus, request.lens};
+defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = false) {
+    return {request.focus, request.lens, fillGaps};
 }
 
 void defineLightField(py::module_& package) {
@@ -572,14 +572,16 @@ void defineLightField(py::module_& package) {
         .def("warnings",
              [](SharedLightField& self) { return self.with([](const LightField& field) { return field.warnings(); }); })
         .def("refocus",
-             [](SharedLightField& self, const Request& request, const Listener& progress) {
-                 return arrayOf(self.with(
-                     [&](LightField& field) { return field.refocus(refocusing(request), listening(progress)); }));
+             [](SharedLightField& self, const Request& request, bool fillGaps, const Listener& progress) {
+                 return arrayOf(self.with([&](LightField& field) {
+                     return field.refocus(refocusing(request, fillGaps), listening(progress));
+                 }));
              })
         .def("stack",
-             [](SharedLightField& self, int count, const Request& request, const Listener& progress) {
-                 defocus::FocalStack stack = self.with(
-                     [&](LightField& field) { return field.stack(count, refocusing(request), listening(progress)); });
+             [](SharedLightField& self, int count, const Request& request, bool fillGaps, const Listener& progress) {
+                 defocus::FocalStack stack = self.with([&](LightField& field) {
+                     return field.stack(count, refocusing(request, fillGaps), listening(progress));
+                 });
                  py::list pictures;
                  for (defocus::Image& picture : stack.pictures) pictures.append(arrayOf(std::move(picture)));
                  return py::make_tuple(stack.focusDistances, pictures);

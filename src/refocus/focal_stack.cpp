@@ -42,8 +42,7 @@ Image centralDepth(LightField& field) {
 Image centralCoc(LightField& field, const Refocusing& refocusing) {
     const LightFieldInfo& info = field.info();
     static_cast<void>(shiftedImages(info, refocusing, field.name()));  // checks the ranges
-    // A surface at depth z is displaced by (1/s − 1/z) · P · (u, v) px at the rendered f-number.
-    const double diameter = 2 * info.pixelsPerDioptre * info.fStop / refocusing.fStop;
+    const double diameter = diameterPerDioptre(info, refocusing);
     Image image = centralDepth(field);
     for (float& value : image.pixels)
         value = static_cast<float>(diameter * (1 / refocusing.focusDistance - inverse(value)));
@@ -63,7 +62,7 @@ Image allInFocus(LightField& field, const Progress& progress) {
         if (i != field.central()) order.push_back(i);
     for (std::size_t done = 0; done < order.size(); ++done) {
         const std::size_t i = order[done];
-        const std::shared_ptr<const Image> colours = field.colour(i);
+        const std::shared_ptr<const HalfImage> colours = field.colour(i);
         const Image depths = field.depth(i);
         parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
             const int y = static_cast<int>(row);
@@ -74,7 +73,7 @@ Image allInFocus(LightField& field, const Progress& progress) {
                 const int column = std::clamp(x + size.margin - move.x, 0, depths.width - 1);
                 const int line = std::clamp(y + size.margin + move.y, 0, depths.height - 1);
                 if (done > 0 && std::abs(inverse(*depths.at(column, line)) - surface) > tolerance) continue;
-                for (int c = 0; c < 4; ++c) sum.at(x, y)[c] += colours->at(column, line)[c];
+                for (int c = 0; c < 4; ++c) sum.at(x, y)[c] += fromHalf(colours->at(column, line)[c]);
                 ++counts[row * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
             }
         });

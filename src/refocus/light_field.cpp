@@ -36,11 +36,11 @@ constexpr std::array unsuited = {
 
 void checkThinLens(const Lens& lens) {
     if (!(apertureDiameter(lens) > 0))
-        fail("--lens-images needs depth of field; leave out --no-dof and a blur scale of 0");
+        fail("lens images need depth of field; leave out --no-dof and a blur scale of 0");
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
-            fail("--lens-images cannot be combined with {}: a change of focus would not move each image as a whole",
+            fail("lens images cannot be combined with {}: a change of focus would not move each image as a whole",
                  field.option);
     }
 }
@@ -122,11 +122,22 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const int longer = std::max(view.width, view.height);
     if (!(largestMove(info) <= longer))
         fail(
-            "--focus-range {:.3g}:{:.3g} needs a margin of {:.0f} px, more than the image's {} px; give a narrower "
-            "range or a larger --fstop",
+            "lens images for a focus from {:.3g} to {:.3g} m need a margin of {:.0f} px, more than the image's {} px; "
+            "give a narrower range or a larger --fstop",
             range.nearest, range.farthest, largestMove(info), longer);
     info.size = {view.width, view.height, marginOf(info)};
     return info;
+}
+
+void addSamples(LightFieldInfo& info, const FramePlan& plan) {
+    if (plan.usesOwnBlur)
+        fail(
+            "lens images cannot show objects or vertices with their own blur (--node-blur, vertex attributes): a "
+            "change of focus would not move each image as a whole");
+    for (const LensSample& sample : plan.samples) {
+        info.points.emplace_back(sample.lens);
+        info.pixels.emplace_back(sample.pixel);
+    }
 }
 
 std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
@@ -151,15 +162,16 @@ std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
 LightField::LightField(const std::filesystem::path& path)
     : name_(path.string()), parts_(path), info_(infoOf(parts_, name_)) {}
 
-std::shared_ptr<const Image> LightField::colour(std::size_t i) {
-    if (kept_.empty()) return std::make_shared<const Image>(parts_.colour(i));
-    if (!kept_[i]) kept_[i] = std::make_shared<const Image>(parts_.colour(i));
+std::shared_ptr<const HalfImage> LightField::colour(std::size_t i) {
+    if (kept_.empty()) return std::make_shared<const HalfImage>(parts_.colour(i));
+    if (!kept_[i]) kept_[i] = std::make_shared<const HalfImage>(parts_.colour(i));
     return kept_[i];
 }
 
 void LightField::keepImages() {
     const PartSize& size = info_.size;
-    const std::uint64_t bytes = std::uint64_t(size.fullWidth()) * std::uint64_t(size.fullHeight()) * 4 * sizeof(float);
+    const std::uint64_t bytes =
+        std::uint64_t(size.fullWidth()) * std::uint64_t(size.fullHeight()) * 4 * sizeof(std::uint16_t);
     if (bytes * info_.points.size() < freeMemory() / 2) kept_.resize(info_.points.size());
 }
 

@@ -69,15 +69,7 @@ void LightFieldOutput::start(const Progress& progress) {
         LensImageOrder{info_.range, info_.size.margin,
                        [this](std::uint32_t, Image&& colour, Image&& depth) { writer_->write(colour, depth); }};
     driver_.start(request, parts, progress);
-    const FramePlan& plan = driver_.driver().plan();
-    if (plan.usesOwnBlur)
-        fail(
-            "--lens-images cannot draw objects or vertices with their own blur (--node-blur, vertex attributes): a "
-            "change of focus would not move each image as a whole");
-    for (const LensSample& sample : plan.samples) {
-        info_.points.emplace_back(sample.lens);
-        info_.pixels.emplace_back(sample.pixel);
-    }
+    addSamples(info_, driver_.driver().plan());
     writer_.emplace(path_, info_.size, partMetadata(info_));
 }
 

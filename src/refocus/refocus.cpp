@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "lens/aperture.h"
 #include "lens/lens_fields.h"
+#include "refocus/gap_filling.h"
 #include "refocus/shifted_sum.h"
 
 namespace defocus::engine {
@@ -71,21 +72,47 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
     return images;
 }
 
-Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
-    const std::vector<ShiftedImage> images = shiftedImages(field.info(), refocusing, field.name());
-    ShiftedSum sum(field.info().size);
+Image sharpSum(LensImages& lensImages, const Refocusing& refocusing, const Progress& progress) {
+    const std::vector<ShiftedImage> images = shiftedImages(lensImages.info(), refocusing, lensImages.name());
+    ShiftedSum sum(lensImages.info().size);
     for (std::size_t first = 0; first < images.size(); first += imagesAtOnce) {
         const std::size_t end = std::min(first + imagesAtOnce, images.size());
-        std::vector<std::shared_ptr<const Image>> colours;
+        std::vector<std::shared_ptr<const HalfImage>> colours;
         std::vector<MovedImage> moved;
         for (std::size_t i = first; i < end; ++i) {
-            colours.push_back(field.colour(images[i].image));
+            colours.push_back(lensImages.colour(images[i].image));
             moved.push_back({colours.back().get(), images[i].move, static_cast<float>(images[i].weight)});
         }
         sum.add(moved);
         report(progress, "lens images", end, images.size());
     }
     return sum.mean();
+}
+
+namespace {
+
+Image withoutGaps(LightField& field, const Refocusing& refocusing, const Progress& progress) {
+    const LightFieldInfo& info = field.info();
+    const std::vector<ShiftedImage> images = shiftedImages(info, refocusing, field.name());
+    GapFilling filling(info.size, {diameterPerDioptre(info, refocusing), 1 / refocusing.focusDistance}, images.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const std::shared_ptr<const HalfImage> colour = field.colour(images[i].image);
+        const Image depth = field.depth(images[i].image);
+        const DeepMovedImage moved{colour.get(), &depth, images[i].move, static_cast<float>(images[i].weight)};
+        filling.add({&moved, 1});
+        report(progress, "lens images", i + 1, images.size());
+    }
+    return filling.mean();
+}
+
+}  // namespace
+
+Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
+    return refocusing.fillGaps ? withoutGaps(field, refocusing, progress) : sharpSum(field, refocusing, progress);
+}
+
+double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusing) {
+    return 2 * info.pixelsPerDioptre * info.fStop / refocusing.fStop;
 }
 
 double focusAtPixel(LightField& field, const Pixel& pixel) {

@@ -23,6 +23,7 @@ struct Refocusing {
     double focusDistance = 1;        // m; within LightFieldInfo::range
     double fStop = 1;                // not below LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; none: as rendered
+    bool fillGaps = false;           // blur each image by its cell of the lens (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
@@ -46,8 +47,13 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
                                         const std::string& name);
 
 // Returns the picture: linear, premultiplied RGBA. Throws Error in the cases of shiftedImages, and if the file is
-// damaged. Reads one image at a time.
+// damaged. Reads a few images at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
+// Returns the picture without filled gaps.
+Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});
+
+// Returns the diameter in px of the circle of confusion of a surface that is one dioptre out of focus.
+double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusing);
 
 // Returns the distance in m of the surface at a pixel. Throws Error if the pixel is outside the image or shows no
 // surface.

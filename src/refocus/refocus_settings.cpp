@@ -47,6 +47,7 @@ Refocusing refocusingOf(const RefocusSettings& settings, LightField& field) {
         throw UsageError("the focus of a picture from lens images must be a distance or a pixel");
     refocusing.fStop = settings.lens.fStop.value_or(refocusing.fStop);
     refocusing.shape = apertureShape(settings.lens);
+    refocusing.fillGaps = settings.fillGaps;
     return refocusing;
 }
 

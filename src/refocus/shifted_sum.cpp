@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/parallel.h"
 
@@ -25,9 +26,9 @@ void addCompensated(float& sum, float& compensation, float value) {
 }
 
 // Adds `count` values times `weight` to compensated sums.
-void addRow(const float* __restrict values, float weight, std::size_t count, float* __restrict sums,
+void addRow(const std::uint16_t* __restrict values, float weight, std::size_t count, float* __restrict sums,
             float* __restrict compensations) {
-    for (std::size_t i = 0; i < count; ++i) addCompensated(sums[i], compensations[i], weight * values[i]);
+    for (std::size_t i = 0; i < count; ++i) addCompensated(sums[i], compensations[i], weight * fromHalf(values[i]));
 }
 
 // Adds `count` compensated sums to others.

@@ -7,16 +7,16 @@
 #include <glm/vec2.hpp>
 #include <span>
 
-#include "image/image.h"
+#include "image/half_image.h"
 #include "image/image_parts.h"
 
 namespace defocus::engine {
 
 // An image that is moved and weighted.
 struct MovedImage {
-    const Image* image = nullptr;  // RGBA, of the full size
-    glm::ivec2 move{0};            // px, right and up; each component at most the margin
-    float weight = 1;              // ≥ 0
+    const HalfImage* image = nullptr;  // of the full size
+    glm::ivec2 move{0};                // px, right and up; each component at most the margin
+    float weight = 1;                  // ≥ 0
 };
 
 class ShiftedSum {

@@ -75,7 +75,7 @@ def test_progress_can_cancel_a_render(tmp_path):
 
 def test_help_shows_the_choices():
     assert set(inspect.signature(defocus.LightField.refocus).parameters) == {
-        "self", "progress", "focus_distance", "focus_pixel", "f_stop", "blade_count", "blade_rotation",
+        "self", "fill_gaps", "progress", "focus_distance", "focus_pixel", "f_stop", "blade_count", "blade_rotation",
         "blade_curvature", "anamorphic_ratio", "obstruction", "spherical_aberration", "aperture_image"}
 
 

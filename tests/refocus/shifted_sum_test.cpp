@@ -16,32 +16,32 @@ constexpr PartSize small{12, 8, 4};
 
 // Returns an image of the full size with the values of `value(x, y)`, in px right of and above the image's centre.
 template <typename Value>
-Image pattern(const Value& value) {
+HalfImage pattern(const Value& value) {
     Image image(small.fullWidth(), small.fullHeight(), 4);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             std::fill_n(image.at(x, y), 4, static_cast<float>(value(x - image.width / 2, image.height / 2 - y)));
-    return image;
+    return halfImage(image);
 }
 
-Image moved(const Image& image, const glm::ivec2& move) {
+Image moved(const HalfImage& image, const glm::ivec2& move) {
     ShiftedSum sum(small);
     sum.add(std::vector{MovedImage{&image, move, 1}});
     return sum.mean();
 }
 
 TEST(ShiftedSum, keepsThePixelsOfAnUnmovedImage) {
-    const Image image = pattern([](int x, int y) { return 0.1f * static_cast<float>(x * x + 3 * y); });
+    const HalfImage image = pattern([](int x, int y) { return 0.1f * static_cast<float>(x * x + 3 * y); });
     const Image mean = moved(image, {0, 0});
     ASSERT_EQ(mean.width, small.width);
     ASSERT_EQ(mean.height, small.height);
     for (int y = 0; y < mean.height; ++y)
         for (int x = 0; x < mean.width; ++x)
-            EXPECT_EQ(*mean.at(x, y), *image.at(x + small.margin, y + small.margin)) << x << ' ' << y;
+            EXPECT_EQ(*mean.at(x, y), fromHalf(*image.at(x + small.margin, y + small.margin))) << x << ' ' << y;
 }
 
 TEST(ShiftedSum, movesRightAndUp) {
-    const Image image = pattern([](int x, int y) { return x == 0 && y == 0 ? 1 : 0; });
+    const HalfImage image = pattern([](int x, int y) { return x == 0 && y == 0 ? 1 : 0; });
     const Image mean = moved(image, {3, 2});
     for (int y = 0; y < mean.height; ++y)
         for (int x = 0; x < mean.width; ++x)
@@ -49,8 +49,8 @@ TEST(ShiftedSum, movesRightAndUp) {
 }
 
 TEST(ShiftedSum, isTheWeightedMean) {
-    const Image one = pattern([](int, int) { return 1; });
-    const Image three = pattern([](int, int) { return 3; });
+    const HalfImage one = pattern([](int, int) { return 1; });
+    const HalfImage three = pattern([](int, int) { return 3; });
     ShiftedSum sum(small);
     for (int i = 0; i < 100; ++i) sum.add(std::vector{MovedImage{&one, {i % 4, -i % 3}, 0.25f}});
     sum.add(std::vector{MovedImage{&three, {0, 0}, 25}});
@@ -60,11 +60,11 @@ TEST(ShiftedSum, isTheWeightedMean) {
 
 // A block ends within the second and the third call.
 TEST(ShiftedSum, doesNotDependOnTheDivisionIntoCalls) {
-    std::vector<Image> images;
+    std::vector<HalfImage> images;
     for (int i = 0; i < 150; ++i)
         images.push_back(pattern([&](int x, int y) { return std::sin(0.7 * x + 1.3 * y + i) + 0.01 * i; }));
     std::vector<MovedImage> moved;
-    for (const Image& image : images) moved.push_back({&image, {static_cast<int>(moved.size()) % 5 - 2, 1}, 0.3f});
+    for (const HalfImage& image : images) moved.push_back({&image, {static_cast<int>(moved.size()) % 5 - 2, 1}, 0.3f});
     ShiftedSum atOnce(small);
     atOnce.add(moved);
     ShiftedSum parts(small);

@@ -40,11 +40,12 @@ struct RefocusArguments {
     std::optional<double> exposure;  // EV; none: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
     FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
+    bool fillGaps = false;           // fill the gaps between few lens images
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };
 
-Refocusing requested(const Request& request, LightField& field) {
-    return refocusingOf({request.focus, request.lens}, field);
+Refocusing requested(const RefocusArguments& arguments, LightField& field) {
+    return refocusingOf({arguments.request.focus, arguments.request.lens, arguments.fillGaps}, field);
 }
 
 void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
@@ -55,7 +56,7 @@ void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
     if (apertureShape(arguments.request.lens))
         throw UsageError("--html has its own choice of aperture shapes; leave out the options of the aperture");
     LightField field(arguments.file);
-    const Refocusing start = requested(arguments.request, field);
+    const Refocusing start = requested(arguments, field);
     const WriteOptions write{arguments.request.toneMap,
                              arguments.exposure.value_or(refocusedExposure(field.info(), start))};
     const std::string page =
@@ -97,7 +98,7 @@ void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) 
         throw UsageError(
             "--focus-pull and --stack set the focus distances; leave out --focus-distance and --focus-pixel");
     LightField field(arguments.file);
-    const Refocusing refocusing = requested(arguments.request, field);
+    const Refocusing refocusing = requested(arguments, field);
     const WriteOptions write{arguments.request.toneMap,
                              arguments.exposure.value_or(refocusedExposure(field.info(), refocusing))};
     if (films)
@@ -120,12 +121,16 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Exposure in EV for PNG and JPEG. Default: as rendered");
+    CLI::Option* const fills = command->add_flag("--fill-gaps", arguments->fillGaps,
+                                                 "Fill the gaps between few lens images: blur each image by its part "
+                                                 "of the lens, which follows from the depths");
     addParsed(*command, "--html", "FILE",
               fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
                           "images. Replaces --output",
                           maxPageImages),
               [arguments](const std::string& text) { arguments->page = text; })
-        ->excludes("--output");
+        ->excludes("--output")
+        ->excludes(fills);
     CLI::Option* const pull = addParsed(
         *command, "--focus-pull", "A:B", "Film a focus pull from distance A to distance B in m; needs --video",
         [arguments](const std::string& text) { parseFocusPull(text, arguments->pull); });
