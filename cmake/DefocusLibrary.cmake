@@ -9,7 +9,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(LIBRARY_OBJECTS "")
-foreach(MODULE IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
+foreach(MODULE IN ITEMS core image scene school lens simplify pyramid plan gl render frame refocus)
     list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${MODULE}>")
 endforeach()
 

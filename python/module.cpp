@@ -95,50 +95,54 @@ struct OpenScene {
     defocus::SceneInfo info = scene.info();
 };
 
-// SceneRenderer that several Python threads may use; a mutex serializes their calls.
-class SharedRenderer {
+// Object of the library that several Python threads may use; a mutex serializes their calls. `noun` names it in
+// messages.
+template <typename Object>
+class Shared {
 public:
-    SharedRenderer(const OpenScene* scene, const defocus::Request& request, const Listener& listener)
-        : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->scene, request, listening(listener))
-                                     : defocus::SceneRenderer(request, listening(listener))) {}
+    Shared(const char* noun, Object&& object) : noun_(noun), object_(std::move(object)) {}
 
-    // Calls `use` with the renderer while the GIL is released. Throws UsageError if the renderer is closed.
+    // Calls `use` with the object while the GIL is released. Throws UsageError if the object is closed.
     template <typename Use>
     auto with(const Use& use) {
         const Turn turn(*this);
-        if (!renderer_) throw defocus::UsageError("the renderer is closed");
-        return use(*renderer_);
+        if (!object_) throw defocus::UsageError("the " + noun_ + " is closed");
+        return use(*object_);
     }
 
     void close() {
         const Turn turn(*this);
-        renderer_.reset();
+        object_.reset();
     }
 
 private:
-    // Throws UsageError if this thread already uses the renderer, which would be a deadlock.
+    // Throws UsageError if this thread already uses the object, which would be a deadlock.
     void refuseReentry() const {
         if (user_ == std::this_thread::get_id())
-            throw defocus::UsageError("a renderer cannot be used from its own progress function");
+            throw defocus::UsageError("a " + noun_ + " cannot be used from its own progress function");
     }
 
     struct Turn {
-        explicit Turn(SharedRenderer& shared) : shared_((shared.refuseReentry(), shared)) {
+        explicit Turn(Shared& shared) : shared_((shared.refuseReentry(), shared)) {
             shared_.user_ = std::this_thread::get_id();
         }
         ~Turn() { shared_.user_ = std::thread::id(); }
         Turn(const Turn&) = delete;
         Turn& operator=(const Turn&) = delete;
 
-        SharedRenderer& shared_;
+        Shared& shared_;
         py::gil_scoped_release unlocked_;
         std::scoped_lock<std::mutex> lock_{shared_.mutex_};
     };
 
-    std::optional<defocus::SceneRenderer> renderer_;
+    std::string noun_;
+    std::optional<Object> object_;
     std::mutex mutex_;
     std::atomic<std::thread::id> user_ = std::thread::id();
 };
+
+using SharedRenderer = Shared<defocus::SceneRenderer>;
+using SharedLightField = Shared<defocus::LightField>;
 
 // ---- module ---------------------------------------------------------------------------------------------------------
 
@@ -457,7 +461,9 @@ void defineRenderer(py::module_& package) {
     py::class_<SharedRenderer>(package, "Renderer")
         .def(py::init([](const OpenScene* scene, const defocus::Request& request, const Listener& progress) {
             const py::gil_scoped_release unlocked;
-            return std::make_unique<SharedRenderer>(scene, request, progress);
+            return std::make_unique<SharedRenderer>(
+                "renderer", scene != nullptr ? SceneRenderer(scene->scene, request, listening(progress))
+                                             : SceneRenderer(request, listening(progress)));
         }))
         .def("start",
              [](SharedRenderer& self, const defocus::Request& request) {
@@ -522,6 +528,78 @@ void defineRenderer(py::module_& package) {
     });
 }
 
+// Returns the choices of a request that are possible after rendering.
+defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = false) {
+    return {request.focus, request.lens, fillGaps};
+}
+
+void defineLightField(py::module_& package) {
+    using defocus::LightField;
+    using defocus::LightFieldInfo;
+    using defocus::Request;
+    py::class_<LightFieldInfo>(package, "LightFieldInfo")
+        .def_readonly("width", &LightFieldInfo::width)
+        .def_readonly("height", &LightFieldInfo::height)
+        .def_readonly("focus_distance", &LightFieldInfo::focusDistance)
+        .def_readonly("f_stop", &LightFieldInfo::fStop)
+        .def_readonly("focal_length", &LightFieldInfo::focalLength)
+        .def_readonly("horizontal_aperture", &LightFieldInfo::horizontalAperture)
+        .def_property_readonly(
+            "focus_range",
+            [](const LightFieldInfo& info) { return std::pair(info.focusRange.nearest, info.focusRange.farthest); })
+        .def_readonly("full_disk", &LightFieldInfo::fullDisk)
+        .def_readonly("pixels_per_dioptre", &LightFieldInfo::pixelsPerDioptre)
+        .def_readonly("lens_points", &LightFieldInfo::lensPoints);
+    py::class_<SharedLightField>(package, "LightField")
+        .def(py::init([](const std::filesystem::path& path) {
+            const py::gil_scoped_release unlocked;
+            return std::make_unique<SharedLightField>("light field", LightField(path));
+        }))
+        .def_static("render",
+                    [](const OpenScene* scene, const Request& request, const std::filesystem::path& path,
+                       const std::optional<std::pair<double, double>>& range, const Listener& progress) {
+                        const py::gil_scoped_release unlocked;
+                        std::optional<defocus::FocusRange> focus;
+                        if (range) focus = {range->first, range->second};
+                        return std::make_unique<SharedLightField>(
+                            "light field",
+                            scene != nullptr
+                                ? LightField::render(scene->scene, request, path, focus, listening(progress))
+                                : LightField::render(request, path, focus, listening(progress)));
+                    })
+        .def("info",
+             [](SharedLightField& self) { return self.with([](const LightField& field) { return field.info(); }); })
+        .def("warnings",
+             [](SharedLightField& self) { return self.with([](const LightField& field) { return field.warnings(); }); })
+        .def("refocus",
+             [](SharedLightField& self, const Request& request, bool fillGaps, const Listener& progress) {
+                 return arrayOf(self.with([&](LightField& field) {
+                     return field.refocus(refocusing(request, fillGaps), listening(progress));
+                 }));
+             })
+        .def("stack",
+             [](SharedLightField& self, int count, const Request& request, bool fillGaps, const Listener& progress) {
+                 defocus::FocalStack stack = self.with([&](LightField& field) {
+                     return field.stack(count, refocusing(request, fillGaps), listening(progress));
+                 });
+                 py::list pictures;
+                 for (defocus::Image& picture : stack.pictures) pictures.append(arrayOf(std::move(picture)));
+                 return py::make_tuple(stack.focusDistances, pictures);
+             })
+        .def("all_in_focus",
+             [](SharedLightField& self, const Listener& progress) {
+                 return arrayOf(self.with([&](LightField& field) { return field.allInFocus(listening(progress)); }));
+             })
+        .def("depth",
+             [](SharedLightField& self) { return arrayOf(self.with([](LightField& field) { return field.depth(); })); })
+        .def("coc",
+             [](SharedLightField& self, const Request& request) {
+                 return arrayOf(self.with([&](LightField& field) { return field.coc(refocusing(request)); }));
+             })
+        .def("close", &SharedLightField::close);
+    package.def("refocus_settings", &defocus::refocusSettings);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_defocus, package) {
@@ -533,4 +611,5 @@ PYBIND11_MODULE(_defocus, package) {
     defineScenes(package);
     defineSceneData(package);
     defineRenderer(package);
+    defineLightField(package);
 }

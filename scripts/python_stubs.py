@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import defocus
+from defocus._settings import REFOCUS
 
 STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.pyi"
 BEGIN = "# ---- keywords, from the settings table ----\n"
@@ -41,12 +42,14 @@ def type_of(setting):
 
 
 def keywords():
-    lines = ["class Keywords(TypedDict, total=False):\n"]
-    for setting in defocus.settings():
-        if setting.keyword != "scene":
+    every = [setting for setting in defocus.settings() if setting.keyword != "scene"]
+    text = ""
+    for name, settings in (("Keywords", every), ("RefocusKeywords", [s for s in every if s.keyword in REFOCUS])):
+        text += f"\nclass {name}(TypedDict, total=False):\n"
+        for setting in settings:
             unit = f"  # {setting.unit}" if setting.unit else ""
-            lines.append(f"    {setting.keyword}: Optional[{type_of(setting)}]{unit}\n")
-    return "\n" + "".join(lines) + "\n"
+            text += f"    {setting.keyword}: Optional[{type_of(setting)}]{unit}\n"
+    return text + "\n"
 
 
 def main():

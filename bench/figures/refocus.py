@@ -1,23 +1,47 @@
-"""Compares refocused with rendered pictures of the built-in school of fish.
+"""Compares refocused with rendered pictures of the built-in school of fish and the chess board.
 
     scripts/figures refocus [--program build/release/defocus]
 
-For each size and focus distance the table has the PSNR of a picture rendered at that focus, and of one refocused from lens
-images that were rendered with focus at 2 m. Both have 64 lens samples at full detail. The reference has 1,024 samples and
-another seed. The last columns are the seconds of the lens images, of a rendered and of a refocused picture, program start
-included, and how many times a focus pull of 96 frames is as fast by refocusing.
+For each scene, focus distance and number of lens samples, the first table has the PSNR of a picture rendered at that focus, of
+one refocused from lens images with another focus, and of one with --fill-gaps. All have full detail. The reference has 1,024
+samples and another seed.
+
+The second table has the seconds of a film of 96 frames in which only the focus moves, with 64 lens samples per frame, program
+start included: `capture`, `capture --refocus`, and their ratio. Of `capture`, 1 and 4 frames are timed, and the others take as
+long as each of these. The last columns are the seconds of a rendered and of a refocused picture in these films.
 """
 
+import json
 import pathlib
 import tempfile
 import time
+from typing import NamedTuple
 
 from figures.command import add_program, parser_of, run
 from figures.frames import Frames
 
-SCENES = (("3", "128x96"), ("4", "320x240"), ("20", "512x384"))  # fish, size
-DISTANCES = ("1.4", "3")  # m
 FRAMES = 96
+
+
+class Scene(NamedTuple):
+    name: str
+    subject: tuple  # options of the scene, and its path
+    size: str
+    focus: str  # m, of the lens images
+    near: str  # m, focus range
+    far: str
+    distances: tuple  # m, of the pictures
+
+    def words(self):
+        return [*self.subject, "--size", self.size, "--lod", "off"]
+
+
+def school(fish, size):
+    return Scene(f"{fish} fish", ("--fish", str(fish), "--fstop", "0.95"), size, "2", "1.2", "4", ("1.4", "3"))
+
+
+SCENES = (school(3, "128x96"), school(4, "320x240"), school(20, "512x384"),
+          Scene("chess", ("meshes/chess.glb", "--fstop", "1.4"), "128x96", "1", "0.5", "5", ("0.5", "5")))
 
 
 def seconds_of(*words):
@@ -26,29 +50,51 @@ def seconds_of(*words):
     return time.monotonic() - begin
 
 
-def measure(program, fish, size, folder):
-    subject = ["--fish", fish, "--size", size, "--fstop", "0.95", "--lod", "off"]
-    frames = Frames(program, folder, *subject, "--method", "accumulation")
-    lens = folder / "scene.lens.exr"
-    rendering = [program, "render", *subject, "--samples", "64", "--quiet"]
-    run(*rendering, "-o", folder / "warm.exr")  # fills the driver's shader cache
-    once = seconds_of(*rendering, "--focus-distance", "2", "--focus-range", "1.2:4", "--lens-images", lens)
-    for distance in DISTANCES:
+def print_errors(program, scene, folder):
+    frames = Frames(program, folder, *scene.words(), "--method", "accumulation")
+    for distance in scene.distances:
         frames.render("reference.exr", "--focus-distance", distance, "--samples", 1024, "--seed", 9)
-        direct = seconds_of(*rendering, "--method", "accumulation", "--focus-distance", distance, "-o", folder / "direct.exr")
-        refocused = seconds_of(program, "refocus", lens, "--focus-distance", distance, "-o", folder / "refocused.exr", "--quiet")
-        rendered, moved = (frames.difference("reference.exr", file)["psnr"] for file in ("direct.exr", "refocused.exr"))
-        ratio = FRAMES * direct / (once + FRAMES * refocused)
-        print(f"{fish:>5}{size:>9}{distance + ' m':>8}{rendered:10.1f}{moved:11.1f}{once:12.2f}{direct:10.2f}{refocused:11.2f}{ratio:7.1f}",
-              flush=True)
+        for samples in (16, 64):
+            lens = folder / "scene.lens.exr"
+            run(program, "render", *scene.words(), "--samples", samples, "--quiet", "--focus-distance", scene.focus,
+                "--focus-range", f"{scene.near}:{scene.far}", "--lens-images", lens)
+            frames.render("direct.exr", "--focus-distance", distance, "--samples", samples)
+            refocusing = [program, "refocus", lens, "--focus-distance", distance, "--quiet"]
+            run(*refocusing, "-o", folder / "refocused.exr")
+            run(*refocusing, "--fill-gaps", "-o", folder / "filled.exr")
+            errors = [frames.difference("reference.exr", f"{name}.exr")["psnr"] for name in ("direct", "refocused", "filled")]
+            print(f"{scene.name:>8}{scene.size:>9}{distance + ' m':>8}{samples:>8}"
+                  + "".join(f"{error:12.1f}" for error in errors), flush=True)
+
+
+def print_film(program, scene, folder):
+    keys = [{"frame": 0, "distance": float(scene.near)}, {"frame": FRAMES - 1, "distance": float(scene.far)}]
+    shot = folder / "pull.json"
+    shot.write_text(json.dumps({"range": [0, FRAMES - 1], "samples": 64, "focus": {"keys": keys}}))
+    filming = [program, "capture", shot, *scene.words(), "--quiet", "-o", folder / "####.png"]
+    rendering = [*filming, "--method", "accumulation", "--range"]
+    run(*rendering, "0")  # fills the driver's shader cache
+    one, four = (seconds_of(*rendering, frames) for frames in ("0", "0:3"))
+    each = (four - one) / 3
+    rendered = one + (FRAMES - 1) * each
+    refocused = seconds_of(*filming, "--refocus")
+    times = [json.loads(line)["renderMilliseconds"] for line in (folder / "timings.jsonl").read_text().splitlines()]
+    picture = sum(times[1:]) / (len(times) - 1) / 1000
+    print(f"{scene.name:>8}{scene.size:>9}{rendered:10.1f}{refocused:11.1f}{rendered / refocused:7.1f}{each:10.3f}{picture:11.3f}",
+          flush=True)
 
 
 def main(words):
     parser = parser_of("refocus", __doc__)
     add_program(parser)
     program = parser.parse_args(words).program
-    print(f"{'fish':>5}{'size':>9}{'focus':>8}{'rendered':>10}{'refocused':>11}{'lens images':>12}{'rendered':>10}{'refocused':>11}{'pull':>7}\n"
-          f"{'':>5}{'px':>9}{'':>8}{'dB':>10}{'dB':>11}{'s':>12}{'s':>10}{'s':>11}{'times':>7}")
-    for fish, size in SCENES:
+    print(f"{'scene':>8}{'size':>9}{'focus':>8}{'samples':>8}{'rendered':>12}{'refocused':>12}{'filled':>12}\n"
+          f"{'':>8}{'px':>9}{'':>8}{'':>8}" + f"{'dB':>12}" * 3)
+    for scene in SCENES:
         with tempfile.TemporaryDirectory() as folder:
-            measure(program, fish, size, pathlib.Path(folder))
+            print_errors(program, scene, pathlib.Path(folder))
+    print(f"\n{'scene':>8}{'size':>9}{'capture':>10}{'--refocus':>11}{'ratio':>7}{'rendered':>10}{'refocused':>11}\n"
+          f"{'':>8}{'px':>9}{'s':>10}{'s':>11}{'':>7}{'s/frame':>10}{'s/frame':>11}")
+    for scene in SCENES[:3]:  # the chess board moves
+        with tempfile.TemporaryDirectory() as folder:
+            print_film(program, scene, pathlib.Path(folder))

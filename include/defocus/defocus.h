@@ -9,6 +9,7 @@
 #include "defocus/error.h"         // IWYU pragma: export
 #include "defocus/image.h"         // IWYU pragma: export
 #include "defocus/lens.h"          // IWYU pragma: export
+#include "defocus/light_field.h"   // IWYU pragma: export
 #include "defocus/plan.h"          // IWYU pragma: export
 #include "defocus/pyramid.h"       // IWYU pragma: export
 #include "defocus/renderer.h"      // IWYU pragma: export

@@ -43,6 +43,12 @@ struct FocusAuto {
     bool operator==(const FocusAuto&) const = default;
 };
 
+// Focus distances in m; 0 < nearest ≤ farthest, and infinity is allowed.
+struct FocusRange {
+    double nearest = 0;
+    double farthest = 0;
+};
+
 using Focus = std::variant<CameraFocus, FocusDistance, FocusNode, FocusPixel, FocusPoints, FocusAuto>;
 
 }  // namespace defocus

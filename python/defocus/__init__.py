@@ -32,14 +32,16 @@ from ._defocus import Error, Scene, UsageError
 from ._scene_data import Camera, Instance, Light, Material, Mesh, Texture, look_at
 from ._scene_data import create as _create_scene
 from ._settings import INFOS as _INFOS
+from ._settings import refocus_request_of as _refocus_request_of
 from ._settings import request_of as _request_of
+from ._settings import takes_refocus_settings as _takes_refocus_settings
 from ._settings import takes_settings as _takes_settings
 
 __version__: str = _defocus.version
 __all__ = [
-    "Aovs", "Camera", "Difference", "Error", "Instance", "Light", "Material", "Mesh", "Renderer", "Scene", "Setting",
-    "Statistics", "Texture", "UsageError", "compare", "look_at", "plan", "progressive", "pyramid", "read_image", "render",
-    "settings", "write_image",
+    "Aovs", "Camera", "Difference", "Error", "FocalStack", "Instance", "Light", "LightField", "LightFieldInfo",
+    "Material", "Mesh", "Renderer", "Scene", "Setting", "Statistics", "Texture", "UsageError", "compare", "look_at",
+    "plan", "progressive", "pyramid", "read_image", "render", "settings", "write_image",
 ]
 
 for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
@@ -106,6 +108,29 @@ class Statistics(NamedTuple):
     device: str
     stopped: str  # why the frame ended: "samples", "target error", "time limit" or "nothing blurred"
     estimated_error: Optional[float]  # RMSE of the display-encoded image at EV 0; only with target_error or time_limit
+
+
+class LightFieldInfo(NamedTuple):
+    """Description of the lens images of a file."""
+
+    width: int  # px
+    height: int  # px
+    focus_distance: float  # m, of the rendered images
+    f_stop: float  # of the rendered aperture; the widest one that can be chosen
+    focal_length: float  # mm
+    horizontal_aperture: float  # mm, sensor width
+    focus_range: Tuple[float, float]  # m; focus distances that can be chosen
+    full_disk: bool  # whether f-number and aperture shape can be chosen
+    # For a focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
+    pixels_per_dioptre: float
+    lens_points: List[List[float]]  # [u, v] of each image in the unit disk; u points right, v up
+
+
+class FocalStack(NamedTuple):
+    """Pictures with focus distances over the rendered range, evenly in 1/distance, from the nearest to the farthest."""
+
+    focus_distances: List[float]  # m
+    pictures: List[numpy.ndarray]  # H×W×4 each
 
 
 def settings() -> List[Setting]:
@@ -220,6 +245,78 @@ class Renderer:
         self._native.close()
 
     def __enter__(self) -> "Renderer":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+class LightField:
+    """The images of a frame's lens samples, kept in a file. Computes pictures with another focus, f-number and aperture
+    shape from them, without rendering.
+
+        field = defocus.LightField.render("scene.lens.exr", "scene.glb", f_stop=1.4, samples=128)
+        near = field.refocus(focus_distance=1.2)
+        eye = field.refocus(focus_pixel=(512, 384), f_stop=2.8, blade_count=6)
+
+    `LightField(path)` opens a file. The images stay in memory if they fit into half of the free memory; `close()`, or
+    the end of a `with` block, frees them. Threads may share a light field; its calls run one after another.
+    """
+
+    def __init__(self, path: Path):
+        self._native = _defocus.LightField(path)
+
+    @classmethod
+    @_takes_settings
+    def render(cls, path: Path, scene: Union[Path, Scene, None] = None, *,
+               focus_range: Optional[Tuple[float, float]] = None, progress: Optional[Progress] = None,
+               **settings: Any) -> "LightField":
+        """Renders the lens images of a scene to the file `path` (.exr), and opens it. `focus_range`: distances (near,
+        far) in m to choose from later; default: from the nearest to the farthest visible surface."""
+        opened = scene if isinstance(scene, Scene) else None
+        field = cls.__new__(cls)
+        field._native = _defocus.LightField.render(opened, _request_of(scene, settings), path, focus_range,
+                                                   _listener(progress))
+        _warn(field._native.warnings())
+        return field
+
+    @property
+    def info(self) -> LightFieldInfo:
+        native = self._native.info()
+        return LightFieldInfo(*(getattr(native, name) for name in LightFieldInfo._fields))
+
+    @_takes_refocus_settings
+    def refocus(self, *, fill_gaps: bool = False, progress: Optional[Progress] = None,
+                **settings: Any) -> numpy.ndarray:
+        """Returns a picture: H×W×4, linear. Keywords that are not given have the rendered values. `fill_gaps` fills the
+        gaps between few lens images."""
+        return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
+
+    @_takes_refocus_settings
+    def stack(self, count: int, *, fill_gaps: bool = False, progress: Optional[Progress] = None,
+              **settings: Any) -> FocalStack:
+        """Returns a focal stack of `count` pictures."""
+        return FocalStack(*self._native.stack(count, _refocus_request_of(settings), fill_gaps, _listener(progress)))
+
+    def all_in_focus(self, *, progress: Optional[Progress] = None) -> numpy.ndarray:
+        """Returns the picture in which everything is in focus, as the lens's centre sees it: H×W×4."""
+        return self._native.all_in_focus(_listener(progress))
+
+    def depth(self) -> numpy.ndarray:
+        """Returns the depths in m of the surfaces that the lens's centre sees: H×W; infinity for pixels without a
+        surface."""
+        return self._native.depth()
+
+    @_takes_refocus_settings
+    def coc(self, **settings: Any) -> numpy.ndarray:
+        """Returns the signed diameters in px of the circles of confusion of these surfaces: H×W; > 0 behind the focus
+        plane."""
+        return self._native.coc(_refocus_request_of(settings))
+
+    def close(self) -> None:
+        self._native.close()
+
+    def __enter__(self) -> "LightField":
         return self
 
     def __exit__(self, *exception: object) -> None:

@@ -1,4 +1,4 @@
-# Types of the package `defocus`. scripts/python_stubs.py writes the class Keywords from the settings table.
+# Types of the package `defocus`. scripts/python_stubs.py writes the classes of keywords from the settings table.
 
 import os
 from dataclasses import dataclass
@@ -138,6 +138,18 @@ class Keywords(TypedDict, total=False):
     lines_per_position: Optional[int]
     bin_size: Optional[int]
     wheel: Optional[Literal["turned", "shared"]]
+
+class RefocusKeywords(TypedDict, total=False):
+    f_stop: Optional[float]
+    focus_distance: Optional[float]  # m
+    focus_pixel: Optional[Union[Pixel, str]]
+    blade_count: Optional[int]
+    blade_rotation: Optional[float]  # degrees
+    blade_curvature: Optional[float]
+    anamorphic_ratio: Optional[float]
+    obstruction: Optional[float]
+    spherical_aberration: Optional[float]
+    aperture_image: Optional[Path]
 
 # ---- end of keywords ----
 
@@ -318,6 +330,48 @@ class Renderer(ContextManager["Renderer"]):
     def aovs(self) -> Aovs: ...
     def plan(self) -> Dict[str, Any]: ...
     def write(self, path: Path, image: numpy.typing.ArrayLike) -> None: ...
+    def close(self) -> None: ...
+    def __exit__(self, *exception: object) -> None: ...
+
+class LightFieldInfo(NamedTuple):
+    width: int
+    height: int
+    focus_distance: float
+    f_stop: float
+    focal_length: float
+    horizontal_aperture: float
+    focus_range: Tuple[float, float]
+    full_disk: bool
+    pixels_per_dioptre: float
+    lens_points: List[List[float]]
+
+class FocalStack(NamedTuple):
+    focus_distances: List[float]
+    pictures: List[Array]
+
+class LightField(ContextManager["LightField"]):
+    def __init__(self, path: Path) -> None: ...
+    @classmethod
+    def render(
+        cls,
+        path: Path,
+        scene: Union[Path, Scene, None] = None,
+        *,
+        focus_range: Optional[Tuple[float, float]] = None,
+        progress: Optional[Progress] = None,
+        **settings: Unpack[Keywords],
+    ) -> "LightField": ...
+    @property
+    def info(self) -> LightFieldInfo: ...
+    def refocus(
+        self, *, fill_gaps: bool = False, progress: Optional[Progress] = None, **settings: Unpack[RefocusKeywords]
+    ) -> Array: ...
+    def stack(
+        self, count: int, *, fill_gaps: bool = False, progress: Optional[Progress] = None, **settings: Unpack[RefocusKeywords]
+    ) -> FocalStack: ...
+    def all_in_focus(self, *, progress: Optional[Progress] = None) -> Array: ...
+    def depth(self) -> Array: ...
+    def coc(self, **settings: Unpack[RefocusKeywords]) -> Array: ...
     def close(self) -> None: ...
     def __exit__(self, *exception: object) -> None: ...
 

@@ -17,6 +17,9 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 # Settings by keyword, in the order of `defocus render --help`.
 INFOS = {info.keyword: info for info in _defocus.setting_infos()}
 
+# Keywords of the settings that can be chosen from lens images after rendering.
+REFOCUS = [info.keyword for info in INFOS.values() if info.name in _defocus.refocus_settings()]
+
 # Keywords that apply only to the built-in school of fish.
 SCHOOL = ("fish_count", "triangles_per_fish")
 
@@ -93,12 +96,25 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
     return request
 
 
-def takes_settings(function: Function) -> Function:
-    """Decorator for functions with **settings: adds all keywords to the signature that help() and completion show."""
+def refocus_request_of(settings: Mapping[str, Any]) -> _defocus.Request:
+    """Returns the request for keywords that can be chosen after rendering."""
+    for keyword, value in settings.items():
+        if value is not None and keyword in INFOS and keyword not in REFOCUS:
+            raise _defocus.UsageError(f"{keyword} cannot be chosen after rendering; use one of {', '.join(REFOCUS)}")
+    return request_of(None, settings)
+
+
+def takes_settings(function: Function, names: Iterable[str] = tuple(INFOS)) -> Function:
+    """Decorator for functions with **settings: adds keywords to the signature that help() and completion show."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
-    names = {parameter.name for parameter in own}
+    taken = {parameter.name for parameter in own}
     keywords = [inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=None)
-                for keyword in INFOS if keyword != "scene" and keyword not in names]
+                for keyword in names if keyword != "scene" and keyword not in taken]
     function.__signature__ = signature.replace(parameters=own + keywords)  # type: ignore[attr-defined]
     return function
+
+
+def takes_refocus_settings(function: Function) -> Function:
+    """Decorator for functions whose **settings can be chosen after rendering."""
+    return takes_settings(function, REFOCUS)

@@ -199,6 +199,25 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
     return drawn;
 }
 
+// Computes a frame of a run from lens images.
+DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world, FrameDriver& driver,
+                        RefocusedPictures& pictures, const FilmMetadata& metadata,
+                        const std::function<void(double)>& step) {
+    const Clock::time_point start = Clock::now();
+    applyMoment(moment, world);
+    RefocusedPictures::Picture picture = pictures.picture(run, moment, driver, step);
+    DrawnFrame drawn;
+    drawn.image = std::move(picture.image);
+    drawn.stats = driver.stats();
+    drawn.stats.samples = picture.samples;
+    drawn.stats.trianglesDrawn = picture.rendered ? picture.plan.trianglesDrawn : 0;
+    drawn.times.planMilliseconds = picture.rendered ? driver.planMilliseconds() : 0;
+    drawn.times.renderMilliseconds = millisecondsSince(start);
+    drawn.metadata = metadata(moment, picture.plan, drawn.stats);
+    drawn.moment = std::move(moment);
+    return drawn;
+}
+
 // ---- progress -------------------------------------------------------------------------------------------------------
 
 // Returns a line such as "frame 12, 3400 ms and 18.2 M triangles each".
@@ -220,6 +239,7 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
         settings.encoding = encodingOf(pattern, request, film.write, options.metered);
+        if (const RefocusRun* const run = runOf(options.runs, number)) settings.lensImages = run->text();
         film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.sampleRange) path = partPath(path, *options.sampleRange);
@@ -276,6 +296,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);
+    RefocusedPictures pictures;
     const auto wanted = std::ranges::count(frames, false, &FilmFrame::finished);
     const auto total = static_cast<double>(std::max(wanted, std::ptrdiff_t{1}));
     for (const FilmFrame& film : frames) {
@@ -292,13 +313,20 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
             report(progress, stage, static_cast<std::uint64_t>(1000 * (figures.rendered + share)),
                    static_cast<std::uint64_t>(1000 * total));
         };
+        FrameMoment moment = frameAt(shot, base, film.frame);
+        const RefocusRun* const run = runOf(options.runs, film.frame);
         const auto drawn = std::make_shared<DrawnFrame>(
-            drawFrame(film, frameAt(shot, base, film.frame), world, driver, options, metadata, step));
+            run != nullptr ? refocusFrame(*run, std::move(moment), world, driver, pictures, metadata, step)
+                           : drawFrame(film, std::move(moment), world, driver, options, metadata, step));
         ++figures.rendered;
+        if (run != nullptr) {
+            ++figures.refocused;
+            if (drawn->stats.trianglesDrawn > 0) figures.lensImages += run->samples;
+        }
         figures.tiles = driver.tiles();
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
-        if (options.frameDrawn) options.frameDrawn(film.frame, driver.plan());
+        if (options.frameDrawn && run == nullptr) options.frameDrawn(film.frame, driver.plan());
         if (figures.rendered == 1 && options.firstDrawn && !drawn->image.empty())
             options.firstDrawn(drawn->image, film.write);
         const auto write = [drawn, &film, &options, limit = driver.memoryLimit()] {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "capture/frame_sequence.h"
+#include "capture/refocus_runs.h"
 #include "core/progress.h"
 #include "frame/driver/frame_driver.h"
 #include "frame/setup/settings_hash.h"
@@ -35,9 +36,10 @@ struct FilmOptions {
     bool metered = false;                    // whether FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
     bool resume = false;                     // keep the frames that are already finished
+    std::vector<RefocusRun> runs = {};       // frames that are computed from lens images; not with sampleRange
     // Receives the first image that is drawn untiled, and the encoding of its 8-bit files.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    // Receives the number and the plan of each drawn frame, while the world has its pose.
+    // Receives the number and the plan of each rendered frame, while the world has its pose.
     std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
 
@@ -53,6 +55,8 @@ struct FilmFigures {
     int rendered = 0;
     int tiles = 1;  // number of tiles of the latest frame
     int finishedBefore = 0;
+    int refocused = 0;              // frames computed from lens images; they count as rendered, too
+    std::uint64_t lensImages = 0;   // rendered for them
     double renderMilliseconds = 0;  // sum over all frames: time from the plan to the image
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;

@@ -67,6 +67,14 @@ bool isChannelList(Bytes value) {
     return false;
 }
 
+// Returns a name from a damaged file for a message: characters outside printable ASCII become '?'.
+std::string shown(std::string_view name) {
+    std::string text(name);
+    std::ranges::replace_if(
+        text, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+    return text;
+}
+
 }  // namespace
 
 void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name) {
@@ -86,7 +94,7 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
         const std::uint64_t bytes = number(head, at);
         at += 4;
         const auto refuse = [&] {
-            fail("cannot read {}: {} bytes are not a valid size of its attribute '{}'", name, bytes, *attribute);
+            fail("cannot read {}: {} bytes are not a valid size of its attribute '{}'", name, bytes, shown(*attribute));
         };
         if (bytes > fileBytes - std::min<std::uint64_t>(fileBytes, at)) refuse();
         const auto known = std::ranges::find(sizes, *type, &std::pair<std::string_view, std::uint64_t>::first);

@@ -20,7 +20,6 @@ namespace {
 
 const std::vector<std::string> channelNames = {"R", "G", "B", "A", "Z"};
 constexpr int depthChannel = 4;
-constexpr float largestHalf = 65504;
 constexpr std::uint64_t maxPixels = 1ull << 28;          // of one part
 constexpr std::size_t headBytes = std::size_t{8} << 20;  // enough for the headers of 1024 parts
 
@@ -78,7 +77,7 @@ void ImagePartWriter::write(const ImageView& colour, const ImageView& depth) {
     s.pixels.resize(depth.pixels.size() * channelNames.size());
     for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
         for (std::size_t c = 0; c < 4; ++c)
-            s.pixels[5 * i + c] = std::clamp(colour.pixels[4 * i + c], -largestHalf, largestHalf);
+            s.pixels[5 * i + c] = std::clamp(colour.pixels[4 * i + c], -maxHalf, maxHalf);
         s.pixels[5 * i + 4] = depth.pixels[i];
     }
     if (s.written > 0 && !s.output->open(s.pending.temporaryPath().string(), spec, OIIO::ImageOutput::AppendSubimage))
@@ -96,11 +95,10 @@ void ImagePartWriter::finish() {
 }
 
 struct ImagePartReader::State {
-    Image read(std::size_t part, int first, int count) {
-        Image image(size.fullWidth(), size.fullHeight(), count);
-        if (!input->read_image(static_cast<int>(part), 0, first, first + count, OIIO::TypeFloat, image.pixels.data()))
+    // Reads channels [first, first + count) of a part to `pixels`.
+    void read(std::size_t part, int first, int count, OIIO::TypeDesc type, void* pixels) {
+        if (!input->read_image(static_cast<int>(part), 0, first, first + count, type, pixels))
             fail("cannot read {}: image {}: {}", name, part, firstLine(input->geterror()));
-        return image;
     }
 
     std::string name;
@@ -158,12 +156,18 @@ const Metadata& ImagePartReader::metadata(std::size_t part) const {
     return state_->metadata[part];
 }
 
-Image ImagePartReader::colour(std::size_t part) {
-    return state_->read(part, 0, 4);
+HalfImage ImagePartReader::colour(std::size_t part) {
+    const PartSize& size = state_->size;
+    HalfImage image{size.fullWidth(), size.fullHeight(), {}};
+    image.rgba.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
+    state_->read(part, 0, 4, OIIO::TypeHalf, image.rgba.data());
+    return image;
 }
 
 Image ImagePartReader::depth(std::size_t part) {
-    return state_->read(part, depthChannel, 1);
+    Image image(state_->size.fullWidth(), state_->size.fullHeight(), 1);
+    state_->read(part, depthChannel, 1, OIIO::TypeFloat, image.pixels.data());
+    return image;
 }
 
 }  // namespace defocus::engine

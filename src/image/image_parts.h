@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "image/half_image.h"
 #include "image/image_io.h"
 
 namespace defocus::engine {
@@ -55,7 +56,7 @@ public:
     [[nodiscard]] std::size_t count() const;
     [[nodiscard]] const Metadata& metadata(std::size_t part) const;
     // Return a part's colours (RGBA) or depths (one channel) with the full size. Throw Error if the part is damaged.
-    [[nodiscard]] Image colour(std::size_t part);
+    [[nodiscard]] HalfImage colour(std::size_t part);
     [[nodiscard]] Image depth(std::size_t part);
 
 private:

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "defocus/focus.h"
 #include "defocus/layers.h"
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
@@ -15,12 +16,6 @@ enum class LodCause {
     blurAndSize,
     size,  // only the object's projected size, as with a pinhole
     blur,  // only the lens's blur, as with infinitely many pixels
-};
-
-// Focus distances in m; 0 < nearest ≤ farthest, and infinity is allowed.
-struct FocusRange {
-    double nearest = 0;
-    double farthest = 0;
 };
 
 struct RenderSettings {

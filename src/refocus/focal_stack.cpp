@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <vector>
 
 #include "core/parallel.h"
@@ -10,28 +11,24 @@ namespace defocus::engine {
 
 namespace {
 
-// Bilinear interpolation of an RGBA image at a position in px; the position is clamped to the image.
-void addAt(const Image& image, double x, double y, float* sum) {
-    x = std::clamp(x, 0.0, image.width - 1.0);
-    y = std::clamp(y, 0.0, image.height - 1.0);
-    const int column = std::min(static_cast<int>(x), std::max(image.width - 2, 0));
-    const int row = std::min(static_cast<int>(y), std::max(image.height - 2, 0));
-    const auto right = static_cast<float>(x - column);
-    const auto down = static_cast<float>(y - row);
-    const int nextColumn = std::min(column + 1, image.width - 1);
-    const int nextRow = std::min(row + 1, image.height - 1);
-    for (int c = 0; c < 4; ++c) {
-        const float above = (1 - right) * image.at(column, row)[c] + right * image.at(nextColumn, row)[c];
-        const float below = (1 - right) * image.at(column, nextRow)[c] + right * image.at(nextColumn, nextRow)[c];
-        sum[c] += (1 - down) * above + down * below;
-    }
-}
-
+// Returns 1/depth; 0 for +∞, and for values that are no depth.
 double inverse(float depth) {
-    return 1 / static_cast<double>(depth);  // 0 for +∞
+    return depth > 0 ? 1 / static_cast<double>(depth) : 0;
 }
 
 }  // namespace
+
+double distanceAt(double from, double to, int i, int count) {
+    return 1 / glm::mix(1 / from, 1 / to, count > 1 ? static_cast<double>(i) / (count - 1) : 0.0);
+}
+
+std::vector<double> stackDistances(const FocusRange& range, int count) {
+    std::vector<double> distances;
+    for (int i = 0; i < count; ++i)
+        distances.push_back(
+            std::clamp(distanceAt(range.nearest, range.farthest, i, count), range.nearest, range.farthest));
+    return distances;
+}
 
 Image centralDepth(LightField& field) {
     const PartSize& size = field.info().size;
@@ -40,6 +37,16 @@ Image centralDepth(LightField& field) {
     for (int y = 0; y < size.height; ++y)
         std::copy_n(full.at(size.margin, y + size.margin), size.width, depth.at(0, y));
     return depth;
+}
+
+Image centralCoc(LightField& field, const Refocusing& refocusing) {
+    const LightFieldInfo& info = field.info();
+    static_cast<void>(shiftedImages(info, refocusing, field.name()));  // checks the ranges
+    const double diameter = diameterPerDioptre(info, refocusing);
+    Image image = centralDepth(field);
+    for (float& value : image.pixels)
+        value = static_cast<float>(diameter * (1 / refocusing.focusDistance - inverse(value)));
+    return image;
 }
 
 Image allInFocus(LightField& field, const Progress& progress) {
@@ -55,20 +62,18 @@ Image allInFocus(LightField& field, const Progress& progress) {
         if (i != field.central()) order.push_back(i);
     for (std::size_t done = 0; done < order.size(); ++done) {
         const std::size_t i = order[done];
-        const std::shared_ptr<const Image> colours = field.colour(i);
+        const std::shared_ptr<const HalfImage> colours = field.colour(i);
         const Image depths = field.depth(i);
-        const glm::dvec2& point = info.points[i];
         parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
             const int y = static_cast<int>(row);
             for (int x = 0; x < size.width; ++x) {
                 const double surface = inverse(*depth.at(x, y));
                 const double shift = info.pixelsPerDioptre * (surface - 1 / info.focusDistance);
-                const double column = x + size.margin - shift * point.x;
-                const double line = y + size.margin + shift * point.y;
-                const int nearColumn = std::clamp(static_cast<int>(std::lround(column)), 0, depths.width - 1);
-                const int nearRow = std::clamp(static_cast<int>(std::lround(line)), 0, depths.height - 1);
-                if (done > 0 && std::abs(inverse(*depths.at(nearColumn, nearRow)) - surface) > tolerance) continue;
-                addAt(*colours, column, line, sum.at(x, y));
+                const glm::ivec2 move = wholeMove(info, i, shift);
+                const int column = std::clamp(x + size.margin - move.x, 0, depths.width - 1);
+                const int line = std::clamp(y + size.margin + move.y, 0, depths.height - 1);
+                if (done > 0 && std::abs(inverse(*depths.at(column, line)) - surface) > tolerance) continue;
+                for (int c = 0; c < 4; ++c) sum.at(x, y)[c] += fromHalf(colours->at(column, line)[c]);
                 ++counts[row * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
             }
         });

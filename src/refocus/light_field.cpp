@@ -12,7 +12,6 @@
 #include "core/memory_limits.h"
 #include "lens/aperture.h"
 #include "lens/lens_fields.h"
-#include "refocus/shifted_sum.h"
 
 namespace defocus::engine {
 
@@ -26,6 +25,7 @@ constexpr const char* diskName = "defocus:apertureIsDisk";
 constexpr const char* focusName = "defocus:focusDistance";
 constexpr const char* fStopName = "defocus:fStop";
 constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
+constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"};
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
 // Lens fields with which refocusing changes more than b of C(w) = a + b·w, or the light that a lens point passes.
@@ -36,11 +36,11 @@ constexpr std::array unsuited = {
 
 void checkThinLens(const Lens& lens) {
     if (!(apertureDiameter(lens) > 0))
-        fail("--lens-images needs depth of field; leave out --no-dof and a blur scale of 0");
+        fail("lens images need depth of field; leave out --no-dof and a blur scale of 0");
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
-            fail("--lens-images cannot be combined with {}: a change of focus would not move each image as a whole",
+            fail("lens images cannot be combined with {}: a change of focus would not move each image as a whole",
                  field.option);
     }
 }
@@ -52,7 +52,7 @@ double largestMove(const LightFieldInfo& info) {
 
 // Returns the margin in px that the focus range needs.
 int marginOf(const LightFieldInfo& info) {
-    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6))) + filterReach;
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // see wholeMove
 }
 
 // Returns a number of a file's metadata; none if it is missing, of another type, or not finite.
@@ -89,17 +89,26 @@ LightFieldInfo infoOf(const ImagePartReader& parts, const std::string& name) {
     info.disk = needed(first, diskName, name, 0, 1) != 0;
     if (info.size.margin < marginOf(info))
         fail("{}: its margin of {} px is too small for its focus range; render the file again", name, info.size.margin);
-    for (std::size_t i = 0; i < images; ++i)
-        info.points.emplace_back(needed(parts.metadata(i), pointNames[0], name, -1.001, 1.001),
-                                 needed(parts.metadata(i), pointNames[1], name, -1.001, 1.001));
+    for (std::size_t i = 0; i < images; ++i) {
+        const auto pair = [&](const char* const names[2], double max) {
+            return glm::dvec2(needed(parts.metadata(i), names[0], name, -max, max),
+                              needed(parts.metadata(i), names[1], name, -max, max));
+        };
+        info.points.push_back(pair(pointNames, 1.001));
+        info.pixels.push_back(pair(pixelNames, 0.5));
+    }
     info.metadata = first;
     for (const char* own : {countName, pixelsName, nearestName, farthestName, diskName, pointNames[0], pointNames[1],
-                            shiftNames[0], shiftNames[1]})
+                            pixelNames[0], pixelNames[1], shiftNames[0], shiftNames[1]})
         info.metadata.erase(own);
     return info;
 }
 
 }  // namespace
+
+double LightFieldInfo::number(const char* name, double standard) const {
+    return numberIn(metadata, name).value_or(standard);
+}
 
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const Lens& lens = view.lens;
@@ -113,11 +122,22 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const int longer = std::max(view.width, view.height);
     if (!(largestMove(info) <= longer))
         fail(
-            "--focus-range {:.3g}:{:.3g} needs a margin of {:.0f} px, more than the image's {} px; give a narrower "
-            "range or a larger --fstop",
+            "lens images for a focus from {:.3g} to {:.3g} m need a margin of {:.0f} px, more than the image's {} px; "
+            "give a narrower range or a larger --fstop",
             range.nearest, range.farthest, largestMove(info), longer);
     info.size = {view.width, view.height, marginOf(info)};
     return info;
+}
+
+void addSamples(LightFieldInfo& info, const FramePlan& plan) {
+    if (plan.usesOwnBlur)
+        fail(
+            "lens images cannot show objects or vertices with their own blur (--node-blur, vertex attributes): a "
+            "change of focus would not move each image as a whole");
+    for (const LensSample& sample : plan.samples) {
+        info.points.emplace_back(sample.lens);
+        info.pixels.emplace_back(sample.pixel);
+    }
 }
 
 std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
@@ -133,6 +153,7 @@ std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (glm::length_t axis = 0; axis < 2; ++axis) {
             parts[i][pointNames[axis]] = info.points[i][axis];
+            parts[i][pixelNames[axis]] = info.pixels[i][axis];
             parts[i][shiftNames[axis]] = info.pixelsPerDioptre * info.points[i][axis];
         }
     return parts;
@@ -141,15 +162,16 @@ std::vector<Metadata> partMetadata(const LightFieldInfo& info) {
 LightField::LightField(const std::filesystem::path& path)
     : name_(path.string()), parts_(path), info_(infoOf(parts_, name_)) {}
 
-std::shared_ptr<const Image> LightField::colour(std::size_t i) {
-    if (kept_.empty()) return std::make_shared<const Image>(parts_.colour(i));
-    if (!kept_[i]) kept_[i] = std::make_shared<const Image>(parts_.colour(i));
+std::shared_ptr<const HalfImage> LightField::colour(std::size_t i) {
+    if (kept_.empty()) return std::make_shared<const HalfImage>(parts_.colour(i));
+    if (!kept_[i]) kept_[i] = std::make_shared<const HalfImage>(parts_.colour(i));
     return kept_[i];
 }
 
 void LightField::keepImages() {
     const PartSize& size = info_.size;
-    const std::uint64_t bytes = std::uint64_t(size.fullWidth()) * std::uint64_t(size.fullHeight()) * 4 * sizeof(float);
+    const std::uint64_t bytes =
+        std::uint64_t(size.fullWidth()) * std::uint64_t(size.fullHeight()) * 4 * sizeof(std::uint16_t);
     if (bytes * info_.points.size() < freeMemory() / 2) kept_.resize(info_.points.size());
 }
 

@@ -30,12 +30,15 @@ struct LightFieldInfo {
     FocusRange range;                // focus distances for which margin and levels of detail are sufficient
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
+    std::vector<glm::dvec2> pixels;  // position of each image's samples in px from the pixel's centre, right and up
     Metadata metadata;               // of the frame, without the values above
 
     // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
+    // Returns a number of `metadata`, or `standard` if it is missing.
+    [[nodiscard]] double number(const char* name, double standard) const;
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for
@@ -43,20 +46,34 @@ struct LightFieldInfo {
 // do more to an image of this lens than move it, and if the margin exceeds the image's longer side.
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
 
+// Adds lens points and positions in the pixel of a plan's samples. Throws Error if the plan has objects or vertices
+// with their own blur.
+void addSamples(LightFieldInfo& info, const FramePlan& plan);
+
 // Returns the metadata of each part of the file.
 std::vector<Metadata> partMetadata(const LightFieldInfo& info);
 
-class LightField {
+// Images of the lens points, in a file or in memory.
+class LensImages {
+public:
+    virtual ~LensImages() = default;
+    [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
+    [[nodiscard]] virtual const std::string& name() const = 0;  // for messages
+    // Returns the image of lens point i, with its margin: linear, premultiplied RGBA.
+    [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
+};
+
+class LightField : public LensImages {
 public:
     // Throws Error, with the path in its message, if the file cannot be read, is no file of lens images, or lacks an
     // image.
     explicit LightField(const std::filesystem::path& path);
 
-    [[nodiscard]] const std::string& name() const { return name_; }
-    [[nodiscard]] const LightFieldInfo& info() const { return info_; }
-    // Return the image of lens point i, with its margin: linear, premultiplied RGBA, or depths in m. Throw Error if the
-    // file is damaged.
-    [[nodiscard]] std::shared_ptr<const Image> colour(std::size_t i);
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
+    // colour() and depth() throw Error if the file is damaged.
+    [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override;
+    // Returns the depths in m of the image of lens point i, with its margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
     // Keeps the colours in memory once they are read, if all of them fit into half of the free memory. Worthwhile for
     // several pictures.
@@ -68,7 +85,7 @@ private:
     std::string name_;
     ImagePartReader parts_;
     LightFieldInfo info_;
-    std::vector<std::shared_ptr<const Image>> kept_;  // by image; empty: images are not kept
+    std::vector<std::shared_ptr<const HalfImage>> kept_;  // by image; empty: images are not kept
 };
 
 }  // namespace defocus::engine

@@ -24,6 +24,18 @@ std::optional<FocusRange> visibleRange(const Image& depth) {
 
 }  // namespace
 
+LightFieldOutput::LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range)
+    : driver_(driver), path_(std::move(path)), range_(range) {
+    if (range && !(range->nearest > 0 && range->nearest <= range->farthest))
+        throw UsageError(fmt::format("the focus range {:g} to {:g} m is not 0 < nearest ≤ farthest", range->nearest,
+                                     range->farthest));
+}
+
+void LightFieldOutput::checkPath(const std::filesystem::path& path) {
+    if (path.extension() != ".exr")
+        throw UsageError(fmt::format("--lens-images writes an EXR file; end '{}' with .exr", path.string()));
+}
+
 Request LightFieldOutput::suited(Request request) {
     if (request.method != automaticMethod && request.method != "accumulation")
         throw UsageError(
@@ -57,12 +69,7 @@ void LightFieldOutput::start(const Progress& progress) {
         LensImageOrder{info_.range, info_.size.margin,
                        [this](std::uint32_t, Image&& colour, Image&& depth) { writer_->write(colour, depth); }};
     driver_.start(request, parts, progress);
-    const FramePlan& plan = driver_.driver().plan();
-    if (plan.usesOwnBlur)
-        fail(
-            "--lens-images cannot draw objects or vertices with their own blur (--node-blur, vertex attributes): a "
-            "change of focus would not move each image as a whole");
-    for (const LensSample& sample : plan.samples) info_.points.emplace_back(sample.lens);
+    addSamples(info_, driver_.driver().plan());
     writer_.emplace(path_, info_.size, partMetadata(info_));
 }
 

@@ -20,10 +20,12 @@ public:
     static constexpr std::uint32_t defaultSamples = 64;
 
     // `driver` must outlive the output. `range`: focus distances that the file must allow, in addition to the
-    // request's own; none: from the nearest to the farthest visible surface.
-    LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range)
-        : driver_(driver), path_(std::move(path)), range_(range) {}
+    // request's own; none: from the nearest to the farthest visible surface. Throws UsageError unless
+    // 0 < nearest ≤ farthest.
+    LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range);
 
+    // Throws UsageError unless the file's name ends with .exr.
+    static void checkPath(const std::filesystem::path& path);
     // Returns the request with the method and the number of samples that lens images need. Throws UsageError if the
     // request has other ones, or a target error or a time limit.
     static Request suited(Request request);

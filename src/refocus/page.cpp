@@ -37,22 +37,22 @@ double stepOffset(std::size_t image) {
 double largestRadiance(LightField& field, std::size_t count) {
     double largest = 1;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::shared_ptr<const Image> image = field.colour(i);
-        const std::vector<float>& values = image->pixels;
-        for (std::size_t p = 0; p < values.size(); p += 4)
-            for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, static_cast<double>(values[p + c]));
+        const std::shared_ptr<const HalfImage> image = field.colour(i);
+        for (std::size_t p = 0; p < image->rgba.size(); p += 4)
+            for (std::size_t c = 0; c < 3; ++c)
+                largest = std::max(largest, static_cast<double>(fromHalf(image->rgba[p + c])));
     }
     return std::min(largest, mostRadiance);
 }
 
-std::vector<unsigned char> encodedRadiance(const Image& image, double maximum, double offset) {
-    std::vector<unsigned char> bytes(image.pixels.size() / 4 * 3);
+std::vector<unsigned char> encodedRadiance(const HalfImage& image, double maximum, double offset) {
+    std::vector<unsigned char> bytes(image.rgba.size() / 4 * 3);
     const double scale = 255 / std::log2(1 + curveFactor * maximum);
     const auto width = static_cast<std::size_t>(image.width);
     parallelFor(static_cast<std::size_t>(image.height), [&](std::size_t y) {
         for (std::size_t p = y * width; p < (y + 1) * width; ++p)
             for (std::size_t c = 0; c < 3; ++c) {
-                const double radiance = std::clamp(static_cast<double>(image.pixels[4 * p + c]), 0.0, maximum);
+                const double radiance = std::clamp(static_cast<double>(fromHalf(image.rgba[4 * p + c])), 0.0, maximum);
                 const double value = scale * std::log2(1 + curveFactor * radiance) + offset;
                 bytes[3 * p + c] = static_cast<unsigned char>(std::clamp(std::lround(value), 0l, 255l));
             }
@@ -164,6 +164,7 @@ std::string refocusPage(LightField& field, const std::string& title, const Refoc
                            {"images", encodedImages(field, count, maximum, limit, progress)}};
     for (std::size_t i = 0; i < count; ++i) {
         data["points"].push_back({info.points[i].x, info.points[i].y});
+        data["pixels"].push_back({info.pixels[i].x, info.pixels[i].y});
         data["offsets"].push_back(stepOffset(i) / 255);
     }
     std::string page(refocusPageText);

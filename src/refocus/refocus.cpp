@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <memory>
 #include <string_view>
 
 #include "core/error.h"
 #include "lens/aperture.h"
 #include "lens/lens_fields.h"
+#include "refocus/gap_filling.h"
 #include "refocus/shifted_sum.h"
 
 namespace defocus::engine {
@@ -16,11 +20,7 @@ namespace {
 
 constexpr double tolerance = 1e-6;  // relative, for values that were written as text and read again
 
-double numberOr(const Metadata& metadata, const char* name, double standard) {
-    const auto found = metadata.find(name);
-    const double* const value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    return value != nullptr ? *value : standard;
-}
+constexpr std::size_t imagesAtOnce = 8;
 
 void checkRanges(const LightFieldInfo& info, const Refocusing& refocusing, const std::string& name) {
     const double dioptres = 1 / refocusing.focusDistance;
@@ -47,6 +47,12 @@ Refocusing asRendered(const LightFieldInfo& info) {
     return {info.focusDistance, info.fStop, {}};
 }
 
+glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift) {
+    constexpr double farthest = 1e6;  // px; keeps the result within the range of int
+    const double within = std::clamp(shift, -farthest, farthest);
+    return glm::ivec2(glm::floor(within * info.points[image] + info.pixels[image] + 0.5));
+}
+
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name) {
     checkRanges(info, refocusing, name);
@@ -56,7 +62,7 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
     std::vector<ShiftedImage> images;
     for (std::size_t i = 0; i < info.points.size(); ++i) {
         const double weight = info.disk ? lightDensity(aperture, scale * info.points[i]) : 1;
-        if (weight > 0) images.push_back({i, shift * info.points[i], weight});
+        if (weight > 0) images.push_back({i, wholeMove(info, i, shift), weight});
     }
     if (images.empty())
         fail(
@@ -66,15 +72,47 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
     return images;
 }
 
-Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
-    const std::vector<ShiftedImage> images = shiftedImages(field.info(), refocusing, field.name());
-    const double white = std::exp2(-refocusedExposure(field.info(), asRendered(field.info())));
-    ShiftedSum sum(field.info().size, static_cast<float>(white));
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        sum.add(*field.colour(images[i].image), images[i].shift, static_cast<float>(images[i].weight));
-        report(progress, "lens images", i + 1, images.size());
+Image sharpSum(LensImages& lensImages, const Refocusing& refocusing, const Progress& progress) {
+    const std::vector<ShiftedImage> images = shiftedImages(lensImages.info(), refocusing, lensImages.name());
+    ShiftedSum sum(lensImages.info().size);
+    for (std::size_t first = 0; first < images.size(); first += imagesAtOnce) {
+        const std::size_t end = std::min(first + imagesAtOnce, images.size());
+        std::vector<std::shared_ptr<const HalfImage>> colours;
+        std::vector<MovedImage> moved;
+        for (std::size_t i = first; i < end; ++i) {
+            colours.push_back(lensImages.colour(images[i].image));
+            moved.push_back({colours.back().get(), images[i].move, static_cast<float>(images[i].weight)});
+        }
+        sum.add(moved);
+        report(progress, "lens images", end, images.size());
     }
     return sum.mean();
+}
+
+namespace {
+
+Image withoutGaps(LightField& field, const Refocusing& refocusing, const Progress& progress) {
+    const LightFieldInfo& info = field.info();
+    const std::vector<ShiftedImage> images = shiftedImages(info, refocusing, field.name());
+    GapFilling filling(info.size, {diameterPerDioptre(info, refocusing), 1 / refocusing.focusDistance}, images.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const std::shared_ptr<const HalfImage> colour = field.colour(images[i].image);
+        const Image depth = field.depth(images[i].image);
+        const DeepMovedImage moved{colour.get(), &depth, images[i].move, static_cast<float>(images[i].weight)};
+        filling.add({&moved, 1});
+        report(progress, "lens images", i + 1, images.size());
+    }
+    return filling.mean();
+}
+
+}  // namespace
+
+Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress) {
+    return refocusing.fillGaps ? withoutGaps(field, refocusing, progress) : sharpSum(field, refocusing, progress);
+}
+
+double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusing) {
+    return 2 * info.pixelsPerDioptre * info.fStop / refocusing.fStop;
 }
 
 double focusAtPixel(LightField& field, const Pixel& pixel) {
@@ -100,8 +138,8 @@ Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocus
 }
 
 double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing) {
-    const double rendered = numberOr(info.metadata, "defocus:exposure", 0);
-    const bool timed = numberOr(info.metadata, "defocus:exposureTime", 0) > 0;
+    const double rendered = info.number("defocus:exposure", 0);
+    const bool timed = info.number("defocus:exposureTime", 0) > 0;
     return timed ? rendered + 2 * std::log2(info.fStop / refocusing.fStop) : rendered;
 }
 

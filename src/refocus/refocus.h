@@ -2,8 +2,13 @@
 // Computes pictures with another focus, f-number and aperture shape from lens images: shift and add (Levoy and Hanrahan
 // 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light Fields).
 //
-// Each image moves as light_field.h says. A smaller aperture uses the images of the lens points within it. An aperture
-// shape weights each image by the shape's light density at its lens point.
+// Each image moves as light_field.h says, by whole pixels. An image has one sample per pixel, at a known position in
+// the pixel. Moved by a fraction of a pixel, a sample lies within one pixel of the picture, to which it contributes
+// unchanged. A pixel of the picture is thus the mean of samples within it, one of each image, as in a rendered picture.
+// Interpolation between samples would soften the picture, which more images could not remedy.
+//
+// A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the shape's
+// light density at its lens point.
 
 #include <optional>
 #include <vector>
@@ -18,6 +23,7 @@ struct Refocusing {
     double focusDistance = 1;        // m; within LightFieldInfo::range
     double fStop = 1;                // not below LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; none: as rendered
+    bool fillGaps = false;           // blur each image by its cell of the lens (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
@@ -26,9 +32,13 @@ Refocusing asRendered(const LightFieldInfo& info);
 // An image's part in a refocused picture.
 struct ShiftedImage {
     std::size_t image = 0;  // index of the lens image
-    glm::dvec2 shift{0};    // px, right and up
+    glm::ivec2 move{0};     // px, right and up
     double weight = 1;      // > 0
 };
+
+// Returns the px, right and up, by which an image moves if `shift` is the move of the image of lens point (1, 1). Each
+// sample moves to the pixel in which it then lies.
+glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
 
 // Returns the images that the picture combines, in order. Throws Error, with `name` in its message, if the focus
 // distance or the f-number is outside the rendered range, if the shape needs light that the rendered aperture blocks,
@@ -37,8 +47,13 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
                                         const std::string& name);
 
 // Returns the picture: linear, premultiplied RGBA. Throws Error in the cases of shiftedImages, and if the file is
-// damaged. Reads one image at a time.
+// damaged. Reads a few images at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
+// Returns the picture without filled gaps.
+Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});
+
+// Returns the diameter in px of the circle of confusion of a surface that is one dioptre out of focus.
+double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusing);
 
 // Returns the distance in m of the surface at a pixel. Throws Error if the pixel is outside the image or shows no
 // surface.

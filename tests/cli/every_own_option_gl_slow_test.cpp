@@ -25,8 +25,9 @@ const std::set<std::string> triedAlone = {
     " --shader-dir",
     "render --keep-partial",  // stopping_gl_slow_test.cpp
     "capture --check",
-    "refocus --frames",       // commands/refocus_gl_test.cpp
-    "refocus --frame-rate",   // commands/refocus_gl_test.cpp
+    "capture --refocus",     // commands/capture_refocus_gl_test.cpp
+    "refocus --frames",      // commands/refocus_gl_test.cpp
+    "refocus --frame-rate",  // commands/refocus_gl_test.cpp
     "bench speedup --allow-changed",
     "bench popping --allow-changed",
     "bench prediction --allow-changed",

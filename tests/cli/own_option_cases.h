@@ -82,6 +82,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words images = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--focus-distance", "3"};
     static const std::vector<Words> lensImages = {joined(images, {"--focus-range", "0.5:8", "--lens-images", "a.exr"}),
                                                   joined(images, {"--samples", "32", "--lens-images", "b.exr"})};
+    static const std::vector<Words> fewImages = {joined(lensImages.front(), {"--samples", "4"})};
     static const std::vector<Words> converged = {usualLine("bench convergence")};
     static const std::map<std::string, OwnOptionCase> table = {
         {"render --output", {.words = {"-o", "other.png"}}},
@@ -123,6 +124,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"refocus --output", {.words = {"-o", "other.exr"}, .before = lensImages}},
         {"refocus --exposure", {.words = {"--exposure", "1"}, .more = {"-o", "m.png"}, .before = lensImages}},
         {"refocus --html", {.words = {"--html", "page.html"}, .before = lensImages}},
+        {"refocus --fill-gaps", {.words = {"--fill-gaps"}, .more = {"--focus-distance", "0.5"}, .before = fewImages}},
         {"refocus --stack", {.words = {"--stack", "2"}, .before = lensImages}},
         {"refocus --focus-pull",
          {.words = {"--focus-pull", "0.6:2", "--video", "film.gif", "--frames", "2"}, .before = lensImages}},

@@ -73,8 +73,8 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
         modules["stability"] = {};  // the folder is bench/stability; only a command includes it
-        addOver("capture", "frame", {});
         addOver("refocus", "frame", {});
+        addOver("capture", "refocus", {});
         addOver("view/state", "capture", {});
         addOver("view/document", "view/state", {});
         addOver("view/picture", "view/document", {});
@@ -84,7 +84,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/panels", "view/widgets", {});
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
-        addOver("cli", "view/window", {"eval", "stability", "refocus", "view/bench"});
+        addOver("cli", "view/window", {"eval", "stability", "view/bench"});
         modules["frame"].emplace_back("school");  // only frame includes the built-in scene
         return modules;
     }();

@@ -26,6 +26,7 @@
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
 #include "plan/frame_plan.h"
+#include "refocus/focal_stack.h"
 #include "render/tiles/row_file.h"
 #include "render/tiles/sum_file.h"
 #include "scene/camera_files/usda_camera.h"
@@ -57,16 +58,18 @@ std::filesystem::path written(const std::string& name, std::span<const std::byte
     return path;
 }
 
+Bytes fileBytes(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return bytesOf(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
 std::vector<Bytes> filesIn(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.is_regular_file()) paths.push_back(entry.path());
     std::ranges::sort(paths);
     std::vector<Bytes> files;
-    for (const std::filesystem::path& path : paths) {
-        std::ifstream file(path, std::ios::binary);
-        files.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
-    }
+    for (const std::filesystem::path& path : paths) files.push_back(fileBytes(path));
     return files;
 }
 
@@ -165,10 +168,8 @@ std::string furnishedScene() {
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
     // files with lamps, and with lens values in the extras of a camera
-    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {
-        std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
-        seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
-    }
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"})
+        seeds.push_back(fileBytes(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own));
     seeds.push_back(bytesOf(furnishedScene()));
     return seeds;
 }
@@ -282,15 +283,15 @@ std::vector<Bytes> imageSeeds() {
         if (std::string_view(imageNames[format]).ends_with("hdr")) continue;  // HDR files can be read but not written
         const std::filesystem::path path = written(std::string("seed-") + imageNames[format], {});
         writeImage(path, image);
-        std::ifstream file(path, std::ios::binary);
-        Bytes seed = bytesOf(std::string(std::istreambuf_iterator<char>(file), {}));
+        Bytes seed = fileBytes(path);
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
     // Two tiles, one of which is a complete frame, and a file with a part of a frame's samples.
     const auto add = [&](const std::filesystem::path& path) {
-        std::ifstream file(path, std::ios::binary);
-        seeds.push_back(bytesOf(std::string(1, 0) + std::string(std::istreambuf_iterator<char>(file), {})));
+        Bytes seed = fileBytes(path);
+        seed.insert(seed.begin(), std::byte{0});
+        seeds.push_back(std::move(seed));
     };
     for (const int frameHeight : {image.height, image.height + 4}) {
         const std::filesystem::path path = written("seed-tile.exr", {});
@@ -307,6 +308,56 @@ std::vector<Bytes> imageSeeds() {
     std::string hdr("\x02#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n");
     for (int i = 0; i < 4; ++i) hdr += "\x40\x80\xc0\x81";
     seeds.push_back(bytesOf(hdr));
+    return seeds;
+}
+
+// ---- lens images
+
+// Refocuses the images, within and outside the range that the file states.
+void runLensImages(std::span<const std::byte> bytes) {
+    try {
+        LightField field(written("lens.exr", bytes));
+        const LightFieldInfo& info = field.info();
+        if (std::size_t(info.size.fullWidth()) * std::size_t(info.size.fullHeight()) > maxImagePixels) return;
+        static_cast<void>(centralDepth(field));
+        static_cast<void>(allInFocus(field));
+        for (const double focusDistance : {info.focusDistance, info.range.nearest, info.range.farthest})
+            for (const double stops : {1.0, 2.0}) {
+                const Refocusing refocusing{focusDistance, info.fStop * stops, {}};
+                const Image picture = refocused(field, refocusing);
+                if (picture.width != info.size.width || picture.height != info.size.height) std::abort();
+                static_cast<void>(refocusedMetadata(info, refocusing));
+                static_cast<void>(refocusedExposure(info, refocusing));
+            }
+    } catch (const Error&) {
+    }
+}
+
+std::vector<Bytes> lensImageSeeds() {
+    LightFieldInfo info;
+    info.size = {6, 4, 3};
+    info.focusDistance = 2;
+    info.fStop = 1.4;
+    info.pixelsPerDioptre = 2;
+    info.range = {1.5, 3};
+    std::vector<Bytes> seeds;
+    for (const std::size_t images : {1u, 3u}) {
+        info.points.clear();
+        for (std::size_t i = 0; i < images; ++i) info.points.emplace_back(0.5 * double(i) - 0.5, 0.25);
+        info.pixels.assign(images, {0.25, -0.5});
+        const std::filesystem::path path = written("seed-lens.exr", {});
+        ImagePartWriter writer(path, info.size, partMetadata(info));
+        for (std::size_t i = 0; i < images; ++i) {
+            Image colour(info.size.fullWidth(), info.size.fullHeight(), 4);
+            for (std::size_t k = 0; k < colour.pixels.size(); ++k)
+                colour.pixels[k] = static_cast<float>((k + i) % 7) / 4;
+            Image depth(colour.width, colour.height, 1);
+            std::ranges::fill(depth.pixels, static_cast<float>(1 + i));
+            writer.write(colour, depth);
+        }
+        writer.finish();
+        seeds.push_back(fileBytes(path));
+    }
     return seeds;
 }
 
@@ -392,9 +443,13 @@ std::vector<Bytes> usdaSeeds() {
 }
 
 constexpr std::array targets = {
-    FuzzTarget{"gltf", runGltf, gltfSeeds, 1 << 15},    FuzzTarget{"shot", runShot, shotSeeds, 1 << 13},
-    FuzzTarget{"cache", runCache, cacheSeeds, 1 << 16}, FuzzTarget{"image", runImage, imageSeeds, 1 << 12},
-    FuzzTarget{"usda", runUsda, usdaSeeds, 1 << 12},    FuzzTarget{"settings", runSettings, settingsSeeds, 1 << 10},
+    FuzzTarget{"gltf", runGltf, gltfSeeds, 1 << 15},
+    FuzzTarget{"shot", runShot, shotSeeds, 1 << 13},
+    FuzzTarget{"cache", runCache, cacheSeeds, 1 << 16},
+    FuzzTarget{"image", runImage, imageSeeds, 1 << 12},
+    FuzzTarget{"lens", runLensImages, lensImageSeeds, 1 << 13},
+    FuzzTarget{"usda", runUsda, usdaSeeds, 1 << 12},
+    FuzzTarget{"settings", runSettings, settingsSeeds, 1 << 10},
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ struct FuzzTarget {
 //   image     an image file as environment, aperture, tile, and input of compare and merge; the first byte selects
 //             the format
 //   usda      a USD text file with a camera
+//   lens      a file of lens images, refocused within the range that it states
 //   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 

@@ -13,7 +13,6 @@
 #include "core/error.h"
 #include "lens/lens_samples.h"
 #include "plan/frame_plan.h"
-#include "refocus/shifted_sum.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -27,8 +26,10 @@ LightFieldInfo describedImages() {
     info.fStop = 2;
     info.pixelsPerDioptre = 0.025 * 1000 / (4 * 0.36);
     info.range = {1, std::numeric_limits<double>::infinity()};
-    for (const LensSample& sample : lensSamples(Lens(), Sequence::sobol, 0, 256, 0))
+    for (const LensSample& sample : lensSamples(Lens(), Sequence::sobol, 0, 256, 0)) {
         info.points.emplace_back(sample.lens);
+        info.pixels.emplace_back(sample.pixel);
+    }
     return info;
 }
 
@@ -46,21 +47,26 @@ TEST(Refocus, asRenderedMovesNothing) {
     const std::vector<ShiftedImage> images = shiftedImages(info, asRendered(info), "");
     ASSERT_EQ(images.size(), 256u);
     for (const ShiftedImage& image : images) {
-        EXPECT_EQ(image.shift, glm::dvec2(0));
+        EXPECT_EQ(image.move, glm::ivec2(0));
         EXPECT_EQ(image.weight, 1);
     }
 }
 
 // A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The image of lens point (u, v) shows it at
-// c/2·(u, v) from its pinhole position, before it in the opposite direction. Refocused at z, all images show the point
-// at the same position.
+// c/2·(u, v) from its pinhole position, before it in the opposite direction. Refocused at z, the samples of all images
+// that were one distance from the point lie in one pixel.
 TEST(Refocus, bringsThePointInFocusTogether) {
     const LightFieldInfo info = describedImages();
     const double radius = 0.025 * (1 / 2.0 - 1 / 3.0) * 1000 / (2 * 0.36) / 2;
     Refocusing refocusing = asRendered(info);
     refocusing.focusDistance = 3;
-    for (const ShiftedImage& image : shiftedImages(info, refocusing, ""))
-        EXPECT_LT(glm::length(radius * info.points[image.image] + image.shift), 1e-9);
+    glm::dvec2 mean(0);
+    for (const ShiftedImage& image : shiftedImages(info, refocusing, "")) {
+        const glm::dvec2 place = info.pixels[image.image] - radius * info.points[image.image] - glm::dvec2(image.move);
+        EXPECT_LE(std::max(std::abs(place.x), std::abs(place.y)), 0.5 + 1e-9);
+        mean += place / 256.0;
+    }
+    EXPECT_LT(glm::length(mean), 0.03);  // the samples cover the pixel evenly
 }
 
 TEST(Refocus, stoppingDownKeepsTheLensPointsWithin) {
@@ -112,6 +118,7 @@ TEST(Refocus, refusesWhatWasNotRendered) {
     EXPECT_EQ(faultOf(info, {2, 1.4, {}}),
               "a.exr: f/1.4 is wider than the rendered aperture of f/2; render the file again with --fstop 1.4");
     info.points = {{0.5, 0.5}};
+    info.pixels = {{0, 0}};
     EXPECT_EQ(faultOf(info, {2, 22, {}}),
               "a.exr: none of its 1 lens points lies within the aperture at f/22; render the file again with more "
               "--samples");
@@ -156,10 +163,10 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
     refused([](Lens& lens) { lens.astigmatism = 0.1; }, "--astigmatism");
     refused([](Lens& lens) { lens.coma = 0.1; }, "--coma");
     refused([](Lens& lens) { lens.dofEnabled = false; }, "--no-dof");
-    EXPECT_NE(refusalOf({}, 1e-3).find("--focus-range 0.001:3 needs a margin of"), std::string::npos);
+    EXPECT_NE(refusalOf({}, 1e-3).find("a focus from 0.001 to 3 m need a margin of"), std::string::npos);
 }
 
-// The margin holds the largest move over the focus range, and the pixels that the filter reads.
+// The margin holds the largest move over the focus range, rounded to whole pixels.
 TEST(LensImages, haveAMarginForTheFocusRange) {
     View view;
     view.lens.focusDistance = 2;
@@ -167,7 +174,16 @@ TEST(LensImages, haveAMarginForTheFocusRange) {
     const LightFieldInfo info = lightFieldInfo(view, {1, 4});
     const double pixelsPerDioptre = 0.025 * 1024 / (4 * 0.36);  // A·W/(4·tan(θx/2))
     EXPECT_NEAR(info.pixelsPerDioptre, pixelsPerDioptre, 1e-9);
-    EXPECT_EQ(info.size.margin, static_cast<int>(std::ceil(0.5 * pixelsPerDioptre)) + filterReach);
+    EXPECT_EQ(info.size.margin, static_cast<int>(std::ceil(0.5 * pixelsPerDioptre + 0.5)));
+    for (const double sign : {-1, 1}) {
+        LightFieldInfo full = info;
+        full.points = {{sign, sign}};
+        full.pixels = {{0.499 * sign, 0.5 * sign}};
+        for (const double focus : {1.0, 4.0}) {
+            const glm::ivec2 move = wholeMove(full, 0, full.shift(focus));
+            EXPECT_LE(std::max(std::abs(move.x), std::abs(move.y)), full.size.margin) << sign << ' ' << focus;
+        }
+    }
 }
 
 }  // namespace

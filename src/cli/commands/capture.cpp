@@ -20,6 +20,7 @@
 #include "capture/shot_options.h"
 #include "capture/video.h"
 #include "cli/command.h"
+#include "cli/commands/capture_refocus.h"
 #include "cli/options/option_text.h"
 #include "cli/options/request_options.h"
 #include "cli/terminal/stop_signal.h"
@@ -58,7 +59,8 @@ struct CaptureArguments {
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
-    bool check = false;  // measure the pops of the levels of detail
+    bool check = false;    // measure the pops of the levels of detail
+    bool refocus = false;  // compute runs of frames from lens images
 };
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
@@ -74,6 +76,8 @@ void checkArguments(const CaptureArguments& arguments) {
         if (fault) fail("cannot create the folder {}: {}", folder.string(), fault.message());
         if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
     }
+    if (arguments.refocus && (arguments.sampleRange || arguments.check || arguments.request.targetError))
+        throw UsageError("--refocus cannot be combined with --sample-range, --check and --target-error");
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
     if (!arguments.shot.video.empty()) {
         if (part)
@@ -126,7 +130,7 @@ void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const Se
 }
 
 void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-               const std::vector<FilmFrame>& film, const MethodUse& use) {
+               const std::vector<FilmFrame>& film, const FilmOptions& options, const MethodUse& use) {
     const StopSettings stop = stopSettings(arguments.request);
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
                                 : stop.automatic ? "as many samples as each frame needs"
@@ -142,9 +146,10 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
                    lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
-                   each.finished        ? " (finished)"
-                   : each.other.empty() ? ""
-                                        : " (other settings)");
+                   each.finished                                ? " (finished)"
+                   : runOf(options.runs, each.frame) != nullptr ? " (refocused)"
+                   : each.other.empty()                         ? ""
+                                                                : " (other settings)");
     }
 }
 
@@ -279,9 +284,17 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placedFrame(arguments, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
+    if (arguments.refocus && chosenMethod(arguments.request).method->name == automaticMethod)
+        arguments.request.method = "accumulation";
     settleMethod(arguments, prepared, base);
     const MethodUse use = chosenMethod(arguments.request);
     FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
+    if (arguments.refocus && use.method->name != "accumulation")
+        throw UsageError(
+            fmt::format("--refocus needs the method accumulation, not '{}'; leave out --method", use.text()));
+    RefocusRuns runs;
+    if (arguments.refocus) runs = chosenRuns(shot, base, options.settings);
+    options.runs = runs.runs;
     options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
@@ -298,8 +311,9 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     printCacheUse(prepared, global);
     WarningPrinter warnings(global);
     warnings.print(requestWarnings(arguments.request, prepared));
+    warnings.print(runs.rendered);
     if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
-    if (arguments.dryRun) return printPlan(arguments, prepared, base, film, use);
+    if (arguments.dryRun) return printPlan(arguments, prepared, base, film, options, use);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
     const auto hasCurve = [](const std::string& pattern) {
@@ -324,7 +338,11 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
     if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
     progress = {};
-    if (!global.quiet) printFigures(figures, film.size());
+    if (global.quiet) return;
+    printFigures(figures, film.size());
+    const std::string saving =
+        arguments.refocus ? savedText(options.settings, figures) : possibleSaving(shot, base, options.settings, film);
+    if (!saving.empty()) printMessage("{}\n", saving);
 }
 
 // ---- options --------------------------------------------------------------------------------------------------------
@@ -421,6 +439,12 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     command.add_flag("--dry-run", arguments.dryRun, "Print the plan of each frame without rendering")->group(group);
+    command
+        .add_flag(
+            "--refocus", arguments.refocus,
+            "Compute frames of a still scene in which only focus, f-number and aperture shape change from one set "
+            "of lens images")
+        ->group(group);
     command
         .add_flag("--check", arguments.check,
                   "Measure the pops of the levels of detail from frame to frame, and print the largest; takes up to "

@@ -19,8 +19,7 @@ namespace {
 
 void checkFile(const RenderArguments& arguments) {
     const std::filesystem::path& path = arguments.lensImages;
-    if (path.extension() != ".exr")
-        throw UsageError(fmt::format("--lens-images writes an EXR file; end '{}' with .exr", path.string()));
+    LightFieldOutput::checkPath(path);
     if (!arguments.stats.empty() || arguments.keepPartial)
         throw UsageError("--lens-images cannot be combined with --stats and --keep-partial");
     checkImageOutputs({path}, {},

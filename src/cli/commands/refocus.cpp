@@ -20,47 +20,32 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "refocus/page.h"
+#include "refocus/refocus_settings.h"
 
 namespace defocus::engine {
 
 namespace {
 
-// Settings of `render` that can be chosen afterwards.
-const std::vector<std::string> refocusSettings = {"focusDistance",   "focusPixel",    "fStop",
-                                                  "bladeCount",      "bladeRotation", "bladeCurvature",
-                                                  "anamorphicRatio", "obstruction",   "sphericalAberration",
-                                                  "apertureImage",   "toneMap"};
+// Returns the names of the settings of `render` that the command has.
+std::vector<std::string> ownSettings() {
+    std::vector<std::string> names = refocusSettings();
+    names.emplace_back("toneMap");
+    return names;
+}
 
 struct RefocusArguments {
     std::filesystem::path file;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
-    Request request;                 // values of refocusSettings
+    Request request;                 // values of ownSettings()
     std::optional<double> exposure;  // EV; none: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
     FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
+    bool fillGaps = false;           // fill the gaps between few lens images
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };
 
-// Returns the aperture's shape that the request gives; none if it gives no shape.
-std::optional<Lens> requestedShape(const Request& request) {
-    LensValues values = givenLensValues(request);
-    for (const char* other : {"fStop", "focusDistance"}) values.erase(other);
-    if (values.empty() && request.lens.apertureImage.empty()) return {};
-    Lens lens;
-    setLensFields(lens, values);
-    if (!request.lens.apertureImage.empty()) lens.apertureImage = loadApertureImage(request.lens.apertureImage);
-    return lens;
-}
-
-Refocusing requested(const Request& request, LightField& field) {
-    Refocusing refocusing = asRendered(field.info());
-    if (const auto* const distance = std::get_if<FocusDistance>(&request.focus))
-        refocusing.focusDistance = distance->metres;
-    if (const auto* const at = std::get_if<FocusPixel>(&request.focus))
-        refocusing.focusDistance = focusAtPixel(field, at->pixel);
-    refocusing.fStop = request.lens.fStop.value_or(refocusing.fStop);
-    refocusing.shape = requestedShape(request);
-    return refocusing;
+Refocusing requested(const RefocusArguments& arguments, LightField& field) {
+    return refocusingOf({arguments.request.focus, arguments.request.lens, arguments.fillGaps}, field);
 }
 
 void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
@@ -68,10 +53,10 @@ void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
     if (extension != ".html" && extension != ".htm")
         throw UsageError(fmt::format("--html writes a web page; end '{}' with .html", arguments.page.string()));
     checkImageOutputs({}, {arguments.page}, {arguments.file});
-    if (requestedShape(arguments.request))
+    if (apertureShape(arguments.request.lens))
         throw UsageError("--html has its own choice of aperture shapes; leave out the options of the aperture");
     LightField field(arguments.file);
-    const Refocusing start = requested(arguments.request, field);
+    const Refocusing start = requested(arguments, field);
     const WriteOptions write{arguments.request.toneMap,
                              arguments.exposure.value_or(refocusedExposure(field.info(), start))};
     const std::string page =
@@ -113,7 +98,7 @@ void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) 
         throw UsageError(
             "--focus-pull and --stack set the focus distances; leave out --focus-distance and --focus-pixel");
     LightField field(arguments.file);
-    const Refocusing refocusing = requested(arguments.request, field);
+    const Refocusing refocusing = requested(arguments, field);
     const WriteOptions write{arguments.request.toneMap,
                              arguments.exposure.value_or(refocusedExposure(field.info(), refocusing))};
     if (films)
@@ -136,12 +121,16 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Exposure in EV for PNG and JPEG. Default: as rendered");
+    CLI::Option* const fills = command->add_flag("--fill-gaps", arguments->fillGaps,
+                                                 "Fill the gaps between few lens images: blur each image by its part "
+                                                 "of the lens, which follows from the depths");
     addParsed(*command, "--html", "FILE",
               fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
                           "images. Replaces --output",
                           maxPageImages),
               [arguments](const std::string& text) { arguments->page = text; })
-        ->excludes("--output");
+        ->excludes("--output")
+        ->excludes(fills);
     CLI::Option* const pull = addParsed(
         *command, "--focus-pull", "A:B", "Film a focus pull from distance A to distance B in m; needs --video",
         [arguments](const std::string& text) { parseFocusPull(text, arguments->pull); });
@@ -162,7 +151,7 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
         ->default_str("")
         ->excludes("--html")
         ->excludes(pull);
-    addSettings(*command, arguments->request, refocusSettings);
+    addSettings(*command, arguments->request, ownSettings());
     command->footer(
         "Examples:\n"
         "  defocus render scene.glb --lens-images scene.lens.exr --fstop 1.4 --samples 128\n"

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "capture/video.h"
 #include "cli/options/image_output.h"
@@ -37,11 +36,6 @@ public:
 private:
     std::filesystem::path path_;
 };
-
-// Returns distance `i` of `count` from `from` to `to`, evenly in 1/distance.
-double distanceAt(double from, double to, int i, int count) {
-    return 1 / glm::mix(1 / from, 1 / to, count > 1 ? static_cast<double>(i) / (count - 1) : 0.0);
-}
 
 }  // namespace
 
@@ -93,10 +87,10 @@ void writeFocalStack(LightField& field, const Refocusing& refocusing, int pictur
     field.keepImages();
     Progress progress = terminalProgress(global);
     const FocusRange& range = field.info().range;
+    const std::vector<double> distances = stackDistances(range, pictures);
     for (int i = 0; i < pictures; ++i) {
         Refocusing picture = refocusing;
-        picture.focusDistance =
-            std::clamp(distanceAt(range.nearest, range.farthest, i, pictures), range.nearest, range.farthest);
+        picture.focusDistance = distances[static_cast<std::size_t>(i)];
         writeImage(stackPath(output, fmt::format("{:02}", i)), refocused(field, picture),
                    refocusedMetadata(field.info(), picture), write);
         report(progress, "pictures", static_cast<std::uint64_t>(i) + 1, static_cast<std::uint64_t>(pictures) + 1);

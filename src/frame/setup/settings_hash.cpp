@@ -64,6 +64,7 @@ FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
 std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     HashedText hashed;
     hashed.add(film.world, programVersion(), film.encoding);
+    if (!film.lensImages.empty()) hashed.add(film.lensImages);
     hashed.add(moment.frame, moment.time);
     addPose(hashed, moment.pose);
     hashed.add(moment.shutter.perSample);

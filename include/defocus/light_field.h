@@ -1,0 +1,100 @@
+#pragma once
+// Light fields: the images of a frame's lens samples, kept in a file. Pictures with another focus, f-number and
+// aperture shape are computed from them without rendering (docs/refocus.md). Example:
+//
+//   auto field = defocus::LightField::render(request, "scene.lens.exr");
+//   defocus::writeImage("near.exr", field.refocus({.focus = defocus::FocusDistance{1.2}}));
+//
+// An object must be used by only one thread at a time; different objects may be used concurrently.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "defocus/export.h"
+#include "defocus/focus.h"
+#include "defocus/image.h"
+#include "defocus/lens.h"
+#include "defocus/progress.h"
+#include "defocus/request.h"
+#include "defocus/scene.h"
+
+namespace defocus {
+
+// Choices after rendering. refocusSettings() lists the values that may be set; others throw UsageError.
+struct RefocusSettings {
+    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: as rendered
+    LensSettings lens = {};  // f-number and shape of the aperture; values without a setting: as rendered
+    bool fillGaps = false;   // fill the gaps between few lens images: blur each by its part of the lens
+};
+
+// Description of the lens images of a file.
+struct LightFieldInfo {
+    int width = 0;                  // px
+    int height = 0;                 // px
+    double focusDistance = 1;       // m, of the rendered images
+    double fStop = 1;               // of the rendered aperture; the widest one that can be chosen
+    double focalLength = 0;         // mm; 0: unknown
+    double horizontalAperture = 0;  // mm, sensor width; 0: unknown
+    FocusRange focusRange;          // focus distances that can be chosen
+    bool fullDisk = true;           // whether f-number and aperture shape can be chosen
+    // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.
+    double pixelsPerDioptre = 0;
+    // Lens point (u, v) of each image in the unit disk; u points right, v up.
+    std::vector<std::array<double, 2>> lensPoints;
+};
+
+// Pictures with focus distances over the rendered range, evenly in 1/distance, from the nearest to the farthest.
+struct FocalStack {
+    std::vector<double> focusDistances;  // m
+    std::vector<Image> pictures;         // linear, premultiplied RGBA
+};
+
+class DEFOCUS_API LightField {
+public:
+    // Opens a file of lens images. Throws Error if the file cannot be read, is no such file, or lacks an image.
+    explicit LightField(const std::filesystem::path& path);
+    // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances to
+    // choose from later, in addition to the request's own; none: from the nearest to the farthest visible surface.
+    // Throw UsageError if the request's method, samples or target error don't suit lens images, and Error if a change
+    // of focus would do more to an image of this lens than move it, and under the conditions of SceneRenderer. A
+    // failure leaves no file.
+    static LightField render(const Request& request, const std::filesystem::path& path,
+                             std::optional<FocusRange> range = {}, const Progress& progress = {});
+    static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,
+                             std::optional<FocusRange> range = {}, const Progress& progress = {});
+    ~LightField();
+    LightField(LightField&&) noexcept;
+    LightField& operator=(LightField&&) noexcept;
+
+    [[nodiscard]] LightFieldInfo info() const;
+    // Returns warnings about the scene and the request, one line each; none if the file was opened.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+
+    // Returns a picture: linear, premultiplied RGBA. Throws Error if the focus distance or the f-number is outside the
+    // rendered range, if the shape needs light that the rendered aperture blocks, or if the file is damaged.
+    [[nodiscard]] Image refocus(const RefocusSettings& settings = {}, const Progress& progress = {});
+    // Returns `count` ≥ 2 pictures. RefocusSettings::focus must be CameraFocus.
+    [[nodiscard]] FocalStack stack(int count, const RefocusSettings& settings = {}, const Progress& progress = {});
+    // Returns the picture in which everything is in focus, as the lens's centre sees it.
+    [[nodiscard]] Image allInFocus(const Progress& progress = {});
+    // Returns the depths in m along the view axis of the surfaces that the lens's centre sees; +∞ for pixels without a
+    // surface.
+    [[nodiscard]] Image depth();
+    // Returns the signed diameters in px of the circles of confusion of these surfaces, > 0 behind the focus plane.
+    [[nodiscard]] Image coc(const RefocusSettings& settings = {});
+
+private:
+    class DEFOCUS_HIDDEN State;
+    LightField(const std::filesystem::path& path, std::vector<std::string> warnings);
+    std::unique_ptr<State> state_;
+};
+
+// Returns the names of the settings that can be chosen after rendering, as in docs/settings.md.
+DEFOCUS_API std::vector<std::string> refocusSettings();
+
+}  // namespace defocus

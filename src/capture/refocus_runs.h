@@ -1,0 +1,62 @@
+#pragma once
+// Runs of neighbouring frames of a still scene in which only focus distance, f-number and aperture shape change. The
+// images of the lens samples are rendered once for a run, and all of its frames are computed from them (src/refocus).
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/frame_sequence.h"
+#include "frame/setup/settings_hash.h"
+#include "refocus/kept_lens_images.h"
+#include "refocus/refocus.h"
+
+namespace defocus::engine {
+
+struct RefocusRun {
+    FrameRange frames;
+    Lens lens;                  // of the lens images: the run's widest aperture, and the middle of its focus range
+    FocusRange range;           // focus distances of the frames, m
+    std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
+
+    // Returns a text that differs between runs with different lens images.
+    [[nodiscard]] std::string text() const;
+};
+
+struct RefocusRuns {
+    std::vector<RefocusRun> runs;       // in the order of their frames
+    std::vector<std::string> rendered;  // why frames are rendered one by one although they could form a run
+};
+
+// Returns the runs within `frames`, each as long as it saves most lens samples. `samples`: lens samples of each frame.
+RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
+                        const FrameRange& frames, std::uint32_t samples);
+
+// Returns the run that contains a frame; null if there is none.
+const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
+
+// Returns the memory in bytes of a run's lens images. `view`: of one of its frames.
+std::uint64_t memoryOf(const RefocusRun& run, const View& view);
+
+// Computes the pictures of runs. Keeps the lens images of one run.
+class RefocusedPictures {
+public:
+    struct Picture {
+        Image image;
+        std::uint32_t samples = 0;  // lens images that the picture combines
+        FramePlan plan;             // of the lens images, with the picture's view
+        bool rendered = false;      // whether the lens images were rendered for this picture
+    };
+    // Returns the picture of a frame of `run`. Renders the run's lens images if the previous picture was of another
+    // run. `driver` draws the world of the frame. `step` gets the finished share.
+    Picture picture(const RefocusRun& run, const FrameMoment& moment, FrameDriver& driver,
+                    const std::function<void(double)>& step);
+
+private:
+    const RefocusRun* run_ = nullptr;  // run of images_
+    std::optional<KeptLensImages> images_;
+    FramePlan plan_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,22 @@
+#pragma once
+// Runs of frames of `defocus capture --refocus`, and what they save.
+
+#include <string>
+#include <vector>
+
+#include "capture/capture.h"
+
+namespace defocus::engine {
+
+// Returns the runs of the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error if the
+// lens images of a run don't fit into half of the memory.
+RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
+
+// Returns a line about what the lens images saved.
+std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
+
+// Returns a line about what --refocus would save in frames that were rendered one by one; empty if nothing.
+std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
+                           const std::vector<FilmFrame>& film);
+
+}  // namespace defocus::engine

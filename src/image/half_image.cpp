@@ -1,0 +1,26 @@
+#include "image/half_image.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace defocus::engine {
+
+HalfImage halfImage(const ImageView& image) {
+    assert(image.channels == 4 && image.isPacked());
+    std::vector<float> clamped(image.pixels.begin(), image.pixels.end());
+    for (float& value : clamped) value = std::clamp(value, -maxHalf, maxHalf);
+    HalfImage result{image.width, image.height, std::vector<std::uint16_t>(clamped.size())};
+    OIIO::convert_pixel_values(OIIO::TypeFloat, clamped.data(), OIIO::TypeHalf, result.rgba.data(),
+                               static_cast<int>(clamped.size()));
+    return result;
+}
+
+Image fullImage(const HalfImage& image) {
+    Image result(image.width, image.height, 4);
+    std::ranges::transform(image.rgba, result.pixels.begin(), fromHalf);
+    return result;
+}
+
+}  // namespace defocus::engine

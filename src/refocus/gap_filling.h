@@ -1,0 +1,61 @@
+#pragma once
+// Fills the gaps between few lens images. A sum of N sharp images shows N copies of each blurred surface. Each lens
+// image stands for a cell of the lens, and its pixels are blurred by the blur of that cell, which follows from their
+// depth: σ = 0.5 · c / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
+//
+// As in method multirate, pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of
+// each class is blurred once. A pixel contributes to the two classes with the nearest variances. The classes are
+// composited from the farthest to the nearest, each with the share of the samples that no nearer class covers. A sharp
+// outline thus stays sharp in front of a blurred background.
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "image/half_image.h"
+#include "image/image_parts.h"
+
+namespace defocus::engine {
+
+// A lens image that is moved by whole pixels, with its depths in m.
+struct DeepMovedImage {
+    const HalfImage* colour = nullptr;  // of the full size
+    const Image* depth = nullptr;       // of the full size
+    glm::ivec2 move{0};                 // px, right and up
+    float weight = 1;                   // > 0
+};
+
+// Circle of confusion: diameter · (focus − 1/depth) px, > 0 behind the focus plane.
+struct DioptreBlur {
+    double diameter = 0;  // px per dioptre
+    double focus = 1;     // dioptres
+};
+
+class GapFilling {
+public:
+    static constexpr std::size_t classes = 5;  // classes of blur on each side of the focus plane
+
+    // `images`: number of images that will be added.
+    GapFilling(const PartSize& size, const DioptreBlur& blur, std::size_t images);
+
+    void add(std::span<const DeepMovedImage> images);
+    // Returns the mean of the images with filled gaps: linear, premultiplied RGBA. Needs at least one image.
+    [[nodiscard]] Image mean() const;
+
+private:
+    // Sum of samples for each pixel: RGBA and the sum of weights.
+    using Sum = std::vector<float>;
+
+    void addPixel(std::size_t pixel, const std::uint16_t* colour, float depth, float weight);
+    void layOver(Image& image, const Sum& shown, const std::vector<float>& nearer, double variance) const;
+
+    PartSize size_;
+    DioptreBlur blur_;
+    double cellVariance_;              // variance of a cell's blur, as a fraction of the squared circle of confusion
+    double weights_ = 0;               // sum over the images
+    Sum sharp_;                        // samples with hardly any blur
+    std::vector<Sum> front_, behind_;  // by class, from little to much blur
+};
+
+}  // namespace defocus::engine

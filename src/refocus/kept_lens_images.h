@@ -1,0 +1,34 @@
+#pragma once
+// Lens images in memory, for the frames of a film.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "frame/driver/frame_driver.h"
+#include "refocus/light_field.h"
+
+namespace defocus::engine {
+
+class KeptLensImages : public LensImages {
+public:
+    // Draws the lens images of a view, `settings.sampleCount` of them, for focus distances in `range`. `driver` must
+    // draw method accumulation. `step` gets the finished share, 0 to 1. Throws Error in the cases of lightFieldInfo and
+    // addSamples, and if the images need tiles.
+    KeptLensImages(FrameDriver& driver, const View& view, const RenderSettings& settings, const FocusRange& range,
+                   const std::function<void(double)>& step);
+
+    [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override { return images_[i]; }
+
+    // Returns the memory in bytes that `count` images take.
+    static std::uint64_t bytes(const PartSize& size, std::size_t count);
+
+private:
+    std::string name_ = "lens images";
+    LightFieldInfo info_;
+    std::vector<std::shared_ptr<const HalfImage>> images_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,22 @@
+#pragma once
+// Settings of a refocused picture: from the public API and the command line to a Refocusing.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "defocus/light_field.h"
+#include "refocus/refocus.h"
+
+namespace defocus::engine {
+
+// Returns the aperture's shape in lens settings; none if they give no shape. Throws UsageError, with the setting's name
+// in its message, for a value that cannot be chosen after rendering or is out of range, and Error if the aperture image
+// cannot be read.
+std::optional<Lens> apertureShape(const LensSettings& settings);
+
+// Returns the choices of `settings`, and the rendered values for settings without a value. Throws in the cases of
+// apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a pixel.
+Refocusing refocusingOf(const RefocusSettings& settings, LightField& field);
+
+}  // namespace defocus::engine
