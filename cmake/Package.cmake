@@ -1,0 +1,38 @@
+# Desktop files, and the Debian package of `cpack`: the program with its pages and desktop files, and the Python package
+# if it is built. scripts/debian-package builds the package.
+
+set(DESKTOP "${PROJECT_SOURCE_DIR}/packaging")
+configure_file("${DESKTOP}/defocus.metainfo.xml.in" "${PROJECT_BINARY_DIR}/pages/defocus.metainfo.xml" @ONLY)
+if(DEFOCUS_VIEWER)
+    install(FILES "${DESKTOP}/defocus.desktop" DESTINATION "${CMAKE_INSTALL_DATADIR}/applications" COMPONENT program)
+    install(FILES "${DESKTOP}/defocus.svg" DESTINATION "${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps" COMPONENT program)
+    install(FILES "${DESKTOP}/defocus-mime.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/mime/packages"
+            RENAME defocus.xml COMPONENT program)
+    install(FILES "${PROJECT_BINARY_DIR}/pages/defocus.metainfo.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/metainfo"
+            COMPONENT program)
+endif()
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/defocus" RENAME copyright
+        COMPONENT program)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME defocus)
+set(CPACK_PACKAGE_CONTACT "the defocus authors <defocus@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program)
+# OpenGL is loaded while the program runs, so dpkg-shlibdeps does not see it.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri")
+if(DEFOCUS_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    math(EXPR NEXT_MINOR "${Python_VERSION_MINOR} + 1")
+    string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), "
+           "python3 (<< ${Python_VERSION_MAJOR}.${NEXT_MINOR}), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, blender")
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+include(CPack)
