@@ -78,6 +78,8 @@ void checkArguments(const CaptureArguments& arguments) {
     }
     if (arguments.refocus && (arguments.sampleRange || arguments.check || arguments.request.targetError))
         throw UsageError("--refocus cannot be combined with --sample-range, --check and --target-error");
+    if (arguments.refocus && !arguments.request.layers.empty())
+        throw UsageError("--refocus computes pictures without layers; leave out --exr-layers");
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
     if (!arguments.shot.video.empty()) {
         if (part)

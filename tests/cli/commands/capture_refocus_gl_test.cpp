@@ -115,8 +115,11 @@ TEST_F(CaptureRefocus, saysWhyALensCannotBeRefocused) {
 
 TEST_F(CaptureRefocus, refusesOtherMethodsAndParts) {
     writeShot(focusPull());
-    const std::vector<std::vector<std::string>> wrong = {
-        {"--method", "circular"}, {"--sample-range", "0:64"}, {"--check"}, {"--target-error", "0.1"}};
+    const std::vector<std::vector<std::string>> wrong = {{"--method", "circular"},
+                                                         {"--sample-range", "0:64"},
+                                                         {"--check"},
+                                                         {"--target-error", "0.1"},
+                                                         {"--exr-layers", "depth"}};
     for (std::vector<std::string> more : wrong) {
         more.emplace_back("--refocus");
         const Outcome outcome = filmed("wrong", more);
