@@ -58,7 +58,7 @@ const std::array<Kernel, 5> publishedKernels = {{
 
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
-    Values weights;       // areas of the quadrature nodes
+    Values weights;       // quadrature weights: the area that each node represents
     Values roots;         // square roots of `weights`, increased by `guard` in the square's corners
     Values target;        // values of the disk at the nodes, times `roots`
 };

@@ -95,7 +95,7 @@ double memory(const std::string& line) {
 // Returns by how much the peak memory of the process during `work` exceeds the memory before, bytes.
 double peakBytesOf(const std::function<void()>& work) {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // resets the kernel's peak value
+    std::ofstream("/proc/self/clear_refs") << 5;  // 5 resets the peak resident memory
     const double before = memory("VmRSS");
     work();
     return memory("VmHWM") - before;

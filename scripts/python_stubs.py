@@ -26,6 +26,7 @@ FORMS = {
     "NAME": "str",
     "NODE": "Union[List[str], str]",
     "SIZE": "str",
+    "LAYER,…": "str",
 }
 
 

@@ -17,6 +17,7 @@
 #include "defocus/exposure.h"
 #include "defocus/focus.h"
 #include "defocus/image.h"
+#include "defocus/layers.h"
 #include "defocus/lens.h"
 #include "defocus/settings.h"
 
@@ -52,7 +53,8 @@ struct Request {
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first animation
     bool loop = false;              // true: the animation repeats; false: its first and last pose are held
-    double shutter = 0;             // s, duration of the exposure; > 0 gives motion blur
+    // s, duration of the exposure; > 0 gives motion blur. Default: the shutter of `cameraFrom`, else 0.
+    std::optional<double> shutter;
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::filesystem::path environment;  // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr file
@@ -69,6 +71,8 @@ struct Request {
 
     // Camera and image.
     CameraChoice camera;
+    // Camera in a file of its own, such as "shot.usda:/World/cam"; replaces the scene's camera. Empty: none.
+    std::string cameraFrom;
     std::optional<Vector3> cameraPosition;  // replaces the camera's position
     std::optional<Vector3> cameraTarget;    // point to look at; replaces the camera's direction
     std::optional<Vector3> cameraUp;        // replaces the camera's up vector
@@ -103,6 +107,11 @@ struct Request {
     std::string method = "auto";
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
+
+    // Layers in EXR files beside the picture. They need a method that sums lens samples; method "auto" then
+    // accumulates.
+    std::vector<Layer> layers;
+    ExrNames exrNames = ExrNames::nuke;
 
     // Conversion to PNG, JPEG and video.
     ToneMap toneMap = ToneMap::neutral;

@@ -50,7 +50,7 @@ enum class LodMetric {
 
 // Circle of confusion that determines an object's level.
 enum class LodCoc {
-    smallest,  // min over the object's bounding box
+    smallest,  // smallest blur within the object's bounding box
     centre,    // at the bounding box's centre (Jeong, Kim and Lee 2011)
 };
 

@@ -41,6 +41,7 @@ class Keywords(TypedDict, total=False):
     light_angle: Optional[float]  # degrees
     light_radius: Optional[float]  # m
     camera: Optional[str]
+    camera_from: Optional[Path]
     camera_position: Optional[Union[Point, str]]  # m
     camera_target: Optional[Union[Point, str]]  # m
     camera_up: Optional[Union[Point, str]]
@@ -94,6 +95,8 @@ class Keywords(TypedDict, total=False):
     no_cache: Optional[bool]
     method: Optional[str]
     layer_format: Optional[Literal["automatic", "rgba16f", "rgba32f"]]
+    exr_layers: Optional[str]
+    exr_names: Optional[Literal["nuke", "blender"]]
     tone_map: Optional[Literal["none", "aces", "agx", "neutral"]]
     exposure: Optional[Union[float, Literal["auto"]]]  # EV
     lod_metric: Optional[Literal["automatic", "size", "error", "measured", "proportional", "score"]]

@@ -19,7 +19,7 @@ layout(location = 2) uniform ivec2 firstPixel;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: colour weights; w: change of b in the circle of confusion C(w) = a + b·w by the wavelength.
+    // rgb: weights of the sample's wavelength; a: what the wavelength adds to b in the circle of confusion a + b·depth.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];

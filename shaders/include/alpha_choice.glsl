@@ -1,4 +1,4 @@
-// Thresholds that decide where a surface is drawn, and where it isn't.
+// Thresholds that decide in which pixels and samples a surface is drawn: by its alpha, or as one of two levels of detail.
 
 // Returns an evenly distributed number in [0, 2³²) for each pixel, with a different offset for each `stream`. The pattern
 // is the R2 sequence x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1, in units of 2⁻³² (Roberts 2018, The Unreasonable Effectiveness

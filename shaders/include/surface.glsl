@@ -17,4 +17,6 @@ struct Surface {
     int facet;            // number of the triangle's last vertex; only if choosesByAlpha
     float sampleNumber;   // number in the frame of the lens sample
     float layer;
+    vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; only with MOTION_SLOT
+    vec3 closing;         // the same when it closes
 };

@@ -23,6 +23,8 @@ Surface weightedSurface(vec3 weights) {
     s.position = weights.x * a.position + weights.y * b.position + weights.z * c.position;
     s.uv = weights.x * a.uv + weights.y * b.uv + weights.z * c.uv;
     s.tangent = weights.x * a.tangent + weights.y * b.tangent + weights.z * c.tangent;
+    s.opening = weights.x * a.opening + weights.y * b.opening + weights.z * c.opening;
+    s.closing = weights.x * a.closing + weights.y * b.closing + weights.z * c.closing;
     s.ownBlur = weights.x * a.ownBlur + weights.y * b.ownBlur + weights.z * c.ownBlur;
     return s;
 }

@@ -39,12 +39,15 @@ uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }
 // Returns true if this pixel draws the coarser level in a boundary sample, the lens sample that mixes two levels.
 bool drawsCoarser() { return objectThreshold(pixelOfImage()) < object.values.y; }
 
+vec4 surfaceBase = vec4(0.0);   // base colour of the surface that surfaceLight() has lit
+
 // Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.
 vec4 surfaceLight() {
     if (coarseShare && !drawsCoarser()) discard;
     if (fineShare && drawsCoarser()) discard;
     vec4 plainColor = surfaceColor();
     vec4 baseColor = texturedColor(plainColor);
+    surfaceBase = baseColor;
 #ifdef CHOOSES_BY_ALPHA
     if (alphaTested ? maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)
                     : baseColor.a <= alphaThreshold(pixelOfImage())) discard;

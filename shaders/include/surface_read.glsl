@@ -3,7 +3,7 @@
 
 Surface surfaceAt(int corner) {
     Surface s = Surface(vec4(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec2(0.0), 0.0, vec4(0.0),
-                        vec4(0.0), vec2(1.0, 0.0), 0, 0.0, 0.0);
+                        vec4(0.0), vec2(1.0, 0.0), 0, 0.0, 0.0, vec3(0.0), vec3(0.0));
     s.color = SURFACE_IN.color;
     s.sampleNumber = SURFACE_IN.sampleNumber;
     s.layer = SURFACE_IN.layer;
@@ -14,8 +14,10 @@ Surface surfaceAt(int corner) {
     s.minColor = SURFACE_IN.minColor;
     s.maxColor = SURFACE_IN.maxColor;
 #endif
-#ifdef LIT
+#if defined(LIT) || defined(NORMAL_SLOT)
     s.normal = SURFACE_IN.normal;
+#endif
+#ifdef LIT
     s.toEye = SURFACE_IN.toEye;
 #endif
 #ifdef COARSE_LEVEL
@@ -34,6 +36,10 @@ Surface surfaceAt(int corner) {
 #endif
 #ifdef PASSES_OWN_BLUR
     s.ownBlur = SURFACE_IN.ownBlur;
+#endif
+#ifdef MOTION_SLOT
+    s.opening = SURFACE_IN.opening;
+    s.closing = SURFACE_IN.closing;
 #endif
     return s;
 }

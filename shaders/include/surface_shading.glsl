@@ -19,6 +19,9 @@ vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     return normal;
 }
 
+vec3 shownNormal = vec3(0.0);     // normal and emission of the surface that shaded() has lit
+vec3 shownEmission = vec3(0.0);
+
 vec3 towardsViewer(vec3 normal) {
     if (doubleSided && !showsFront()) normal = -normal;
     return normal;
@@ -118,7 +121,9 @@ vec3 shaded(vec3 baseColor) {
     point.normal = shadingNormal(normal);
     point.toEye = normalize(surface.toEye);
     addNormalChanges(point, normal);
+    shownNormal = point.normal;
     if (emissive) point.emission = material.emissiveCutoff.rgb * materialTexel(emissiveTexture).rgb;
+    if (emissive) shownEmission = point.emission;
     if (coarseLevel) {
         point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond their corners
         point.spread = normalSpread(point.agreement);

@@ -10,8 +10,10 @@
     flat vec4 minColor;
     flat vec4 maxColor;
 #endif
-#ifdef LIT
+#if defined(LIT) || defined(NORMAL_SLOT)
     vec3 normal;
+#endif
+#ifdef LIT
     vec3 toEye;
 #endif
 #ifdef COARSE_LEVEL
@@ -29,4 +31,8 @@
 #endif
 #ifdef PASSES_OWN_BLUR
     vec2 ownBlur;
+#endif
+#ifdef MOTION_SLOT
+    vec3 opening;
+    vec3 closing;
 #endif

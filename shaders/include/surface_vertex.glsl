@@ -14,6 +14,17 @@ layout(location = 15) in vec4 colorRangeIn;
 
 Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndSampleIn.xy, 0.0)); }
 
+#ifdef MOTION_SLOT
+// Returns the clip-space (x, y, w) of the vertex through a pinhole at a shutter time.
+vec3 placeInPose(int pose) {
+#ifdef POSED
+    return pinholePosition(posedVertex(moving ? pose : 0, Posed(positionIn, normalIn, tangentIn.xyz)).position);
+#else
+    return pinholePosition((object.viewFromObject * vec4(positionIn, 1.0)).xyz);
+#endif
+}
+#endif
+
 Surface surfaceOf(Vertex vertex, vec2 ownBlur) {
     mat3 worldFromView = mat3(frame.worldFromView);
     vec4 maximum = floor(colorRangeIn / 256.0);
@@ -33,5 +44,10 @@ Surface surfaceOf(Vertex vertex, vec2 ownBlur) {
     s.facet = gl_VertexID;
     s.sampleNumber = eyeAndSampleIn.z;
     s.layer = eyeAndSampleIn.w;
+    s.opening = s.closing = vec3(0.0);
+#ifdef MOTION_SLOT
+    s.opening = placeInPose(0);
+    s.closing = placeInPose(lastPose);
+#endif
     return s;
 }

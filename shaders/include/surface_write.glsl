@@ -11,8 +11,10 @@ void writeSurface(Surface s) {
     SURFACE_OUT.minColor = s.minColor;
     SURFACE_OUT.maxColor = s.maxColor;
 #endif
-#ifdef LIT
+#if defined(LIT) || defined(NORMAL_SLOT)
     SURFACE_OUT.normal = s.normal;
+#endif
+#ifdef LIT
     SURFACE_OUT.toEye = s.toEye;
 #endif
 #ifdef COARSE_LEVEL
@@ -30,5 +32,9 @@ void writeSurface(Surface s) {
 #endif
 #ifdef PASSES_OWN_BLUR
     SURFACE_OUT.ownBlur = s.ownBlur;
+#endif
+#ifdef MOTION_SLOT
+    SURFACE_OUT.opening = s.opening;
+    SURFACE_OUT.closing = s.closing;
 #endif
 }

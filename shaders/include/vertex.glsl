@@ -16,7 +16,7 @@ struct Posed {
 
 struct Vertex {
     Posed view;     // vertex in the view space in the middle of the exposure
-    vec3 eye;       // lens point (m) in the same view space
+    vec3 eye;       // point on the lens (m) in the view space of `view`
     vec3 pinhole;   // pinholePosition() in the view space at the time of the lens sample
 };
 

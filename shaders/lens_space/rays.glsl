@@ -1,7 +1,7 @@
-// Rays of each pixel. There are rayVariants sets (variants) of rays, each well distributed over lens and pixel. The
-// pixels of a square of up to 8 × 8 pixels use different sets, in a different order in each square
-// (src/render/lens_space/ray_sets.h). Point samples are then changed in each pixel, so that each has its own points on
-// the lens, in the pixel and in time.
+// Rays of each pixel. There are rayVariants sets of rays, each well distributed over lens and pixel. The pixels of a
+// square of up to 8 × 8 pixels use different sets, in a different order in each square
+// (src/render/lens_space/ray_sets.h). Each pixel then scrambles its point samples, so that it has its own points on the
+// lens, in the pixel and in time.
 
 struct Ray {
     // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the

@@ -7,7 +7,7 @@
 //
 // areaWeights: false weights parts by their length alone, without κ (Figure 4 of the paper).
 
-layout(location = 4) uniform vec2 lightOverRadius;   // a; obstructed fraction of the area
+layout(location = 4) uniform vec2 lightOverRadius;   // x: coefficient a of the density; y: obstructed fraction of the aperture
 
 float lightWithin(float radius) {
     if (!areaWeights) return radius;

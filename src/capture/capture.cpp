@@ -15,6 +15,7 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "frame/report/layer_file.h"
 #include "frame/setup/exposure.h"
 #include "image/image_rows.h"
 
@@ -32,9 +33,10 @@ fs::path partPath(const fs::path& frame, const SampleRange& range) {
     return path;
 }
 
-std::string encodingOf(const std::string& pattern, const WriteOptions& write, bool metered) {
+std::string encodingOf(const std::string& pattern, const Request& request, const WriteOptions& write, bool metered) {
     const std::string ending = fs::path(pattern).extension().string();
-    if (ending == ".exr" || ending == ".EXR") return "";
+    const bool renamed = !request.layers.empty() && request.exrNames != ExrNames{};
+    if (holdsLayers(pattern)) return renamed ? "names of other channels" : "";
     const std::string exposure = metered ? "metered" : fmt::format("{}", write.exposure);
     return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), exposure);
 }
@@ -80,7 +82,9 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
 // Result of drawing a frame, passed to the writer while the driver draws the next frame.
 struct DrawnFrame {
     FrameMoment moment;
-    Image image;     // image of an untiled frame
+    Image image;  // image of an untiled frame
+    std::optional<LayerImages> layers;
+    std::shared_ptr<const Scene> scene;
     FramePart part;  // partial sums, if only some of the samples are drawn
     Metadata metadata;
     RenderStats stats;
@@ -115,7 +119,8 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
             writePart(path, drawn.part);
             continue;
         }
-        writeImage(path, drawn.image, fileMetadata(film, i, drawn.metadata), film.write);
+        writePicture(path, drawn.image, drawn.layers ? &*drawn.layers : nullptr, *drawn.scene, drawn.moment.pose,
+                     options.settings.request.exrNames, fileMetadata(film, i, drawn.metadata), film.write);
     }
     drawn.times.writeMilliseconds = millisecondsSince(start);
     appendTimes(options, memoryLimit, film, drawn.moment, drawn.stats, drawn.times);
@@ -178,6 +183,7 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
         drawn.stats.samples = drawn.part.frameSamples;
     } else if (!drawn.written) {
         drawn.image = driver.image();
+        drawn.layers = driver.layerImages();
     }
     drawn.times.planMilliseconds = driver.planMilliseconds();
     drawn.times.renderMilliseconds = millisecondsSince(start);
@@ -188,6 +194,7 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
         drawn.times.renderMilliseconds -= drawn.times.writeMilliseconds;
     }
     drawn.moment = std::move(moment);
+    drawn.scene = world.scene;
     if (drawn.written) appendTimes(options, driver.memoryLimit(), film, drawn.moment, drawn.stats, drawn.times);
     return drawn;
 }
@@ -212,7 +219,7 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     film.write = {request.toneMap, unmeteredExposure(request, frame.view.lens)};
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
-        settings.encoding = encodingOf(pattern, film.write, options.metered);
+        settings.encoding = encodingOf(pattern, request, film.write, options.metered);
         film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.sampleRange) path = partPath(path, *options.sampleRange);

@@ -45,7 +45,8 @@ double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, dou
 
 // Returns the file's camera, as its node's animation places it; none for the default camera, which frames the scene.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
-    if (base.scene->cameras.empty() || std::holds_alternative<FramingCamera>(base.camera)) return {};
+    const bool none = base.scene->cameras.empty() && !base.scene->cameraTrack;
+    if (none || std::holds_alternative<FramingCamera>(base.camera)) return {};
     return chooseCamera(*base.scene, pose, base.camera, static_cast<double>(base.view.width) / base.view.height);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/moment.h"
 #include "lens/lens_fields.h"
 
 namespace defocus::engine {
@@ -110,7 +111,7 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     base.camera = request.camera;
     base.cameraStands = cameraPlaced(request);
     base.hidden = request.hide;
-    base.shutter = shutterSettings(request);
+    base.shutter = shutterOf(request, *frame.scene);
     for (const auto& [name, value] : givenLensValues(request)) base.fixedLens.insert(name);
     for (const char* const name : fieldsOfFocusPoints(request)) base.fixedLens.insert(name);
     base.centre = frame.world.pose.bounds.centre();

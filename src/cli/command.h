@@ -61,6 +61,7 @@ void addCompletionsCommand(CLI::App& program);
 void addManCommand(CLI::App& program);
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
 void addNewShotCommand(CLI::App& program, const GlobalOptions& global);
+void addExportCameraCommand(CLI::App& program, const GlobalOptions& global);
 void addMergeCommand(CLI::App& program, const GlobalOptions& global);
 void addRefocusCommand(CLI::App& program, const GlobalOptions& global);
 

@@ -220,6 +220,7 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addRenderCommand(program, global);
     addCaptureCommand(program, global);
     addNewShotCommand(program, global);
+    addExportCameraCommand(program, global);
     addMergeCommand(program, global);
     addRefocusCommand(program, global);
     addViewCommand(program, global);

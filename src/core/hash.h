@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace defocus::engine {
 
@@ -20,6 +21,9 @@ constexpr std::uint32_t lowbias32(std::uint32_t bits) {
     bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
     return bits ^ (bits >> 16);
 }
+
+// Returns the 32-bit MurmurHash3 (x86, seed 0; Appleby) of a text.
+std::uint32_t murmurHash3(std::string_view text);
 
 inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;
 

@@ -36,6 +36,7 @@ RenderSettings renderSettings(const Request& request) {
     settings.multipleScattering = request.multipleScattering;
     settings.cocTolerance = request.cocTolerance;
     settings.keepAll = request.keepAll;
+    settings.layers = request.layers;
     return settings;
 }
 
@@ -44,12 +45,13 @@ GivenThresholds givenThresholds(const Request& request) {
 }
 
 ShutterSettings shutterSettings(const Request& request) {
-    return {request.shutter, request.shutterPosition, request.motionSegments};
+    return {request.shutter.value_or(0), request.shutterPosition, request.motionSegments, {}};
 }
 
 StopSettings stopSettings(const Request& request) {
     StopSettings stop{request.targetError, request.timeLimit, request.samples.value_or(maxSamples)};
-    const bool exact = request.shutter > 0 && shutterSettings(request).exactMotion();
+    const bool opens = request.shutter.value_or(0) > 0 || (!request.shutter && !request.cameraFrom.empty());
+    const bool exact = opens && shutterSettings(request).exactMotion();
     if (!request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks)
         stop.automatic = request.quality;
     return stop;

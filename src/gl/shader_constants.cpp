@@ -36,6 +36,8 @@ constexpr ShaderConstant constants[] = {
     {"float", "catEye", "0.0"},
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
+    {"bool", "keepsNearest", "false"},  // the layer beside the picture is the depth
+    {"int", "tableEntries", "1"},       // max numbers that a pixel counts
 
     // Surfaces
     {"bool", "lit", "false", "LIT"},
@@ -67,6 +69,7 @@ constexpr ShaderConstant constants[] = {
 
     // Poses
     {"bool", "moving", "false", "MOVING"},
+    {"int", "lastPose", "0"},  // index of the pose at the shutter's closing
     {"bool", "cameraMoves", "false"},
     {"int", "skinInfluences", "0"},
     {"bool", "morphed", "false"},

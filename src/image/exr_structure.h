@@ -15,7 +15,7 @@ namespace defocus::engine {
 // OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
-// Same for the start of a file: its first 64 KiB, or `headBytes`.
+// Reads the first `headBytes` of the file `path`, at most, and checks them as above.
 void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = std::size_t{1} << 16);
 
 }  // namespace defocus::engine

@@ -1,6 +1,8 @@
 #include "image/image_encoding.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -8,6 +10,7 @@
 #include "core/source_date.h"
 #include "image/oiio_names.h"
 #include "image/quantise.h"
+#include "image/time_code.h"
 
 namespace defocus::engine {
 
@@ -37,6 +40,9 @@ Image withoutAlpha(const ImageView& image) {
     return opaque;
 }
 
+// x and y of red, green, blue and the white point D65 of Rec. ITU-R BT.709.
+constexpr std::array<float, 8> rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
 // Adds one metadata value to `spec`, as text for PNG and with its EXR type for EXR.
 struct MetadataWriter {
     OIIO::ImageSpec& spec;
@@ -61,6 +67,18 @@ struct MetadataWriter {
     void operator()(const glm::mat4& value) const {
         if (kind != FileKind::png) spec.attribute(oiioNameOf(name), OIIO::TypeMatrix, &value);
     }
+    void operator()(const Rational& value) const {
+        const std::array<int, 2> parts = {value.numerator, value.denominator};
+        if (kind == FileKind::png) return (*this)(fmt::format("{}/{}", parts[0], parts[1]));
+        spec.attribute(oiioNameOf(name), OIIO::TypeRational, parts.data());
+    }
+    void operator()(const TimeCode& value) const {
+        const std::array<int, 4> parts = {value.hours, value.minutes, value.seconds, value.frame};
+        if (kind == FileKind::png)
+            return (*this)(fmt::format("{:02}:{:02}:{:02}:{:02}", parts[0], parts[1], parts[2], parts[3]));
+        const std::array<std::uint32_t, 2> bits = {timeCodeBits(value), 0};
+        spec.attribute(oiioNameOf(name), OIIO::TypeTimeCode, bits.data());
+    }
 };
 
 }  // namespace
@@ -82,7 +100,10 @@ OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, co
     const int kept = kind == FileKind::jpeg && channels == 4 ? 3 : channels;
     OIIO::ImageSpec spec(width, height, kept, floats ? OIIO::TypeFloat : OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", floats ? "Linear" : "sRGB");
-    if (kind == FileKind::exr) spec.attribute("compression", "zip");
+    if (kind == FileKind::exr) {
+        spec.attribute("compression", "zip");
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709.data());
+    }
     if (kind == FileKind::png) spec.attribute("oiio:UnassociatedAlpha", 1);
     if (kind == FileKind::jpeg) spec.attribute("Compression", "jpeg:95");
     for (const auto& [attribute, value] : metadata)

@@ -20,11 +20,24 @@
 namespace defocus::engine {
 
 // Metadata by EXR attribute name. Standard names (OpenEXR "Standard Attributes") are used where they exist: isoSpeed,
-// aperture (f-number), focus (m), nominalFocalLength (mm), expTime, comments, worldToCamera …. Other names have the
+// aperture (f-number), focus (m from the entrance pupil), nominalFocalLength (mm), expTime (s), framesPerSecond,
+// timeCode, comments, worldToCamera …. Every EXR file has the chromaticities of Rec. 709. Other names have the
 // prefix "defocus:". EXR requires floats under standard names, so a double is stored as float under a standard name,
 // and as double under a prefixed name. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal
 // glm's column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
-using MetadataValue = std::variant<int, double, std::string, glm::mat4>;
+struct Rational {  // EXR's framesPerSecond
+    int numerator = 0;
+    int denominator = 1;
+    bool operator==(const Rational&) const = default;
+};
+struct TimeCode {  // SMPTE time code without dropped frames
+    int hours = 0;
+    int minutes = 0;
+    int seconds = 0;
+    int frame = 0;
+    bool operator==(const TimeCode&) const = default;
+};
+using MetadataValue = std::variant<int, double, std::string, glm::mat4, Rational, TimeCode>;
 using Metadata = std::map<std::string, MetadataValue>;
 
 using defocus::compareImages;
@@ -68,6 +81,15 @@ struct ImageLayer {
     std::string name;
     Image image;  // 3 or 4 channels
 };
+// Writes named channels, of images of equal size, to one EXR file in the same format. Throws Error if images differ in
+// size or if two channels have the same name.
+struct NamedChannels {
+    std::vector<std::string> names;  // one per channel of `image`, such as "N.X"
+    Image image;
+};
+void writeChannels(const std::filesystem::path& path, const std::vector<NamedChannels>& parts,
+                   const Metadata& metadata);
+
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 

@@ -24,6 +24,7 @@
 #include "image/oiio_names.h"
 #include "image/packed_pixels.h"
 #include "image/png_structure.h"
+#include "image/time_code.h"
 
 namespace defocus::engine {
 
@@ -126,10 +127,15 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     return image;
 }
 
-// Returns the indices of the file's channels that hold grey, or R, G, B, or R, G, B, A, in this order.
+// Returns the indices of the file's channels that hold grey, or R, G, B, or R, G, B, A, in this order. In a multi-layer
+// file of Blender, these are the channels of the pass Combined.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
-        const auto found = std::ranges::find(spec.channelnames, channel);
+        auto found = std::ranges::find(spec.channelnames, channel);
+        if (found == spec.channelnames.end())
+            found = std::ranges::find_if(spec.channelnames, [&](const std::string& each) {
+                return each.ends_with(".Combined." + std::string(channel));
+            });
         return found == spec.channelnames.end() ? -1 : static_cast<int>(found - spec.channelnames.begin());
     };
     std::vector<int> channels = {named("R"), named("G"), named("B")};
@@ -140,7 +146,10 @@ std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& 
             fail("cannot read {}: it has {} channels, but none named R, G and B", name, spec.nchannels);
         channels = {0, 1, 2};
     }
-    if (spec.alpha_channel >= 0) channels.push_back(spec.alpha_channel);
+    if (const int alpha = named("A"); alpha >= 0)
+        channels.push_back(alpha);
+    else if (spec.alpha_channel >= 0 && spec.nchannels <= 4)
+        channels.push_back(spec.alpha_channel);
     return channels;
 }
 
@@ -250,6 +259,11 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
         std::memcpy(&matrix, attribute.data(), sizeof matrix);
         return matrix;
     }
+    if (type == OIIO::TypeRational) {
+        const auto* const parts = static_cast<const int*>(attribute.data());
+        return Rational{parts[0], parts[1]};
+    }
+    if (type == OIIO::TypeTimeCode) return timeCodeOf(*static_cast<const std::uint32_t*>(attribute.data()));
     return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,33 +60,46 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
-void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
+void writeChannels(const std::filesystem::path& path, const std::vector<NamedChannels>& parts,
+                   const Metadata& metadata) {
     const std::string name = path.string();
-    if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers can only be written to an .exr file", name);
-    const int width = layers.front().image.width;
-    const int height = layers.front().image.height;
+    if (parts.empty() || fileKind(path) != FileKind::exr) fail("{}: layers can only be written to an .exr file", name);
+    const int width = parts.front().image.width;
+    const int height = parts.front().image.height;
     std::vector<std::string> channels;
-    for (const ImageLayer& layer : layers) {
-        checkImage(layer.image, name);
-        if (layer.image.width != width || layer.image.height != height)
+    for (const NamedChannels& part : parts) {
+        if (part.image.empty() || part.image.width != width || part.image.height != height)
             fail("cannot write {}: its layers differ in size", name);
-        for (int c = 0; c < layer.image.channels; ++c) channels.push_back(layer.name + '.' + "RGBA"[c]);
+        channels.insert(channels.end(), part.names.begin(), part.names.end());
     }
+    if (std::set<std::string>(channels.begin(), channels.end()).size() != channels.size())
+        fail("cannot write {}: two channels have the same name", name);
 
-    // Interleave the channels of all layers per pixel.
+    // Interleave the channels of all parts per pixel.
     const std::size_t stride = channels.size();
     std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * stride);
     std::size_t first = 0;
-    for (const ImageLayer& layer : layers) {
-        const auto count = static_cast<std::size_t>(layer.image.channels);
-        for (std::size_t i = 0; i < layer.image.pixels.size(); ++i)
-            pixels[i / count * stride + first + i % count] = layer.image.pixels[i];
+    for (const NamedChannels& part : parts) {
+        const auto count = static_cast<std::size_t>(part.image.channels);
+        for (std::size_t i = 0; i < part.image.pixels.size(); ++i)
+            pixels[i / count * stride + first + i % count] = part.image.pixels[i];
         first += count;
     }
     OIIO::ImageSpec spec = imageSpec(FileKind::exr, width, height, static_cast<int>(stride), metadata);
     spec.channelnames = channels;
     const std::vector<unsigned char> bytes = encode(name, "openexr", spec, pixels.data());
     writeFile(path, std::as_bytes(std::span(bytes)));
+}
+
+void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
+    std::vector<NamedChannels> parts;
+    for (const ImageLayer& layer : layers) {
+        checkImage(layer.image, path.string());
+        NamedChannels& part = parts.emplace_back();
+        for (int c = 0; c < layer.image.channels; ++c) part.names.push_back(layer.name + '.' + "RGBA"[c]);
+        part.image = layer.image;
+    }
+    writeChannels(path, parts, metadata);
 }
 
 }  // namespace defocus::engine

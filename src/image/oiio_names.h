@@ -9,13 +9,14 @@
 namespace defocus::engine {
 
 // Pairs of an EXR attribute name and the name that OpenImageIO uses for it.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> oiioNames = {{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> oiioNames = {{
     {"aperture", "FNumber"},
     {"expTime", "ExposureTime"},
     {"comments", "ImageDescription"},
     {"owner", "Copyright"},
     {"capDate", "DateTime"},
     {"worldToCamera", "worldtocamera"},
+    {"timeCode", "smpte:TimeCode"},
     {"pixelAspectRatio", "PixelAspectRatio"},
 }};
 

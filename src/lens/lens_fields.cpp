@@ -38,8 +38,9 @@ const LensField fields[] = {
      LensFeature::camera},
     {"exposureTime", "--exposure-time", LensSection::lens, "S", 0, 1e6, &Lens::exposureTime,
      &LensSettings::exposureTime,
-     "Exposure time in seconds for PNG, JPEG and video, such as 0.008 or 1/125. Together with --fstop and --iso it "
-     "sets the exposure; scene values are taken as cd/m2. 0: not used (see --exposure). For motion blur use --shutter",
+     "Exposure time in seconds for PNG, JPEG and video, such as 0.008 or 1/125. With --fstop and --iso, it sets the "
+     "brightness as on a camera; radiance is read as cd/m2. Does not blur motion (see --shutter). 0: not used (see "
+     "--exposure)",
      "0.02", LensFeature::exposure},
     {"iso", "--iso", LensSection::lens, "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
      "ISO sensitivity, used with --exposure-time. Default: from the camera, else 100", "400", LensFeature::exposure},
@@ -48,8 +49,8 @@ const LensField fields[] = {
      R"({"anyOf": [{"enum": [0]}, {"type": "integer", "minimum": 3, "maximum": 64}]})"},
     {"bladeRotation", "--blade-rotation", LensSection::aperture, "DEG", -1e6, 1e6, &Lens::bladeRotation,
      &LensSettings::bladeRotation,
-     "Rotation of the aperture blades in degrees. At 0, a corner points to the right. Blender's rotation differs by "
-     "180/N; files exported by Blender are converted",
+     "Rotation of the aperture blades in degrees. At 0, a corner points to the right. Blender's value differs by 180 "
+     "degrees divided by the number of blades; files exported by Blender are converted",
      "15", LensFeature::shape},
     {"bladeCurvature", "--blade-curvature", LensSection::aperture, "R", 0, 1, &Lens::bladeCurvature,
      &LensSettings::bladeCurvature, "Curvature of the aperture blades, from 0 (straight) to 1 (a circle)", "0.5",
@@ -59,7 +60,8 @@ const LensField fields[] = {
      "Ratio of the aperture's height to its width; above 1, blurred points are tall ovals", "2", LensFeature::blur},
     {"obstruction", "--obstruction", LensSection::aperture, "R", 0, 0.999, &Lens::obstruction,
      &LensSettings::obstruction,
-     "Ratio of the inner to the outer diameter of a ring-shaped aperture, as of a mirror lens; 0: no obstruction",
+     "Diameter of the central obstruction relative to the aperture, as in a mirror lens, which gives ring-shaped "
+     "bokeh; 0: none",
      "0.3", LensFeature::shape},
     {"sphericalAberration", "--spherical-aberration", LensSection::aperture, "R", -1, 1, &Lens::sphericalAberration,
      &LensSettings::sphericalAberration,
@@ -67,18 +69,18 @@ const LensField fields[] = {
      "(creamy)",
      "0.5", LensFeature::shape},
     {"catEye", "--cat-eye", LensSection::aperture, "R", 0, 1, &Lens::catEye, &LensSettings::catEye,
-     "Cat's eye: the fraction of the aperture's radius that the lens barrel hides in the corners of the image", "0.5",
-     LensFeature::lensPoint},
+     "Cat's-eye bokeh: fraction of the aperture's radius that the lens barrel cuts off in the corners of the image; 0: "
+     "none",
+     "0.5", LensFeature::lensPoint},
     {"axialChromaticAberration", "--axial-chromatic-aberration", LensSection::aperture, "D", -100, 100,
      &Lens::axialChromaticAberration, &LensSettings::axialChromaticAberration,
-     "Axial chromatic aberration: difference in dioptres by which red light focuses farther away than blue light. "
-     "Gives colour fringes",
+     "Axial chromatic aberration, which gives colour fringes: red light focuses farther away than blue light by this "
+     "number of dioptres",
      "0.2", LensFeature::lensPoint},
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
-     "Astigmatism: length of the radial line, in mm on the sensor, that a point in focus becomes at the left and right "
-     "edges. Above 0, points at a certain depth in front of the focus plane become perpendicular lines; below 0, "
-     "points behind it",
+     "Astigmatism: length, in mm on the sensor, of the radial streak that a point in focus becomes at the left and "
+     "right edges. The perpendicular streak is sharp in front of the focus plane above 0, behind it below 0",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
      "Coma: length of the tail, in mm on the sensor, that a point gets at the left and right edges. Above 0, the tail "
@@ -90,14 +92,14 @@ const LensField fields[] = {
      &LensSettings::backgroundLimit, "Maximum blur behind the focus plane, in px", "40"},
     {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
      &LensSettings::focusRangeFront,
-     "Depth range in m in front of the focus distance that stays sharp; the blur starts at its near end", "0.5"},
+     "Depth in m in front of the focus distance that stays sharp; the blur starts in front of it", "0.5"},
     {"focusRangeBehind", "--focus-range-behind", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeBehind,
      &LensSettings::focusRangeBehind,
-     "Depth range in m behind the focus distance that stays sharp; the blur starts at its far end", "1"},
+     "Depth in m behind the focus distance that stays sharp; the blur starts behind it", "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
-     "Blur behind the focus range. true: blur as if the lens were focused at the range's far end. false: blur that "
-     "starts at the far end and, at infinity, equals the blur without a focus range",
+     "Blur behind the focus range as if the lens were focused at the range's far end. Without it, the blur at infinity "
+     "is that of a lens without a focus range",
      "true"},
     {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis, in degrees; above 0, its top is nearer", "10"},
@@ -106,7 +108,8 @@ const LensField fields[] = {
      "Swing of the focus plane about the vertical axis, in degrees; above 0, its right side is nearer", "10"},
     {"fieldCurvature", "--field-curvature", LensSection::focus, "R", -1e3, 1e3, &Lens::fieldCurvature,
      &LensSettings::fieldCurvature,
-     "Field curvature R: at the left and right edges, the distance in focus is the focus distance divided by 1 + R",
+     "Field curvature R. Above 0, the edges of the image focus nearer than its centre: at focus distance / (1 + R) at "
+     "the left and right edges",
      "0.2"},
     {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
      &LensSettings::radialBlurGain,

@@ -2,7 +2,9 @@
 // Settings of a FramePlan with a fixed number of samples.
 
 #include <optional>
+#include <vector>
 
+#include "defocus/layers.h"
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
@@ -40,6 +42,7 @@ struct RenderSettings {
     // over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus. Needs a lens
     // with C(w) = a + b·w (circle_of_confusion.h).
     std::optional<FocusRange> refocus = {};
+    std::vector<Layer> layers = {};  // layers to sum beside the picture
 };
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

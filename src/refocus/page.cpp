@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/base64.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "gl/shader_source.h"
@@ -25,19 +26,8 @@ constexpr int depthColumns = 256;  // max columns of the depths for focusing on 
 constexpr int maxQuality = 90;
 constexpr int minQuality = 20;
 
-std::string base64(const std::vector<unsigned char>& bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() * 4 / 3 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-// Returns the offset of an image's 8-bit values, in [−1/2, 1/2) steps. The golden ratio spreads the offsets evenly.
+// Returns the dither offset that is added to all values of an image before they are rounded to 8 bits, from −1/2 to 1/2
+// of a step. Multiples of the golden ratio spread the offsets of the images evenly.
 double stepOffset(std::size_t image) {
     const double place = static_cast<double>(image) * 0.6180339887498949;
     return place - std::floor(place) - 0.5;
@@ -85,7 +75,9 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
         const std::size_t tried = quality > minQuality ? std::min<std::size_t>(count, 4) : count;
         const auto encodeFrom = [&](std::size_t first, std::size_t end) {
             parallelFor(end - first, [&](std::size_t i) {
-                images[first + i] = base64(encodeWebp(size.fullWidth(), size.fullHeight(), pixels[first + i], quality));
+                const std::vector<unsigned char> encoded =
+                    encodeWebp(size.fullWidth(), size.fullHeight(), pixels[first + i], quality);
+                images[first + i] = base64(std::as_bytes(std::span(encoded)));
             });
             std::size_t bytes = 0;
             for (std::size_t i = 0; i < end; ++i) bytes += images[i].size() + 3;
@@ -119,7 +111,11 @@ nlohmann::json depthsOf(LightField& field) {
         bytes.push_back(static_cast<unsigned char>(share & 255));
         bytes.push_back(static_cast<unsigned char>(share >> 8));
     }
-    return {{"width", columns}, {"height", rows}, {"step", step}, {"maximum", largest}, {"data", base64(bytes)}};
+    return {{"width", columns},
+            {"height", rows},
+            {"step", step},
+            {"maximum", largest},
+            {"data", base64(std::as_bytes(std::span(bytes)))}};
 }
 
 void replace(std::string& text, std::string_view what, std::string_view with) {

@@ -56,6 +56,7 @@ struct Method {
     bool blursCells = false;      // true: blurs each sample's image by its lens cell (plan/lens_cells/)
     bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
+    bool drawsLayers = false;     // true: draws RenderSettings::layers
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure
     ApertureShown aperture = ApertureShown::all;

@@ -9,6 +9,7 @@
 
 #include "image/image.h"
 #include "plan/frame_plan.h"
+#include "render/layer_images.h"
 
 namespace defocus::engine {
 
@@ -71,6 +72,9 @@ public:
     // Returns the depth in m of the first sample of the latest wave, +∞ where no surface writes depth; nullopt for
     // methods that do not sum lens samples. Not available for plans with a tile.
     [[nodiscard]] virtual std::optional<Image> sampleDepth() { return {}; }
+    // Returns the layers RenderSettings::layers of all samples so far; nullopt without layers, and for methods that
+    // draw none (Method::drawsLayers).
+    [[nodiscard]] virtual std::optional<LayerImages> layerImages() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
 
     // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier

@@ -54,6 +54,17 @@ glm::dmat4 withoutScale(const glm::dmat4& world) {
     return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
 }
 
+// Returns the camera of a track for an image of `aspect` = width / height.
+PlacedCamera trackedCamera(const TrackedCamera& tracked, double aspect) {
+    PlacedCamera placed{tracked.camera, withoutScale(tracked.worldFromCamera), -1, true};
+    if (tracked.showsSensor && tracked.camera.physical) {
+        const PhysicalCamera& physical = *tracked.camera.physical;
+        const double height = std::max(physical.sensorSize.y, physical.sensorSize.x / aspect);
+        placed.camera.yfov = 2 * std::atan(height / (2 * physical.focalLength));
+    }
+    return placed;
+}
+
 PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect, std::optional<double> tanHalfHorizontal) {
     Bounds bounds = sceneBounds;
     if (bounds.empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
@@ -160,6 +171,8 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoi
     const std::vector<CameraNode> places = cameraNodes(scene, posed ? pose.cameras : scene.cameras);
     if (std::holds_alternative<FramingCamera>(choice)) return framingCamera(pose.bounds, aspect, tanHalfHorizontal);
 
+    if (pose.tracked && std::holds_alternative<FirstCamera>(choice)) return trackedCamera(*pose.tracked, aspect);
+
     const CameraNode* chosen = nullptr;
     if (const auto* const named = std::get_if<NamedCamera>(&choice)) {
         chosen = cameraNamed(places, named->name);
@@ -173,10 +186,11 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoi
     if (chosen->camera->orthographic)
         fail("camera '{}' cannot be used: {}; choose another camera, or '{}' to frame the scene", labelOf(*chosen),
              *chosen->camera->orthographic, framingName);
-    return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index)};
+    return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index), false};
 }
 
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose) {
+    if (camera.tracked && pose.tracked) return withoutScale(pose.tracked->worldFromCamera);
     return camera.node < 0 ? camera.worldFromCamera
                            : withoutScale(pose.worldFromNode[static_cast<std::size_t>(camera.node)]);
 }

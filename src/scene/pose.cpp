@@ -257,6 +257,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     }
     leaveOutFaintLights(pose);
     pose.cameras = std::move(state.cameras);
+    if (scene.cameraTrack) pose.tracked = scene.cameraTrack->at(time);
     return pose;
 }
 

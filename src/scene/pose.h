@@ -38,10 +38,11 @@ inline constexpr std::size_t maxLights = 336;  // max lights; fits into a unifor
 struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
     std::vector<Object> objects;
-    std::vector<PlacedLight> lights;  // at most maxLights
-    std::size_t faintLights = 0;      // number of fainter lights that were dropped
-    std::vector<Camera> cameras;      // one per entry of Scene::cameras, with animated values
-    Bounds bounds;                    // of all objects except the ground, in world space
+    std::vector<PlacedLight> lights;       // at most maxLights
+    std::size_t faintLights = 0;           // number of fainter lights that were dropped
+    std::vector<Camera> cameras;           // one per entry of Scene::cameras, with animated values
+    std::optional<TrackedCamera> tracked;  // state of Scene::cameraTrack
+    Bounds bounds;                         // of all objects except the ground, in world space
 };
 
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give

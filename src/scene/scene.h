@@ -20,6 +20,7 @@
 #include "defocus/scene_data.h"
 #include "image/image.h"
 #include "scene/camera.h"
+#include "scene/camera_track.h"
 #include "scene/mesh.h"
 
 namespace defocus::engine {
@@ -276,6 +277,7 @@ struct Scene {
     std::string variant;                     // chosen variant; empty: the default materials
     std::vector<std::string> extensions;     // glTF extensions that the file uses, sorted
     std::vector<Ignored> ignored;
+    std::shared_ptr<const CameraTrack> cameraTrack;  // camera of another file; null: the scene's own cameras
 };
 
 }  // namespace defocus::engine

@@ -11,6 +11,7 @@
 
 #include "cli/program.h"
 #include "cli/two_quads.h"
+#include "core/file.h"
 #include "image/image_io.h"
 #include "models.h"
 #include "scene/gltf/builder.h"
@@ -452,6 +453,32 @@ TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
         EXPECT_EQ(outcome.err, "warning: 2 triangles left out: a vertex position is NaN or infinite\n");
         EXPECT_EQ(run({"--quiet", command, "damaged.glb"}).err, "");
     }
+}
+
+// Cameras of other files.
+TEST_F(BadInput, camerasOfOtherFiles) {
+    const auto refuse = [&](const std::string& name, const std::string& text, const std::string& part) {
+        writeFile(folder() / name, std::string_view(text));
+        const Outcome outcome = run({"render", "quads.gltf", "--camera-from", name});
+        fs::remove(folder() / name);
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(fileCount(), 1u);
+    };
+    const std::string good = "#usda 1.0\ndef Camera \"a\" { float focalLength = 50 }\n";
+    refuse("shot.usda", "PXR-USDC", "usdcat");
+    refuse("shot.usda", good.substr(0, good.size() - 3), "line 2");
+    refuse("shot.usda", "#usda 1.0\ndef Xform \"a\" {}\n", "no camera");
+    refuse("shot.usda", good + "def Camera \"b\" {}\n", "/a, /b");
+    refuse("shot.json", "{}", "not a camera");
+    refuse("shot.gltf", "{\"asset\": {\"version\": \"2.0\"}}", "no perspective camera");
+    expectFault(1, "missing.usda", {"--camera-from", "missing.usda"});
+    expectFault(1, "not a camera file", {"--camera-from", "shot.fbx"});
+    expectFault(1, "usdcat", {"--camera-from", "shot.usdc:/World/cam"});
+    expectFault(2, "--camera", {"--camera-from", "shot.usda", "--camera", "A"});
+    expectOneLine(run({"export-camera", "quads.gltf", "-o", "shot.usdc"}), 2);
+    expectOneLine(run({"export-camera", "quads.gltf", "-o", "shot.usda", "--range", "5:1"}), 2);
+    EXPECT_EQ(fileCount(), 1u);
 }
 
 }  // namespace

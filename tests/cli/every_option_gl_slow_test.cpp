@@ -42,11 +42,20 @@ std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
 
+// Returns the channel names that an image's metadata records; empty if none are recorded.
+std::string exrNamesIn(const std::filesystem::path& path) {
+    Metadata metadata;
+    readImage(path, metadata);
+    const auto names = metadata.find("defocus:exrNames");
+    return names == metadata.end() ? "" : std::get<std::string>(names->second);
+}
+
 Results rendered(const Folder& folder, const Outcome&) {
     const json stats = jsonIn(folder / "stats.json");
     std::string text = seenOfLimit(stats.at("memoryLimit"));
     for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
         text += stats.at(key).dump() + " ";
+    text += exrNamesIn(folder / "a.exr");
     return {pixelsIn(folder / "a.exr"), pixelsIn(folder / "a.png"), text};
 }
 
@@ -54,7 +63,8 @@ Results captured(const Folder& folder, const Outcome&) {
     json times = jsonIn(folder / "timings.jsonl");
     const std::string limit = seenOfLimit(times.at("memoryLimit"));
     times.erase("memoryLimit");
-    return {pixelsIn(folder / "0.exr"), pixelsIn(folder / "0.png"), limit + withoutTimes(times).dump()};
+    const std::string names = exrNamesIn(folder / "0.exr");
+    return {pixelsIn(folder / "0.exr"), pixelsIn(folder / "0.png"), limit + names + withoutTimes(times).dump()};
 }
 
 Results rowsOf(const Folder& folder, const char* file, const Words& lists) {

@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/options/request_options.h"
+#include "core/file.h"
 #include "image/image_io.h"
 #include "render/methods.h"
 #include "scene/gltf/builder.h"
@@ -89,6 +90,24 @@ inline std::string movingBall(bool lamp, bool pane = false) {
     return builder.glb();
 }
 
+// A camera that stands left of the file's cameras and focuses on the ball.
+inline constexpr const char* usdCamera = R"(#usda 1.0
+(
+    metersPerUnit = 1
+)
+
+def Camera "Left"
+{
+    float focalLength = 0.4
+    float horizontalAperture = 0.36
+    float verticalAperture = 0.27
+    float fStop = 0.5
+    float focusDistance = 3
+    double3 xformOp:translate = (-0.3, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+)";
+
 inline const Words blurred = {"--fstop", "0.5"};
 inline const Words moving = {"--shutter", "1", "--time", "1"};
 inline const Words threeBlades = {"--fstop", "0.5", "--blades", "3"};
@@ -118,6 +137,7 @@ inline void writeOptionScene(const std::filesystem::path& folder) {
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 4; ++x) *half.at(x, y) = 1;
     writeImage(folder / "half.png", half);
+    writeFile(folder / "shot.usda", std::string_view(option_cases::usdCamera));
 }
 
 // Cases of settings, keyed by the setting's name in the table of settings.
@@ -145,6 +165,9 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"lightAngle", {{"--light-angle", "40"}, {"--ground", "--camera", "auto"}}},
         {"lightRadius", {{"--light-radius", "0.5"}, {"--ground", "--camera", "auto"}}},
         {"camera", {{"--camera", "Near"}, {}}},
+        {"exrLayers", {{"--exr-layers", "depth"}, {"--fstop", "0.3"}}},
+        {"exrNames", {{"--exr-names", "blender"}, {"--exr-layers", "depth"}}},
+        {"cameraFrom", {{"--camera-from", "shot.usda"}, {"--time", "1"}}},
         {"cameraPosition", {{"--camera-position", "0.5,0,0"}, {"--focus-auto"}}},
         {"cameraTarget", {{"--camera-target", "0.5,0,-3"}, {"--focus-auto"}}},
         {"cameraUp", {{"--camera-up", "1,1,0"}, {"--focus-auto"}}},

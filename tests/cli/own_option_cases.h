@@ -34,6 +34,7 @@ inline const std::map<std::string, Words>& usualLines() {
                                                    "1", "--runs", "1", "--shading", "lit", "--reference-samples", "4"}),
                                      written)},
         {"new-shot", {"ball.glb", "-o", "made.json"}},
+        {"export-camera", {"ball.glb", "-o", "made.usda"}},
         {"completions", {"bash"}},
         {"settings", {}},
     };
@@ -212,6 +213,9 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench convergence --report", {.words = {"--report", "page"}}},
 
         {"new-shot --output", {.words = {"-o", "other-made.json"}}},
+        {"export-camera --output", {.words = {"-o", "other-made.usda"}}},
+        {"export-camera --range", {.words = {"--range", "0:2"}}},
+        {"export-camera --frame-rate", {.words = {"--frame-rate", "10"}}},
         {"new-shot --overwrite", {.words = {"--overwrite"}, .before = {usualLine("new-shot")}}},
 
         {"completions SHELL", {.words = {"zsh"}}},

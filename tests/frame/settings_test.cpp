@@ -31,6 +31,7 @@ std::string otherValue(const Setting& setting) {
         {"focusPoints", "1,2,3,4,5,6"},
         {"nodeBlur", "Fish = 3=0.5"},
         {"motionSegments", "exact"},
+        {"exrLayers", "normal,objects"},
         {"method", "circular:far-components=5"},
         {"bladeCount", "7"},
         {"wave", "3"},

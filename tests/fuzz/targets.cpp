@@ -28,6 +28,8 @@
 #include "plan/frame_plan.h"
 #include "render/tiles/row_file.h"
 #include "render/tiles/sum_file.h"
+#include "scene/camera_files/usda_camera.h"
+#include "scene/camera_files/usda_samples.h"
 #include "scene/gltf/builder.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
@@ -372,12 +374,27 @@ std::vector<Bytes> settingsSeeds() {
     return seeds;
 }
 
+// ---- USD cameras
+
+void runUsda(std::span<const std::byte> bytes) {
+    try {
+        const CameraTrack track = usdCamera(parseUsda(textOf(bytes), "shot.usda"), "", "shot.usda");
+        for (const double time : {-1.0, 0.0, 0.3, 1e9}) static_cast<void>(track.at(time));
+    } catch (const Error&) {
+    }
+}
+
+std::vector<Bytes> usdaSeeds() {
+    std::vector<Bytes> seeds;
+    for (const char* text : {usda_samples::plain, usda_samples::animated, usda_samples::everything})
+        seeds.push_back(bytesOf(text));
+    return seeds;
+}
+
 constexpr std::array targets = {
-    FuzzTarget{"gltf", runGltf, gltfSeeds, 1 << 15},
-    FuzzTarget{"shot", runShot, shotSeeds, 1 << 13},
-    FuzzTarget{"cache", runCache, cacheSeeds, 1 << 16},
-    FuzzTarget{"image", runImage, imageSeeds, 1 << 12},
-    FuzzTarget{"settings", runSettings, settingsSeeds, 1 << 10},
+    FuzzTarget{"gltf", runGltf, gltfSeeds, 1 << 15},    FuzzTarget{"shot", runShot, shotSeeds, 1 << 13},
+    FuzzTarget{"cache", runCache, cacheSeeds, 1 << 16}, FuzzTarget{"image", runImage, imageSeeds, 1 << 12},
+    FuzzTarget{"usda", runUsda, usdaSeeds, 1 << 12},    FuzzTarget{"settings", runSettings, settingsSeeds, 1 << 10},
 };
 
 }  // namespace

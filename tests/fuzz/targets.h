@@ -24,6 +24,7 @@ struct FuzzTarget {
 //   cache     a pyramid file with a correct checksum
 //   image     an image file as environment, aperture, tile, and input of compare and merge; the first byte selects
 //             the format
+//   usda      a USD text file with a camera
 //   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 

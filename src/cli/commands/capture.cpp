@@ -33,6 +33,7 @@
 #include "frame/setup/exposure.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "image/time_code.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -162,6 +163,8 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         metadata["capDate"] = std::string();  // empty, because the image library would insert the current time
         metadata["defocus:frame"] = frame.frame;
         metadata["defocus:frameRate"] = arguments.shot.frameRate;
+        metadata["framesPerSecond"] = rationalFrameRate(arguments.shot.frameRate);
+        if (const auto code = timeCodeOfFrame(frame.frame, arguments.shot.frameRate)) metadata["timeCode"] = *code;
         return metadata;
     };
 }
@@ -447,7 +450,7 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus capture shot.json --shard 2/8 --resume");
     command->callback([arguments, command, &global] {
         const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
-        runCapture(*arguments, {given("--camera"), given("--shutter")}, global);
+        runCapture(*arguments, {given("--camera") || given("--camera-from"), given("--shutter")}, global);
     });
 }
 

@@ -51,6 +51,7 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
                                          "layerFormat", "exposureTime", "iso", "multipleScattering"}));
+    addSettings(*command, arguments->request, {"exrLayers"});
     addDeveloperSettings(*command, arguments->request, {"memory", "wave"});
     command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
     command->callback([arguments, &global] { runPlan(*arguments, global); });

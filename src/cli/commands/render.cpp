@@ -21,6 +21,7 @@
 #include "core/stopwatch.h"
 #include "frame/driver/frame_output.h"
 #include "frame/program_facts.h"
+#include "frame/report/layer_file.h"
 #include "frame/report/picture_warnings.h"
 #include "image/image_io.h"
 #include "plan/lens_cells/swept_work.h"
@@ -49,18 +50,19 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                        [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
                  ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
-                       "Range of the lens samples to draw, in multiples of 64. Writes their sums to an EXR file for "
-                       "'defocus merge'",
+                       "Draw only lens samples FIRST to END-1 (multiples of 64), to an EXR file that 'defocus merge' "
+                       "combines with the other parts",
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     advanced(addParsed(command, "--tile", "I/N",
-                       "Render only part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+                       "Divide the image into N horizontal bands and render only band I (0 to N-1), to an EXR file for "
+                       "'defocus merge'",
                        [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
                  ->group(group));
     command
         .add_flag("--resume", arguments.resume,
-                  "Continue an interrupted run with the same settings: keep its finished tiles (folder out.tiles "
-                  "beside the first output), or the finished file of --tile")
+                  "Continue an interrupted run with the same settings and keep the parts that it has finished, in "
+                  "folder out.tiles beside the first output or in the file of --tile")
         ->group(group);
     advanced(command
                  .add_flag("--keep-partial", arguments.keepPartial,
@@ -68,8 +70,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                            "far; the exit code is 1. A second signal ends the program at once")
                  ->group(group));
     advanced(addParsed(command, "--lens-images", "FILE.exr",
-                       "Write the image of each lens sample to a multi-part EXR file for 'defocus refocus', which then "
-                       "chooses focus, f-number and bokeh. Replaces --output",
+                       "Write the image of each lens sample to a multi-part EXR file. With 'defocus refocus', focus, "
+                       "f-number and bokeh can then be changed after rendering. Replaces --output",
                        [&arguments](const std::string& text) { arguments.lensImages = text; })
                  ->excludes("--output")
                  ->excludes("--aov")
@@ -78,8 +80,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->excludes("--resume")
                  ->group(group));
     advanced(addParsed(command, "--focus-range", "NEAR:FAR",
-                       "Focus distances in m that --lens-images must allow; FAR may be inf. Default: from the nearest "
-                       "to the farthest visible surface",
+                       "Range of focus distances in m that 'defocus refocus' can choose from; FAR may be inf. Default: "
+                       "from the nearest to the farthest visible surface",
                        [&arguments](const std::string& text) { arguments.focusRange = parseFocusRange(text); })
                  ->needs("--lens-images")
                  ->group(group));
@@ -128,6 +130,10 @@ void checkOutputs(const RenderArguments& arguments) {
     checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
         fail("--aov writes files beside the first output; give a file as the first output");
+    if (!request.layers.empty()) {
+        if (std::ranges::none_of(arguments.outputs, holdsLayers)) fail("--exr-layers needs an .exr file as an output");
+        if (arguments.keepPartial) fail("--keep-partial keeps the picture only; leave out --exr-layers");
+    }
     FrameOutput::check(filesOf(arguments), request);
 }
 
@@ -256,7 +262,14 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     };
     if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
     const Metadata metadata = driver.metadata();
-    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
+    const std::optional<LayerImages> layers = driver.layerImages();
+    for (const std::filesystem::path& path : arguments.outputs) {
+        if (isStandardOutput(path))
+            writeOutput(path, image, metadata, options);
+        else
+            writePicture(path, image, layers ? &*layers : nullptr, *driver.frame().scene, driver.frame().world.pose,
+                         arguments.request.exrNames, metadata, options);
+    }
 }
 
 // Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.

@@ -46,7 +46,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
                               "samples, times and more")
                  ->type_name("FILE")
                  ->group(group));
-    addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit"}));
+    addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit", "exrLayers", "exrNames"}));
     addMethodSettings(*command, options->request);
     addDeveloperSettings(*command, options->request, {"memory"});
     command->footer(

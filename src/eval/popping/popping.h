@@ -1,7 +1,8 @@
 #pragma once
 // Measures the popping of levels of detail: the change from frame to frame that levels add while camera, focus or scene
-// move. Compares four modes: nearest level; samples divided between two levels (fractional); fractional with the
-// boundary sample divided by pixels (continuous); and fractional levels drawn by the method "multirate".
+// move. Compares four modes. nearest: one level per object. fractional: samples divided between two levels.
+// continuous: also one sample that draws the finer level in some pixels and the coarser level in the others. multirate:
+// fractional levels, drawn by this method.
 //
 // The reference is full detail with the same lens samples, for multirate drawn by multirate itself. Sampling noise
 // therefore cancels, and full detail itself measures 0. Let I be a frame of the mode and R the same frame at full
@@ -12,14 +13,14 @@
 //   step:   I_t minus the same view and pose drawn with the previous frame's levels and its splits of the
 //           samples between two levels. The step is the pop alone.
 // Both are measured over the complete image and over the object pixels, which an object or its blur covers in frame t
-// or t − 1. For the step, only objects whose levels or splits differ count: unchanged objects don't dilute a pop, and
-// its error hardly depends on the number of objects that pop in a frame.
+// or t − 1. For the step, only objects whose levels or splits differ count. Unchanged objects thus don't dilute a pop,
+// and the error of a pop hardly depends on the number of objects that pop in a frame.
 //
 // Expected step: if all N samples change their level at once, the difference is blurred by c px. The difference of a
 // single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. If less than one sample
 // changes per frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others. Continuous
-// levels change a fraction Δλ·N of the sample's pixels in every frame, which gives √(c/w)·√(Δλ/N): half as much at a
-// quarter of the speed.
+// levels change a fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N).
+// At a quarter of the speed, this step is half as large.
 //
 // Equal for all modes: scene, views, number of lens samples, thresholds, image size and, except for multirate,
 // renderer. Layers are 32-bit floats by default, so that their rounding doesn't count as an error of the levels.

@@ -1,5 +1,7 @@
 #include "frame/driver/frame_driver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -310,7 +312,27 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     }
 }
 
+namespace {
+
+// Throws UsageError if the method or the order cannot draw the layers of RenderSettings::layers.
+void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
+    if (order.settings.layers.empty()) return;
+    if (!method.drawsLayers)
+        throw UsageError(fmt::format(
+            "method {} draws no layers beside the picture (--exr-layers); use auto or accumulation", method.name));
+    if (order.samples || order.rows)
+        throw UsageError("--exr-layers needs the whole image; leave out --sample-range and --tile");
+    if (order.takeSample) throw UsageError("--exr-layers cannot be combined with --lens-images");
+    const auto& layers = order.settings.layers;
+    if (std::ranges::find(layers, Layer::motion) != layers.end() && perSample)
+        throw UsageError("layer motion needs a number of motion segments; leave out --motion-segments exact");
+    if (order.untiledReason.empty()) order.untiledReason = "--exr-layers needs the whole image";
+}
+
+}  // namespace
+
 void FrameDriver::start(FrameOrder order) {
+    checkLayers(order, *options_.method.method, world_->shutter.perSample);
     drawing_.reset();
     share_ = 0;
     Fit wanted = fitOf(order);
@@ -373,6 +395,10 @@ bool FrameDriver::inTiles() const {
 
 Image FrameDriver::image() {
     return drawing_->image();
+}
+
+std::optional<LayerImages> FrameDriver::layerImages() {
+    return renderer_->layerImages();
 }
 
 FramePart FrameDriver::sums() {

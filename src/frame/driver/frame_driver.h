@@ -30,7 +30,8 @@ struct DriverOptions {
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
-// Returns the options of a request: its method, memory limit, wave and layer format. Throws Error for an unknown method.
+// Returns the options of a request: its method, memory limit, wave and layer format. Throws Error for an unknown
+// method.
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder,
                             std::uint64_t keptPixelBytes = 0);
 
@@ -83,6 +84,8 @@ public:
     // Returns the linear RGBA mean of the samples so far; unfinished tiles are black with alpha 0. Not available if
     // FrameOrder::takeRows is set.
     [[nodiscard]] Image image();
+    // Returns the layers RenderSettings::layers; nullopt without layers.
+    [[nodiscard]] std::optional<LayerImages> layerImages();
     // Returns the partial sums over FrameOrder::samples once they are complete, without settings and metadata.
     [[nodiscard]] FramePart sums();
     // Returns whether memory is too short for the images counted in DriverOptions::keptPixelBytes. The caller should

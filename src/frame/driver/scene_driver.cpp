@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "frame/report/layer_file.h"
 #include "frame/report/picture_warnings.h"
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/exposure.h"
@@ -61,7 +62,10 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
     checkRequest(request);
     scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
                     : std::const_pointer_cast<Scene>(std::move(scene));
-    if (named_) setScale(request, *scene_);
+    if (named_) {
+        setCameraTrack(request, *scene_);
+        setScale(request, *scene_);
+    }
     if (hasStrokes(*scene_)) {
         scene_ = std::make_shared<Scene>(*scene_);  // copied, because the caller may share the scene
         setStrokes(request, *scene_);
@@ -91,12 +95,16 @@ SceneDriver::~SceneDriver() {
 // in a copy.
 std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
     const double metresPerUnit = request.units.value_or(scene_->metresPerUnit);
-    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
+    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground &&
+        hasCameraTrack(request, *scene_))
+        return scene_;
     if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
-        request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit)
+        request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit &&
+        hasCameraTrack(request, *frame_.scene))
         return frame_.scene;
     auto scaled = std::make_shared<Scene>(*scene_);
     setNodeBlur(request, *scaled);
+    setCameraTrack(request, *scaled);
     scaled->metresPerUnit = metresPerUnit;
     setGround(request, *scaled);
     return scaled;
@@ -145,8 +153,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {
-        if (!driver_)
-            driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
+        if (!driver_) driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
         FrameOrder order{.view = frame_.view,
                          .settings = frame_.settings,
                          .stop = stopSettings(request_),
@@ -196,6 +203,12 @@ AovImages SceneDriver::aovs() {
             "or reduce --size");
     const InContext use(*context_);
     return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
+}
+
+std::optional<LayerImages> SceneDriver::layerImages() {
+    FrameDriver& driver = this->driver();
+    const InContext use(*context_);
+    return driver.layerImages();
 }
 
 Image SceneDriver::work() {
@@ -279,7 +292,9 @@ Metadata SceneDriver::metadata() {
 
 void SceneDriver::write(const std::filesystem::path& path, const ImageView& image) {
     const WriteOptions options = writeOptions();
-    writeImage(path, image, metadata(), options);
+    const std::optional<LayerImages> layers = holdsLayers(path) ? layerImages() : std::nullopt;
+    writePicture(path, image, layers ? &*layers : nullptr, *frame_.scene, frame_.world.pose, request_.exrNames,
+                 metadata(), options);
     const std::string ending = path.extension().string();
     if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
 }

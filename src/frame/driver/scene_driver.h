@@ -73,6 +73,7 @@ public:
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample is drawn
     [[nodiscard]] AovImages aovs();
+    [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
     // Returns the settings for encoding the image as PNG and JPEG. A metered exposure is measured for the first frame
@@ -81,7 +82,7 @@ public:
     [[nodiscard]] Metadata metadata();
     // `command`: the command line in shell syntax; empty: none. `milliseconds`: time since the command began.
     [[nodiscard]] RenderReport report(std::string command = {}, double milliseconds = 0);
-    // Writes an image of the frame to a file, with the frame's metadata.
+    // Writes an image of the frame to a file, with the frame's metadata; EXR files also get the layers.
     void write(const std::filesystem::path& path, const ImageView& image);
 
 private:

@@ -18,6 +18,7 @@
 #include "core/source_date.h"
 #include "frame/program_facts.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/moment.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "render/sampling/block_schedule.h"
@@ -107,6 +108,8 @@ Metadata renderMetadata(const RenderReport& report) {
         metadata["expTime"] = lens.exposureTime;
         metadata["isoSpeed"] = lens.iso;
         metadata["defocus:exposure"] = photographicExposure(lens);
+    } else if (const double seconds = shutterOf(report.options, *report.frame.scene).seconds; seconds > 0) {
+        metadata["expTime"] = seconds;
     }
     if (report.exposure) metadata["defocus:exposure"] = *report.exposure;
     for (const LensField& field : lensFields()) {
@@ -128,7 +131,7 @@ std::string statsJson(const RenderReport& report) {
         {"scene", report.frame.sceneName},
         {"camera", report.frame.cameraName},
         {"time", report.options.time},
-        {"shutter", report.options.shutter},
+        {"shutter", shutterOf(report.options, *report.frame.scene).seconds},
         {"width", report.plan.view.width},
         {"height", report.plan.view.height},
         {"method", report.method},
@@ -177,6 +180,7 @@ std::string statsJson(const RenderReport& report) {
         json["samplesAutomatic"] = true;
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
+    for (const PassTime& pass : stats.passes) json["passMilliseconds"][pass.name] = pass.milliseconds;
     for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -25,7 +25,12 @@ std::string methodWithoutMotion(const SettingContext& context) {
 }
 
 std::string withoutShutter(const SettingContext& context) {
-    return context.request.shutter > 0 ? "" : "there is no motion blur without --shutter";
+    const bool own = !context.request.shutter && !context.request.cameraFrom.empty();
+    return own || context.request.shutter.value_or(0) > 0 ? "" : "there is no motion blur without --shutter";
+}
+
+std::string withoutLayers(const SettingContext& context) {
+    return context.request.layers.empty() ? "there are no layers without --exr-layers" : "";
 }
 
 std::string withoutEnvironment(const SettingContext& context) {
@@ -33,7 +38,7 @@ std::string withoutEnvironment(const SettingContext& context) {
 }
 
 std::string withoutAnimation(const SettingContext& context) {
-    return context.scene.clips.empty() ? "the scene has no animation" : "";
+    return context.scene.clips.empty() && !context.scene.cameraTrack ? "the scene has no animation" : "";
 }
 
 std::string withoutVariant(const SettingContext& context) {

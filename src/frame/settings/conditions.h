@@ -15,6 +15,7 @@ std::string methodWithoutSamples(const SettingContext& context);     // the meth
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
 std::string methodWithoutLensPoints(const SettingContext& context);  // same lens for all pixels
 std::string methodWithoutMotion(const SettingContext& context);
+std::string withoutLayers(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
 std::string withoutEnvironment(const SettingContext& context);
 std::string withoutAnimation(const SettingContext& context);

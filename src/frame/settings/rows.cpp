@@ -35,9 +35,9 @@ using Rows = std::vector<Setting>;
 
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
-               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit in the file's extras, "
-               "else 1 m if the camera has a physical lens or an option sets a distance or position in m, else "
-               "estimated from the scene's size")
+               "Length of one unit of the scene: m, cm, mm or a number of metres. auto takes the unit in the file's "
+               "extras. Without it: 1 m if the camera has a physical lens or an option is given in m, else an estimate "
+               "from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -54,8 +54,11 @@ Row shutterRow() {
     return rows::other(
                "shutter", "--shutter", "S",
                [](Request& request, const std::string& text) { request.shutter = parseSeconds(text); },
-               [](const Request& request) { return std::optional(fmt::format("{}", request.shutter)); },
-               "Time in seconds that the shutter is open, such as 0.02 or 1/48; gives motion blur. 0: no motion blur")
+               [](const Request& request) -> std::optional<std::string> {
+                   return request.shutter ? std::optional(fmt::format("{}", *request.shutter)) : std::nullopt;
+               },
+               "Time in seconds that the shutter is open, such as 0.02 or 1/48; gives motion blur. 0: no motion blur. "
+               "Default: the shutter of --camera-from, else 0")
         .kind(SettingKind::number)
         .range(0, 1e6)
         .clears(MEMBER(shutter));
@@ -100,7 +103,7 @@ Rows sceneRows() {
             .effect(SettingEffect::run),
         rows::words(SettingKind::text, "variant", "--variant", "NAME", MEMBER(variant),
                     "Variant of the scene's materials (KHR_materials_variants), as listed by 'defocus info'. Default: "
-                    "the materials without a variant")
+                    "the file's default materials")
             .example("Red")
             .inShot("/variant")
             .unused(withoutVariant),
@@ -130,12 +133,13 @@ Rows sceneRows() {
         rows::choice<ShutterPosition>(
             "shutterPosition", "--shutter-position",
             {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
-            MEMBER(shutterPosition), "Position of --time within the exposure")
+            MEMBER(shutterPosition),
+            "Whether the shutter opens at --time (start), is open around it (centre), or closes at it (end)")
             .inShot("/shutter/position")
             .unused(withoutShutter),
         rows::other("motionSegments", "--motion-segments", "N|exact", setMotionSegments, motionSegmentsText,
-                    "Number of straight segments, 1 to 64, that approximate a vertex's path while the shutter is open. "
-                    "exact: pose the scene at the time of each lens sample")
+                    "Number of straight segments, 1 to 64, that approximate the motion while the shutter is open; fast "
+                    "rotations need more. exact: the true motion, slower")
             .clears(MEMBER(motionSegments))
             .inShot("/shutter/segments")
             .json(R"({"type": "integer", "minimum": 1, "maximum": 64})")
@@ -170,8 +174,8 @@ Rows sceneRows() {
             MEMBER(shadows), "Soft shadows of the lights and the environment. auto: only with --ground")
             .inShot("/shadows"),
         rows::boolean("multipleScattering", "--multiple-scattering", MEMBER(multipleScattering),
-                      "Add the light that is reflected several times between the microfacets of rough surfaces. glTF's "
-                      "materials have single scattering, so rough metals lose light")
+                      "Restore the light that rough surfaces lose in glTF's material model: rough metals become "
+                      "brighter and more saturated")
             .inShot("/multipleScattering"),
         rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
                      "Angular diameter of directional lights in degrees; larger lights give softer shadows. Default: "
@@ -214,9 +218,16 @@ Rows cameraRows() {
             .everyday()
             .example("Camera")
             .inShot("/camera/name"),
+        rows::words(
+            SettingKind::path, "cameraFrom", "--camera-from", "FILE[:CAMERA]", MEMBER(cameraFrom),
+            "Camera from another file, with lens, animation and shutter: a USD text file (.usda), a glTF file, or "
+            "the JSON of 'defocus export-camera'. CAMERA is a path such as /World/cam or a name; default: the "
+            "file's only camera")
+            .excludes({"camera"})
+            .example("shot.usda:/World/cam"),
         pointRow(
             "cameraPosition", "--camera-position", MEMBER(cameraPosition),
-            "Position of the camera in m. The default lights stay in place. Default: the position of the file's camera")
+            "Position of the camera in m. Does not move the default lights. Default: the position of the file's camera")
             .unit("m"),
         pointRow("cameraTarget", "--camera-target", MEMBER(cameraTarget),
                  "Point in m that the camera looks at. Default: the viewing direction of the file's camera")
@@ -307,8 +318,8 @@ Rows focusRows() {
             .excludes({"focusDistance", "focusNode"})
             .unused(withoutBlur),
         rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-                    "Tilt the focus plane through the surfaces at three pixels. With 4 to 16 pixels, also curve it, so "
-                    "that the sum of the squared blur diameters at these pixels is minimal")
+                    "Tilt the focus plane through the surfaces at three pixels. With 4 to 16 pixels, fit a curved "
+                    "surface of focus to them (least squares of the blur)")
             .clears(clearFocus<FocusPoints>)
             .excludes({"focusDistance", "focusNode", "focusPixel"})
             .unused(withoutBlur),
@@ -329,8 +340,8 @@ Rows lensRows() {
     }
     rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
                                MEMBER(lens.apertureImage),
-                               "Image of the aperture: bright pixels transmit light, and the longer side of the image "
-                               "spans the lens. Replaces --blades and --obstruction")
+                               "Image of the aperture; bright pixels transmit light. Its longer side is as long as the "
+                               "aperture's diameter. Replaces --blades and --obstruction")
                        .unused(unusedLensField(LensFeature::shape)));
     rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
                                "Scale the blur of a node, given by name or number, and of its children; 0 keeps them "
@@ -352,12 +363,12 @@ Row presetRow() {
         names.push_back(preset.name);
         lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
     }
-    Row row = Row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
-                  fmt::format("Set several settings as published in a paper; other options override them. {}",
-                              fmt::join(lines, "; ")))
-                  .choices(names)
-                  .effect(SettingEffect::run)
-                  .recorded();
+    Row row =
+        Row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
+            fmt::format("Reproduce the settings of a paper; other options override them. {}", fmt::join(lines, "; ")))
+            .choices(names)
+            .effect(SettingEffect::run)
+            .recorded();
     return std::move(row).values(
         [names](Request& request, const std::string& text) {
             applyPreset(presets()[parseChoice(text, names)], request);
@@ -401,8 +412,8 @@ Rows sampleRows() {
         rows::choice<Quality>("quality", "--quality",
                               {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
                               MEMBER(quality),
-                              "Quality of an image with an automatic number of samples: FLIP difference from the "
-                              "converged image of about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
+                              "Quality for --samples auto: perceived difference (FLIP) from an image without noise of "
+                              "about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
             .everyday()
             .inShot("/quality")
             .excludes({"targetError", "timeLimit"})
@@ -410,50 +421,48 @@ Rows sampleRows() {
                 return firstOf(context, {methodWithoutSamples, withFixedSamples});
             }),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
-                     "Target error R: add blocks of 64 samples until the estimated RMSE of the image is below R. The "
-                     "RMSE is measured on display-encoded values from 0 to 1 at EV 0")
+                     "Add blocks of 64 samples until the estimated error is below R: the RMSE of display-encoded "
+                     "values from 0 to 1 at EV 0")
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
                      "Add blocks of 64 samples for S seconds, or until --target-error is reached. Loading does not "
-                     "count. For capture: start no frame after S seconds")
+                     "count. capture starts no frame after S seconds instead")
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
         rows::choice<Sequence>(
             "sequence", "--sequence", sequences, MEMBER(sequence),
-            "Low-discrepancy sequence of the sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
+            "Sequence of the sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
             .inShot("/sequence")
             .unused(methodWithoutSamples),
         rows::integer("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(seed),
                       "Seed of the sample points")
             .inShot("/seed")
             .unused(methodWithoutSamples),
-        rows::choice<LodMode>(
-            "lod", "--lod", modes, MEMBER(lod),
-            "Levels of detail of blurred objects. fractional: the samples are split between two levels. continuous: "
-            "like fractional, but one sample draws both levels, each in some of its pixels, so that the pixels switch "
-            "one after another; default of capture. nearest: one level. off: full detail")
+        rows::choice<LodMode>("lod", "--lod", modes, MEMBER(lod),
+                              "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
+                              "lens samples are divided between two levels. continuous (default of capture): also "
+                              "divides the pixels of one sample, for smoother transitions. off: full detail")
             .inShot("/lod"),
-        rows::number(
-            "blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-            "For --lod-metric size, error and score: target edge length in px per px of blur. Default: depends on "
-            "the number of samples. For proportional: level of a blur as large as the object's bounding box")
+        rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
+                     "For --lod-metric size, error and score: edge length of the triangles, in px, for each px of "
+                     "blur; a larger value is coarser and faster. Default: depends on the number of samples. For "
+                     "proportional: level of an object whose blur is as large as its bounding box")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-                     "For --lod-metric size and error: minimum target edge length in px. Default: depends on "
-                     "the number of samples")
+                     "For --lod-metric size and error: edge length, in px, that triangles may always have. Default: "
+                     "depends on the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
         rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "For --lod-metric measured: maximum product K, in px, of the projected edge length of a level and "
-                     "its relative error. The relative error is the RMS difference between the blurred level and "
-                     "blurred full detail, divided by the standard deviation of the object's radiance within the blur "
-                     "disk. Default: depends on the number of samples")
+                     "For --lod-metric measured: allowed error of the blurred shading; a larger value is coarser and "
+                     "faster. It is the product, in px, of a level's projected edge length and its relative error "
+                     "(docs/reference.md). Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
@@ -492,6 +501,19 @@ Rows methodRows() {
 
 Rows displayRows() {
     return {
+        rows::other(
+            "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
+            "Layers beside the picture in .exr files, drawn through the lens with the picture's samples and "
+            "premultiplied by the coverage: depth (mean and nearest, m), position, normal, albedo, emission, "
+            "motion (px while the shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            .clears(MEMBER(layers))
+            .example("depth,normal,albedo"),
+        rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
+                               MEMBER(exrNames),
+                               "Channel names of --exr-layers: Nuke's (depth.Z, N.X) or Blender's (ViewLayer.Depth.Z)")
+            .effect(SettingEffect::run)
+            .recorded()
+            .unused(withoutLayers),
         rows::choice<ToneMap>(
             "toneMap", "--tonemap",
             {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
@@ -518,19 +540,20 @@ Rows displayRows() {
 // Settings for measuring and debugging.
 Rows developerRows() {
     return {
-        rows::choice<LodMetric>("lodMetric", "--lod-metric",
-                                {{"automatic", LodMetric::automatic},
-                                 {"size", LodMetric::size},
-                                 {"error", LodMetric::error},
-                                 {"measured", LodMetric::measured},
-                                 {"proportional", LodMetric::proportional},
-                                 {"score", LodMetric::score}},
-                                MEMBER(lodMetric),
-                                "Rule that chooses the levels of detail. measured: error of the blurred shading. size: "
-                                "projected edge length. error: projected deviation from full detail. "
-                                "proportional: ratio of blur to the size of the object's bounding box (Jeong et al.). "
-                                "score: ratio of blur to edge length (Tzeng et al.). automatic: size if "
-                                "--blur-threshold or --size-threshold is given, else measured")
+        rows::choice<LodMetric>(
+            "lodMetric", "--lod-metric",
+            {{"automatic", LodMetric::automatic},
+             {"size", LodMetric::size},
+             {"error", LodMetric::error},
+             {"measured", LodMetric::measured},
+             {"proportional", LodMetric::proportional},
+             {"score", LodMetric::score}},
+            MEMBER(lodMetric),
+            "Rule that chooses the levels of detail. measured: by the error of the blurred shading (most accurate). "
+            "size: by the length of triangle edges in the image. error: by the distance to full detail in the image. "
+            "proportional: by the ratio of blur to the size of the object's bounding box (Jeong et al. 2011). score: "
+            "by the ratio of blur to edge length (Tzeng et al. 2012). automatic: size if --blur-threshold or "
+            "--size-threshold is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(
@@ -539,14 +562,14 @@ Rows developerRows() {
              {"surviving", LevelVertices::surviving},
              {"quarters", LevelVertices::quarters}},
             MEMBER(levelVertices),
-            "Vertices of the simplified levels. fitted: moved to fit full detail. surviving: unchanged vertices of "
-            "full detail. quarters: unchanged vertices, in levels of 100, 75 and 50 % of the vertices")
+            "Vertices of the simplified levels. fitted: moved so that the level fits full detail best. surviving: a "
+            "subset of the original vertices. quarters: three such subsets, of 100, 75 and 50 %")
             .inShot("/levelVertices")
             .unused(withoutLevels),
         rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
                              MEMBER(lodCoc),
-                             "Blur from which an object's level is chosen: the smallest within its bounding box, or "
-                             "the blur at the box's centre")
+                             "Blur that decides an object's level: the smallest within its bounding box (safe), or the "
+                             "blur at the box's centre (coarser and faster)")
             .unused([](const SettingContext& context) {
                 return firstOf(context, {methodWithoutSamples, withoutLevels, withMeasuredLevels});
             }),

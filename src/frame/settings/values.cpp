@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parse.h"
+#include "frame/layer_names.h"
 
 namespace defocus::engine {
 
@@ -212,6 +213,26 @@ std::optional<std::string> methodText(const Request& request) {
 void clearMethod(Request& request) {
     request.method = Request{}.method;
     request.methodSettings.clear();
+}
+
+void setLayers(Request& request, const std::string& text) {
+    std::vector<std::string> words = {"all"};
+    for (const LayerNames& layer : allLayerNames()) words.emplace_back(layer.option);
+    std::vector<bool> wanted(allLayerNames().size());
+    for (const std::string& part : splitAt(text, ',')) {
+        const std::size_t word = parseChoice(part, words);
+        for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = wanted[i] || word == 0 || word == i + 1;
+    }
+    request.layers.clear();
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i]) request.layers.push_back(allLayerNames()[i].layer);
+}
+
+std::optional<std::string> layersText(const Request& request) {
+    if (request.layers.empty()) return {};
+    std::string text;
+    for (const Layer layer : request.layers) text += (text.empty() ? "" : ",") + std::string(layerNames(layer).option);
+    return text;
 }
 
 void setExposure(Request& request, const std::string& text) {

@@ -56,6 +56,10 @@ void setMethod(Request& request, const std::string& text);
 std::optional<std::string> methodText(const Request& request);
 void clearMethod(Request& request);
 
+// Sets the layers, in the order of the enumeration and without repetition. "all" names all layers.
+void setLayers(Request& request, const std::string& text);
+std::optional<std::string> layersText(const Request& request);
+
 void setExposure(Request& request, const std::string& text);
 std::optional<std::string> exposureText(const Request& request);
 

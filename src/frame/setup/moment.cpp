@@ -11,6 +11,15 @@ int clipOf(const Request& request, const Scene& scene) {
     return request.clip.empty() ? 0 : clipNamed(scene, request.clip);
 }
 
+ShutterSettings shutterOf(const Request& request, const Scene& scene) {
+    ShutterSettings shutter = shutterSettings(request);
+    if (request.shutter || !scene.cameraTrack || !scene.cameraTrack->shutter) return shutter;
+    const ShutterInterval& own = *scene.cameraTrack->shutter;
+    shutter.seconds = own.close - own.open;
+    shutter.opening = own.open;
+    return shutter;
+}
+
 namespace {
 
 // Returns `time` as a time within the animation, s; with Request::loop, it wraps at the animation's end.
@@ -22,7 +31,7 @@ double animationTime(const Request& request, const Scene& scene, double time) {
 }  // namespace
 
 Pose exposedPose(const Request& request, const Scene& scene) {
-    const double time = request.time + shutterMiddle(shutterSettings(request));
+    const double time = request.time + shutterMiddle(shutterOf(request, scene));
     Pose pose = poseAt(scene, animationTime(request, scene, time), clipOf(request, scene));
     hideNodes(scene, request.hide, pose);
     return pose;
@@ -32,7 +41,8 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
                   View& view) {
     const Scene& scene = *world.scene;
     const auto changesBlur = [](const Mesh& mesh) { return mesh.blurBounds.moves; };
-    if (scene.clips.empty() && std::ranges::none_of(scene.meshes, changesBlur)) return;
+    const bool cameraMoves = scene.cameraTrack && scene.cameraTrack->moves;
+    if (scene.clips.empty() && !cameraMoves && std::ranges::none_of(scene.meshes, changesBlur)) return;
     const auto momentAt = [&](double offset) {
         const double time = animationTime(request, scene, request.time + offset);
         ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};
@@ -40,7 +50,7 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
         moment.worldFromCamera = worldFromCameraIn(camera, moment.pose);
         return moment;
     };
-    openShutter(shutterSettings(request), settings, momentAt, world.shutter, view);
+    openShutter(shutterOf(request, scene), settings, momentAt, world.shutter, view);
 }
 
 }  // namespace defocus::engine

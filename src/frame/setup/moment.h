@@ -9,6 +9,9 @@ namespace defocus::engine {
 // Returns the index of the animation that the request selects. Throws Error if the scene doesn't have that animation.
 int clipOf(const Request& request, const Scene& scene);
 
+// Returns the request's shutter; if the request has none, the shutter of the scene's camera track.
+ShutterSettings shutterOf(const Request& request, const Scene& scene);
+
 // Returns the scene's pose at the middle of the exposure, without the nodes that the request hides. Throws Error if the
 // scene doesn't have the requested animation.
 Pose exposedPose(const Request& request, const Scene& scene);

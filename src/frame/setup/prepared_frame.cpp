@@ -30,6 +30,7 @@
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "scene/built_in_environment.h"
+#include "scene/camera_files/camera_source.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
 #include "scene/hidden_nodes.h"
@@ -219,6 +220,7 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const Clock::time_point begin = Clock::now();
     const auto scene = std::make_shared<Scene>(loadScene(request, progress));
     setNodeBlur(request, *scene);
+    setCameraTrack(request, *scene);
     setScale(request, *scene);
     setStrokes(request, *scene);
     setGround(request, *scene);
@@ -242,6 +244,16 @@ void setStrokes(const Request& request, Scene& scene) {
 
 void setGround(const Request& request, Scene& scene) {
     if (request.ground && !hasGround(scene)) addGround(scene, poseAt(scene, 0, clipOf(request, scene)));
+}
+
+void setCameraTrack(const Request& request, Scene& scene) {
+    if (hasCameraTrack(request, scene)) return;
+    scene.cameraTrack =
+        request.cameraFrom.empty() ? nullptr : std::make_shared<CameraTrack>(openCamera(request.cameraFrom));
+}
+
+bool hasCameraTrack(const Request& request, const Scene& scene) {
+    return request.cameraFrom == (scene.cameraTrack ? scene.cameraTrack->source : std::string());
 }
 
 void setNodeBlur(const Request& request, Scene& scene) {
@@ -335,6 +347,8 @@ constexpr double smallestScene = 1e-15;  // m
 std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     std::vector<std::string> lines = damageWarnings(*frame.scene);
     if (frame.scaleNote) lines.push_back(*frame.scaleNote);
+    if (const auto& track = frame.scene->cameraTrack)
+        lines.insert(lines.end(), track->warnings.begin(), track->warnings.end());
     for (const std::string& line : frame.refusedLensValues)
         lines.push_back(fmt::format("camera '{}': {}; the value is ignored", frame.cameraName, line));
     const Lens& lens = frame.view.lens;

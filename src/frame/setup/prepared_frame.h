@@ -48,6 +48,13 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
 // Scales the blur of the nodes that the request lists. Throws Error for a node that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 
+// Opens the camera file that the request names, or removes the camera of an earlier request. Throws Error if the file
+// can't be used.
+void setCameraTrack(const Request& request, Scene& scene);
+
+// Returns whether the scene's camera track is the one that the request names.
+bool hasCameraTrack(const Request& request, const Scene& scene);
+
 // Draws the scene's points and lines as triangles, one pixel wide in the request's view; see scene/strokes.h. The
 // scene's units must already be set.
 void setStrokes(const Request& request, Scene& scene);

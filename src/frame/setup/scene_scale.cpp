@@ -46,7 +46,8 @@ double guess(const Request& request, Scene& scene) {
     const Pose pose = exposedPose(request, scene);
     const PlacedCamera placed =
         chooseCamera(scene, pose, request.camera, static_cast<double>(request.size.width) / request.size.height);
-    return physical(placed.camera) ? 1 : guessedMetresPerUnit(framedExtent(request, scene, pose, placed));
+    return placed.tracked || physical(placed.camera) ? 1
+                                                     : guessedMetresPerUnit(framedExtent(request, scene, pose, placed));
 }
 
 }  // namespace

@@ -19,9 +19,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double largestRatio = 1.2;      // max ratio of sizes that count as equal in the order of removal
-constexpr double maxEnlargement = 4;      // max size of a replacing neighbour, relative to the removed component
-constexpr double manyShare = 0.25;        // min fraction of faces for manyAreSmallest()
+constexpr double largestRatio = 1.2;  // max ratio of sizes that count as equal in the order of removal
+constexpr double maxEnlargement =
+    4;                              // max size of the neighbour that stands in for a removed component, relative to it
+constexpr double manyShare = 0.25;  // min fraction of faces for manyAreSmallest()
 constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -125,8 +126,8 @@ struct Removable {
     std::vector<FaceHandle> faces;
 };
 
-// Returns the removable components, smallest first: all except the largest component and the components that collapses
-// can still simplify.
+// Returns the removable components, smallest first. Neither the largest component is removable, nor a component that
+// edge collapses can still simplify.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());

@@ -32,7 +32,7 @@ using SurfaceCorner = CornerNumber<SurfaceFaceNumber>;
 struct Manifold {
     Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
     Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
-    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: reversed, so that corners run against the orientation
+    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the face has the opposite winding of its input triangle
     Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge, or invalid
     Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;

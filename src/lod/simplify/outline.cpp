@@ -354,8 +354,8 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     };
     matchAreas(fit);
     std::vector<glm::vec3> best = fit.places();
-    // Following level 0's outline edge by edge moves vertices farther and may follow another part of the mesh. Use this
-    // result only if its areas agree better.
+    // followLocally() fits the outline edge by edge. It moves vertices farther, and an edge may follow the outline of
+    // another part of the mesh. Use its result only if its areas differ less from those of level 0.
     if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();

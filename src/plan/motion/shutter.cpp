@@ -10,6 +10,7 @@ namespace {
 
 // Returns the time of the shutter's opening, in s relative to the frame's time.
 double openingOffset(const ShutterSettings& shutter) {
+    if (shutter.opening) return *shutter.opening;
     switch (shutter.position) {
         case ShutterPosition::start:
             return 0;

@@ -2,6 +2,7 @@
 // Duration of a frame's exposure, and scene poses at the shutter times, which are the times that a plan needs.
 
 #include <functional>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ShutterSettings {
     double seconds = 0;  // 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
+    std::optional<double> opening;  // s, time of the opening relative to the frame's time; replaces `position`
 
     [[nodiscard]] bool exactMotion() const { return std::holds_alternative<ExactMotion>(motionSegments); }
 };

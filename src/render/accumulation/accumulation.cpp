@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "gl/context.h"
@@ -16,6 +18,7 @@
 #include "plan/lens_cells/lens_cells.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/layer_sum.h"
+#include "render/accumulation/lens_layers.h"
 #include "render/gpu_scene/shadow_maps.h"
 #include "render/gpu_scene/surface_pass.h"
 #include "render/sampling/frame_clock.h"
@@ -33,10 +36,12 @@ constexpr std::uint32_t maxWave = 16;
 std::uint32_t chosenWave(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
                          std::uint32_t requested, LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
-    const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
-                                         static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                         (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
-                                     shadowMapBytes(scene, plan);
+    const std::uint64_t layerBytes =
+        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight) *
+            layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+        shadowMapBytes(scene, plan) +
+        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight) *
+            LensLayers::layerBytes(plan.settings.layers);
     const std::uint64_t fitting =
         requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
     return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>({fitting, maxWave, plan.samples.size()})));
@@ -66,6 +71,7 @@ public:
         stats_.trianglesDrawn = stats_.trianglesHidden = 0;
         for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
             timer->reset();
+        if (layers_) layers_->reset();
         prepareFrame();
     }
 
@@ -112,6 +118,11 @@ public:
         return depth;
     }
 
+    [[nodiscard]] std::optional<LayerImages> layerImages() override {
+        if (!layers_) return {};
+        return layers_->images(glm::dvec3(plan_.view.worldFromCamera[3]));
+    }
+
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;
         stats.samples = samples();
@@ -123,6 +134,7 @@ public:
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
         if (surfaces_->hasTranslucent()) stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
+        if (layers_) std::ranges::copy(layers_->times(), std::back_inserter(stats.passes));
         return stats;
     }
 
@@ -146,7 +158,8 @@ private:
         surfaces_->markBlended(blursCells());
         if (leavesOutHidden()) surfaces_->findHidden(plan_);
         stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes());
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes() +
+                                  (layers_ ? layers_->bytes() : 0));
         clock_.beginFrame();
     }
 
@@ -163,17 +176,30 @@ private:
                                 .shaderFolder = options_.shaderFolder,
                                 .sumWidth = window.width,
                                 .sumHeight = window.height};
-        const bool sameFormat = sum_ && sum_->info().format == format;
+        const std::vector<Layer>& layers = plan_.settings.layers;
+        const bool countsSamples = plan_.view.lens.catEye > 0;
+        const bool sameLayers = drawnLayers_ == layers && countsSamples_ == countsSamples;
+        const bool sameFormat = sum_ && sum_->info().format == format && sameLayers;
         const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
         if (!sameTarget) {
+            layers_.reset();
             sum_.reset();  // free the old sums first, because memory may not suffice for both
             sum_.emplace(info);
+            if (!layers.empty()) layers_.emplace(layers, *sum_, countsSamples);
+            drawnLayers_ = layers;
+            countsSamples_ = countsSamples;
         }
-        const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
-                                   .defines = layerFormatDefines(format),
-                                   .stochasticAlpha = true,
-                                   .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
-                                   .shaderFolder = options_.shaderFolder};
+        SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
+                             .defines = layerFormatDefines(format),
+                             .stochasticAlpha = true,
+                             .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
+                             .shaderFolder = options_.shaderFolder};
+        if (layers_) {
+            pass.fragmentShader = "accumulation/layers.frag";
+            for (const auto& define : LensLayers::defines(layers, countsSamples)) pass.defines.push_back(define);
+            pass.readsOwnBlur = pass.writesLayers = true;
+            pass.writesNumbers = layers_->countsNumbers();
+        }
         if (!sameFormat) {
             shadows_.emplace(scene_, pass.vertexShaderLayers, pass.shaderFolder);
             surfaces_.emplace(scene_, pass);
@@ -201,13 +227,22 @@ private:
         if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
         timed(opaqueTimer_, [&] {
             sum_->beginWave();
+            if (layers_) layers_->beginWave();
             drawOpaque(first, count);
         });
-        if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
+        if (drawsSky()) timed(skyTimer_, [&] { drawSky(first, count); });
         if (surfaces_->hasTranslucent())
             timed(translucentTimer_, [&] { surfaces_->drawTranslucent(first, count, sum_->layerColors()); });
         timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
+        if (layers_) layers_->endWave(frame_, first, count);
         stats_.trianglesDrawn += trianglesDrawn(plan_, first, count);
+    }
+
+    // Draws the sky into the picture only.
+    void drawSky(std::uint32_t first, std::uint32_t count) {
+        if (layers_) sum_->layers().bind();
+        surfaces_->drawSky(first, count);
+        if (layers_) layers_->bind();
     }
 
     void drawOpaque(std::uint32_t first, std::uint32_t count) {
@@ -229,6 +264,9 @@ private:
     std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
+    std::vector<Layer> drawnLayers_;  // layers of layers_ and surfaces_
+    bool countsSamples_ = false;      // whether layers_ counts the samples of each pixel
+    mutable std::optional<LensLayers> layers_;
     std::optional<ShadowMaps> shadows_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;

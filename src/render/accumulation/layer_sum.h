@@ -15,9 +15,9 @@
 #include "image/image.h"
 #include "render/accumulation/cell_sums.h"
 #include "render/gpu_scene/frame_uniforms.h"
+#include "render/gpu_scene/layer_window.h"
 #include "render/layer_format.h"
 #include "render/renderer.h"
-#include "render/gpu_scene/layer_window.h"
 
 namespace defocus::engine {
 

@@ -254,66 +254,68 @@ std::vector<MethodSetting> circularSettings() {
     return {
         {.name = "near-components",
          .defaultValue = "2",
-         .description = "Number of complex components of the near-field kernel",
+         .description = "Number of components of the kernel for the foreground; more give a rounder, more even disk "
+                        "and take longer",
          .choices = {},
          .min = 1,
          .max = 5},
         {.name = "far-components",
          .defaultValue = "2",
-         .description = "Number of complex components of the far-field kernel",
+         .description = "Number of components of the kernel for the background; more give a rounder, more even disk "
+                        "and take longer",
          .choices = {},
          .min = 1,
          .max = circularKernelLimit},
         {.name = "resolution",
          .defaultValue = "full",
-         .description = "Resolution of the blurred near and far fields. Garcia uses half resolution with one component "
-                        "for the far field, or quarter with two",
+         .description = "Resolution of the blurred foreground and background. Garcia's slides use half with one "
+                        "component for the background, or quarter with two",
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .defaultValue = "fitted",
-         .description = "Kernel constants: fitted to the disk; Niemitalo's for one to five components, rescaled to the "
-                        "disk; or the same as Garcia's slides print them",
+         .description = "Constants of the kernel. fitted: fitted to a disk. published: as printed in Garcia's slides. "
+                        "rescaled: the published ones, for 1 to 5 components, scaled to the size of the disk",
          .choices = {"fitted", "rescaled", "published"}},
         {.name = "max-coc",
          .defaultValue = "unlimited",
-         .description =
-             "Maximum blur: unlimited, or 17 pixels of a field as published (68 px with --resolution quarter)",
+         .description = "Maximum blur: unlimited, or 17 px at the resolution of the blur, as in the slides (68 px with "
+                        "--resolution quarter)",
          .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .defaultValue = "exact",
-         .description = "Kernel taps on each side of the centre: one per pixel (exact), eight as published (eight), or "
-                        "4, 8, 16 or 32 depending on the blur (sets)",
+         .description = "Number of kernel samples on each side of the centre. exact: one per pixel. eight: 8, as in "
+                        "the slides. sets: 4, 8, 16 or 32, more for wider blurs",
          .choices = {"exact", "eight", "sets"}},
         {.name = "storage",
          .defaultValue = "half",
-         .description = "Storage format of the complex sums between the passes",
+         .description = "Pixel format of the sums between the horizontal and the vertical pass",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "fields",
          .defaultValue = "separate",
-         .description = "Blur the near and far fields separately, or combined in one pass with the far-field kernel",
+         .description = "Blur foreground and background separately, or combined with the kernel of the background, "
+                        "which is faster",
          .choices = {"separate", "combined"}},
         {.name = "near-field",
          .defaultValue = "premultiplied",
-         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as "
-                        "published), or its coverage only",
+         .description = "Weight of a pixel of the foreground: its coverage times its blur (premultiplied, as in the "
+                        "slides), or its coverage",
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .defaultValue = "1",
          .description =
-             "Above 1, the blurred foreground covers its own sharp image more strongly: less ghosting, but wider edges",
+             "Above 1, the blurred foreground hides more of its own sharp image: less ghosting, but wider edges",
          .choices = {},
          .min = 1,
          .max = 4,
          .integer = false},
         {.name = "bias-by",
          .defaultValue = "constant",
-         .description =
-             "Variation of --blend-bias over the image: constant, or proportional to the near field's coverage and "
-             "relative brightness (luminance). The latter reduces ghosting without widening edges",
+         .description = "Where --blend-bias applies: equally everywhere (constant), or more where the foreground is "
+                        "dense and bright (luminance), which keeps edges",
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .defaultValue = "separable",
-         .description = "Convolution in two separable passes, or directly over the kernel's square (for checks)",
+         .description = "separable: two passes, fast. direct: one two-dimensional pass, slow, to check the first",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

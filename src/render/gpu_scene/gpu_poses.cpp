@@ -33,6 +33,7 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
     if (poses.empty()) poses.push_back(&object.pose);
     const std::vector<std::size_t> targets = targetsUsed(poses, mesh.deformation);
     const std::size_t joints = object.pose.viewFromJoint.size();
+    result.count = poses.size();
     result.skinned = object.skinned;
     result.moving = !object.motion.empty();
     result.cameraMoves = result.moving && !plan.middleFromView.empty();

@@ -11,8 +11,9 @@
 namespace defocus::engine {
 
 struct GpuPoses {
-    TexelBuffer texels;    // RGBA32F; empty if the object has a single matrix
-    glm::ivec4 layout{0};  // for GpuObject::posing
+    TexelBuffer texels;     // RGBA32F; empty if the object has a single matrix
+    glm::ivec4 layout{0};   // for GpuObject::posing
+    std::size_t count = 1;  // number of poses
     bool skinned = false;
     bool moving = false;
     bool cameraMoves = false;

@@ -11,9 +11,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;  // per frame: each is a copy of all layers
-constexpr GLuint backdropUnit = 28;      // texture unit in shaders/include/transmission.glsl
-constexpr GLint shadowSlotLocation = 3;  // attribute location in shaders/shadows/caster.vert
+constexpr std::size_t maxBackdrops = 8;      // per frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 28;          // texture unit in shaders/include/transmission.glsl
+constexpr GLint materialNumberLocation = 4;  // uniform in shaders/accumulation/layers.frag
+constexpr GLint shadowSlotLocation = 3;      // attribute location in shaders/shadows/caster.vert
 
 struct SampleSpan {
     std::uint32_t begin = 0, end = 0;
@@ -201,7 +202,7 @@ const Program& SurfacePass::program(const Draw& draw) {
         if (condition) defines.emplace_back(name, "true");
     };
     const bool receivesShadows = shadows_ != nullptr && shaded() && !material.unlit;
-    if (receivesShadows) defines.emplace_back("PLACED", "");
+    if (receivesShadows || info_.writesLayers) defines.emplace_back("PLACED", "");
     const bool colored = static_cast<bool>(mesh.colors);
     set(colored && shaded() && draw.level == 0, "colorRanges");
     set(colored && shaded() && draw.level > 0, "levelColorRange");
@@ -216,6 +217,8 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(draw.screenDoor == ScreenDoor::coarseShare, "coarseShare");
     set(draw.screenDoor == ScreenDoor::fineShare, "fineShare");
     poseDefines(defines, poses_[draw.object], mesh);
+    if (info_.writesLayers && poses_[draw.object].moving)
+        defines.emplace_back("lastPose", std::to_string(poses_[draw.object].count - 1));
     const std::size_t pass = needsGeometryShader(draw) ? 0 : 1;
     const std::string key = fmt::format("{}{}", keyOf(defines), static_cast<int>(draw.refinement));
     const auto [entry, isNew] = passPrograms_[pass]->try_emplace(key);
@@ -270,6 +273,11 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bound_.sample = sample;
     }
     objectBlocks_.bind(1, item.object);
+    if (info_.writesNumbers) {
+        const std::size_t materials = scene_->world().scene->materials.size();
+        const std::size_t material = item.material >= 0 ? static_cast<std::size_t>(item.material) : materials;
+        glUniform1f(materialNumberLocation, static_cast<float>(material + 1));
+    }
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (bound_.materialSlot != item.materialSlot) {
         materialBlocks_.bind(2, item.materialSlot);

@@ -24,6 +24,8 @@ struct SurfacePassInfo {
     bool stochasticAlpha = false;    // draws BlendRun::stochastic; false: all blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
+    bool writesLayers = false;       // the fragment shader is accumulation/layers.frag
+    bool writesNumbers = false;      // the fragment shader reads the number of the material
     std::filesystem::path shaderFolder;
 };
 
@@ -100,8 +102,8 @@ private:
         const Program* program = nullptr;
     };
 
-    // Inputs of the latest draw. A draw with the same inputs does not bind them again, which takes longer than drawing
-    // a small object.
+    // Inputs of the latest draw. A draw with the same inputs does not bind them again, because binding takes longer
+    // than drawing a small object.
     struct Bound {
         const Program* program = nullptr;
         int mesh = -1;

@@ -178,7 +178,8 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 }
 
 void LensFront::makeTriangles() {
-    // Triangles that are divided are no triangles of the frame, so they come before firstTriangles_ is cleared.
+    // Subdivided triangles are replaced by their pieces. Convert them first: clearing firstTriangles_ then removes
+    // their entries, so that only triangles of the frame have entries.
     if (lightsVertices_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
     if (lightsVertices_) {

@@ -167,18 +167,20 @@ private:
 }  // namespace
 
 MethodSetting shadingSetting() {
-    return {.name = "shading",
-            .defaultValue = "surfaces",
-            .description = "Where surfaces are shaded: at the rays' hit points, or at their vertices as published",
-            .choices = {"surfaces", "vertices"}};
+    return {
+        .name = "shading",
+        .defaultValue = "surfaces",
+        .description =
+            "Where surfaces are shaded: at the points that rays hit (surfaces), or at their vertices, as in the paper",
+        .choices = {"surfaces", "vertices"}};
 }
 
 MethodSetting cocInterpolationSetting() {
     return {.name = "coc-interpolation",
             .defaultValue = "divided",
             .description =
-                "Circle of confusion inside a triangle: triangles in which it bends are divided, or it is "
-                "linear between the corners as published",
+                "Circle of confusion inside a triangle. divided: triangles in which it isn't linear are subdivided. "
+                "linear: interpolated between the corners, as in the paper",
             .choices = {"divided", "linear"}};
 }
 

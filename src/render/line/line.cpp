@@ -299,8 +299,8 @@ Method lineMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "resolve",
          .defaultValue = "exact",
-         .description =
-             "Keep all visible segments of a line (exact), or a buffer of fixed size with heuristics (published)",
+         .description = "exact: keep all visible segments of a line. published: keep at most --segments, and drop or "
+                        "merge the others by the paper's rules",
          .choices = {"exact", "published"}},
         {.name = "segments",
          .defaultValue = std::to_string(standardSegments),
@@ -311,32 +311,32 @@ Method lineMethod() {
          .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .defaultValue = "4",
-         .description = "Distance in px between shading points: a visible segment gets one shading point for every N "
-                        "px by which the surface moves in the image between the segment's two lens points. 0: one "
-                        "shading point in the middle of each segment, as published",
+         .description =
+             "Distance in px between shading points along a visible segment, measured on the blurred surface; a "
+             "smaller value is more accurate and slower. 0: one point in the middle of each segment, as in the paper",
          .choices = {},
          .min = 0,
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
-         .description = "Bits for both ends of a segment in the buffer of --resolve published; 16 as published",
+         .description = "Bits in which --resolve published stores the two ends of a segment together; 16 in the paper",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
         {.name = "line-weights",
          .defaultValue = "area",
-         .description = "Weights of the parts of a line: by the lens area that they stand for (the factor κ of the "
-                        "paper), or by their length alone, which brightens the middle of a blurred point",
+         .description = "Weights of the parts of a line: the lens area that they stand for (κ in the paper), or their "
+                        "length, which makes the middle of bokeh too bright",
          .choices = {"area", "length"}},
         {.name = "lines-per-position",
          .defaultValue = "1",
-         .description = "Number of lines that share a position in the pixel",
+         .description = "Number of lines, in different directions, through each sample position in a pixel",
          .choices = {},
          .min = 1,
          .max = 64},
         {.name = "bin-size",
          .defaultValue = "0",
-         .description = "Max number of triangles in the list of a tile of 8 x 8 px: the nearest ones are drawn, and "
-                        "--stats counts the others; 0: unlimited",
+         .description = "Maximum number of triangles per tile of 8 x 8 px. Triangles farther away are left out, and "
+                        "--stats counts them. 0: unlimited",
          .choices = {},
          .min = 0,
          .max = 1'000'000},
@@ -344,8 +344,8 @@ Method lineMethod() {
         cocInterpolationSetting(),
         {.name = "wheel",
          .defaultValue = "turned",
-         .description = "Line directions: rotated from pixel to pixel in an 8 x 8 pattern, or the same for all pixels "
-                        "as published",
+         .description = "Directions of the lines: rotated from pixel to pixel in an 8 x 8 pattern (turned), or the "
+                        "same in all pixels, as in the paper (shared)",
          .choices = {"turned", "shared"}},
     };
     return {.name = "line",

@@ -157,7 +157,7 @@ MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .defaultValue = "4",
             .description =
-                "Number of pinhole images per frame, with different subpixel offsets for antialiasing; 1 as published. "
+                "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; the papers use 1. "
                 "For layered, each image has its own layers and an equal share of the lens samples",
             .choices = {},
             .min = 1,

@@ -33,8 +33,9 @@ public:
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
     [[nodiscard]] bool finished() const { return finished_; }
-    // For images with a target error, return whether the target is reached, and the latest error estimate.
+    // Returns whether the target error is reached; false without a target error.
     [[nodiscard]] bool converged() const;
+    // Returns the latest error estimate; nullopt without a target error.
     [[nodiscard]] std::optional<double> estimatedError() const;
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }

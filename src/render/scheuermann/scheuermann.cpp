@@ -262,23 +262,23 @@ Method scheuermannMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .defaultValue = "published",
-         .description =
-             "Blur as a function of depth: linear between three planes as published, or as a thin lens blurs",
+         .description = "Blur as a function of depth: linear between three planes, as in the slides (published), or "
+                        "that of a thin lens",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .defaultValue = "8",
-         .description = "Number of taps of the Poisson disk around each pixel; 8 as published",
+         .description = "Number of samples around each pixel (a Poisson disk); 8 in the slides",
          .choices = {},
          .min = 8,
          .max = maxTaps},
         {.name = "max-coc",
          .defaultValue = "published",
-         .description = "Maximum blur: 10 px as published, or unlimited",
+         .description = "Maximum blur: 10 px, as in the slides (published), or unlimited",
          .choices = {"published", "unlimited"}},
         {.name = "bits",
          .defaultValue = "16",
          .description =
-             "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes as published",
+             "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in the slides",
          .choices = {"16", "8"}},
         byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
                1e9),

@@ -155,7 +155,7 @@ void switchCamera(Document& document, ViewState& state, const std::string& name)
     state.camera = {frame.view.worldFromCamera, std::clamp(state.lens.focusDistance, 1e-3, 1e6)};
     state.nearPlane = wanderingNearPlane(frame.view.nearPlane, frame.world.pose.bounds);
     state.followsCamera = true;
-    document.poseIsStale = !frame.scene->clips.empty();
+    document.poseIsStale = !frame.scene->clips.empty() || frame.scene->cameraTrack;
     document.shutterCameras.clear();
 }
 

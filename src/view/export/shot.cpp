@@ -97,7 +97,7 @@ void addSettings(ordered_json& shot, const Request& request) {
         if (text) shot[ordered_json::json_pointer(setting.shotPlace)] = settingJson(setting, *text);
     }
     if (!shot.contains("shutter")) return;
-    shot["shutter"]["seconds"] = request.shutter;  // the schema requires this value
+    shot["shutter"]["seconds"] = request.shutter.value_or(0);  // the schema requires this value
     if (shutterSettings(request).exactMotion()) {
         shot["shutter"].erase("segments");
         shot["shutter"]["exact"] = true;

@@ -90,7 +90,7 @@ void clipRow(const Scene& scene, ViewState& state) {
 
 void shutterRows(Request& request) {
     settingRow(request, "shutter");
-    if (!(request.shutter > 0)) return;
+    if (!(request.shutter.value_or(0) > 0)) return;
     settingRow(request, "shutterPosition");
     rowLabel(
         "Motion segments",

@@ -1,7 +1,7 @@
 #pragma once
 // Limits the number of events per frame. ImGui reads keys and buttons once per frame; if a slow frame took all waiting
-// events, ImGui would lose some, such as text after Ctrl A or after a click into a field. Commands of the picture need
-// no limit.
+// events, ImGui would lose some, such as text after Ctrl+A or after a click into a field. Events that only the image
+// handles, such as orbiting, need no limit.
 
 #include <deque>
 #include <vector>

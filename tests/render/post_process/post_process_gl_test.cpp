@@ -188,8 +188,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Ten-bit storage limits linearity. So do negative lobes, which are clamped at black without a sky but not with a
-    // sky. A bias by luminance is not linear.
+    // Three things are not linear: ten-bit storage, a bias by luminance, and negative lobes of the kernel, which are
+    // clamped at black without a sky but stay positive on top of a sky.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;

@@ -1,0 +1,92 @@
+// Shades a surface for one lens sample, and writes it with its data to the sample's layer and the layers beside it.
+// …_SLOT is the number of the colour attachment of a layer; an undefined layer is not drawn. Data are premultiplied by
+// the surface's alpha, like its light, so that blending treats all layers alike.
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/surface_light.glsl"
+
+layout(location = 0) out vec4 layerOut;
+#ifdef DEPTH_SLOT
+layout(location = DEPTH_SLOT) out vec4 depthOut;         // depth (m), CoC (px)
+#endif
+#ifdef POSITION_SLOT
+layout(location = POSITION_SLOT) out vec4 positionOut;   // relative to the camera (m)
+#endif
+#ifdef NORMAL_SLOT
+layout(location = NORMAL_SLOT) out vec4 normalOut;
+#endif
+#ifdef ALBEDO_SLOT
+layout(location = ALBEDO_SLOT) out vec4 albedoOut;
+#endif
+#ifdef EMISSION_SLOT
+layout(location = EMISSION_SLOT) out vec4 emissionOut;
+#endif
+#ifdef MOTION_SLOT
+layout(location = MOTION_SLOT) out vec4 motionOut;       // px
+#endif
+#ifdef NUMBER_SLOT
+layout(location = NUMBER_SLOT) out vec4 numberOut;       // numbers of the object and the material, from 1
+layout(location = 4) uniform float materialNumber;
+#endif
+
+// Returns the premultiplied data. NaN and infinity become 0, because they would persist in the sum of all samples.
+vec4 covering(vec3 data, float alpha) {
+    return vec4(any(isnan(data)) || any(isinf(data)) ? vec3(0.0) : data * alpha, alpha);
+}
+
+#ifdef DEPTH_SLOT
+// Returns the signed CoC in px of the surface at its place in the pinhole's image.
+float pinholeCoc() {
+    vec3 place = transpose(mat3(frame.worldFromView)) * surface.position;
+    return circleOfConfusion(gl_FragCoord.z, place.xy * frame.projection.xy / -place.z, surface.ownBlur);
+}
+#endif
+
+#ifdef MOTION_SLOT
+vec2 movement() {
+    if (surface.opening.z <= 0.0 || surface.closing.z <= 0.0) return vec2(0.0);
+    return 0.5 * frame.window.zw * (surface.closing.xy / surface.closing.z - surface.opening.xy / surface.opening.z);
+}
+#endif
+
+#ifdef NUMBER_SLOT
+// Returns 1 in the lens samples that count the surface, and 0 in the others. The share of samples is alpha. Thresholds
+// are the van der Corput sequence, shifted for each object and pixel.
+float counted(float alpha) {
+    uint offset = pixelPattern(pixelOfImage(), uint(object.values.z) + 1u);
+    return alpha > fractionOf(bitfieldReverse(uint(surface.sampleNumber)) + offset) ? 1.0 : 0.0;
+}
+#endif
+
+void main() {
+    readSurface();
+    layerOut = surfaceLight();
+#ifdef TRANSMISSIVE
+    float alpha = 1.0;   // replaces what is behind, like its light
+#else
+    float alpha = alphaBlended ? surfaceBase.a : 1.0;
+#endif
+#ifdef DEPTH_SLOT
+    depthOut = covering(vec3(1.0 / gl_FragCoord.w, pinholeCoc(), 0.0), alpha);
+#endif
+#ifdef POSITION_SLOT
+    positionOut = covering(surface.position, alpha);
+#endif
+#ifdef NORMAL_SLOT
+    normalOut = covering(lit ? shownNormal : towardsViewer(normalize(surface.normal)), alpha);
+#endif
+#ifdef ALBEDO_SLOT
+    albedoOut = covering(surfaceBase.rgb, alpha);
+#endif
+#ifdef EMISSION_SLOT
+    emissionOut = covering(lit ? shownEmission : surfaceBase.rgb, alpha);
+#endif
+#ifdef MOTION_SLOT
+    motionOut = covering(vec3(movement(), 0.0), alpha);
+#endif
+#ifdef NUMBER_SLOT
+    float shown = counted(alpha);
+    numberOut = vec4(object.values.z + 1.0, materialNumber, 0.0, 1.0) * shown;
+#endif
+}

@@ -1,0 +1,33 @@
+// Adds a layer beside the picture, for the samples of a wave, to its compensated sum. Weighs the samples as the picture
+// does, except by colour.
+#include "accumulation/layer_light.glsl"
+
+layout(rgba32f, binding = 0) uniform restrict image2D sumImage;
+layout(rgba32f, binding = 1) uniform restrict image2D compensationImage;
+layout(location = 3) uniform bool startsFrame;
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 sum = startsFrame ? vec4(0.0) : imageLoad(sumImage, pixel);
+    vec4 compensation = startsFrame ? vec4(0.0) : imageLoad(compensationImage, pixel);
+    vec2 rim = barrelRim(pixelOnImagePlane());
+    float nearest = startsFrame ? uintBitsToFloat(0x7f800000u) : sum.b;
+    float seen = compensation.b;
+    vec4 added = vec4(0.0);   // at most 16 samples, whose plain sum is exact enough
+    for (int layer = 0; layer < layerCount; ++layer) {
+        if (catEye > 0.0 && isClipped(layer, rim)) continue;
+        seen += 1.0;
+        vec4 value = texelFetch(layers, ivec3(pixel, layer), 0);
+        if (keepsNearest && value.a > 0.0) nearest = min(nearest, value.r / value.a);
+        added += value;
+    }
+    addCompensated(sum.rgb, compensation.rgb, added.rgb);
+    addCompensated(sum.a, compensation.a, added.a);
+    // The third component of the depth is the nearest depth, and its compensation counts the samples.
+    if (keepsNearest) {
+        sum.b = nearest;
+        compensation.b = seen;
+    }
+    imageStore(sumImage, pixel, sum);
+    imageStore(compensationImage, pixel, compensation);
+}

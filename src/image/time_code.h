@@ -1,0 +1,23 @@
+#pragma once
+// Time codes and frame rates of film frames, as EXR files store them. Source: SMPTE ST 12-1, time address of 60-field
+// television, without dropped frames.
+
+#include <cstdint>
+#include <optional>
+
+#include "image/image_io.h"
+
+namespace defocus::engine {
+
+// Packs a time code: four bits for each decimal digit.
+std::uint32_t timeCodeBits(const TimeCode& code);
+TimeCode timeCodeOf(std::uint32_t bits);
+
+// Returns the time code of a frame; nullopt for negative frames, after 24 hours, and above 30 frames per second, which
+// time codes cannot express.
+std::optional<TimeCode> timeCodeOfFrame(int frame, double frameRate);
+
+// Returns the frame rate as a fraction. Rates of television, such as 23.976, get the denominator 1001.
+Rational rationalFrameRate(double frameRate);
+
+}  // namespace defocus::engine

@@ -1,0 +1,273 @@
+#include "render/accumulation/lens_layers.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "gl/read_back.h"
+#include "render/gpu_scene/surface_draws.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr int tableEntries = 16;  // max objects or materials that a pixel counts
+
+bool has(const std::vector<Layer>& layers, Layer layer) {
+    return std::ranges::find(layers, layer) != layers.end();
+}
+
+struct Slot {
+    const char* name;
+    TextureFormat format;
+};
+
+// Returns the colour attachments that the layers need, in order. The first colour attachment is the picture.
+std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) {
+    std::vector<Slot> slots;
+    const auto add = [&](bool wanted, const char* name, TextureFormat format) {
+        if (wanted) slots.push_back({name, format});
+    };
+    add(countsSamples || has(layers, Layer::depth) || has(layers, Layer::coc), "DEPTH_SLOT", TextureFormat::rgba32f);
+    add(has(layers, Layer::position), "POSITION_SLOT", TextureFormat::rgba32f);
+    add(has(layers, Layer::normal), "NORMAL_SLOT", TextureFormat::rgba16f);
+    add(has(layers, Layer::albedo), "ALBEDO_SLOT", TextureFormat::rgba16f);
+    add(has(layers, Layer::emission), "EMISSION_SLOT", TextureFormat::rgba32f);
+    add(has(layers, Layer::motion), "MOTION_SLOT", TextureFormat::rgba32f);
+    add(has(layers, Layer::objects) || has(layers, Layer::materials), "NUMBER_SLOT", TextureFormat::rgba32f);
+    return slots;
+}
+
+constexpr const char* numberSlot = "NUMBER_SLOT";
+constexpr const char* depthSlot = "DEPTH_SLOT";
+
+std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
+    std::vector<Layer> found;
+    for (const Layer layer : {Layer::objects, Layer::materials})
+        if (has(layers, layer)) found.push_back(layer);
+    return found;
+}
+
+// Returns the sum of both textures.
+Image total(const GlTexture& sum, const GlTexture& compensation) {
+    Image image = readBack(sum, 4);
+    const Image lost = readBack(compensation, 4);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] += lost.pixels[i];
+    return image;
+}
+
+Image channelOf(const Image& image, int channel) {
+    Image result(image.width, image.height, 1);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = image.pixels[i * channels + static_cast<std::size_t>(channel)];
+    return result;
+}
+
+// Returns the first channels of `sum`, divided by the number of samples of each pixel.
+Image mean(const Image& sum, const Image& samples, int first, int channels) {
+    Image result(sum.width, sum.height, channels);
+    for (std::size_t i = 0; i < samples.pixels.size(); ++i)
+        for (int c = 0; c < channels; ++c)
+            result.pixels[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)] =
+                sum.pixels[4 * i + static_cast<std::size_t>(first + c)] / std::max(samples.pixels[i], 1.0f);
+    return result;
+}
+
+// Returns the share of the samples that count any number.
+Image coverageOf(const NumberCounts& counts, const Image& samples) {
+    Image coverage(counts.width, counts.height, 1);
+    const auto entries = static_cast<std::size_t>(counts.entries);
+    for (std::size_t i = 0; i < coverage.pixels.size(); ++i) {
+        std::uint32_t counted = 0;
+        for (std::size_t e = 0; e < entries; ++e) counted += counts.values[i * entries + e] & 0xffffu;
+        coverage.pixels[i] = static_cast<float>(counted) / std::max(samples.pixels[i], 1.0f);
+    }
+    return coverage;
+}
+
+NumberCounts readCounts(const GlTexture& table) {
+    const TextureInfo& info = table.info();
+    NumberCounts counts{info.width, info.height, info.layers, {}};
+    const auto pixels = static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height);
+    std::vector<std::uint32_t> raw(pixels * static_cast<std::size_t>(info.layers));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(table.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                      static_cast<GLsizei>(raw.size() * sizeof(std::uint32_t)), raw.data());
+    counts.values.assign(raw.size(), 0);
+    const auto width = static_cast<std::size_t>(info.width);
+    const auto entries = static_cast<std::size_t>(info.layers);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(info.height); ++y) {
+        const std::size_t row = static_cast<std::size_t>(info.height) - 1 - y;
+        for (std::size_t x = 0; x < width; ++x)
+            for (std::size_t e = 0; e < entries; ++e) {
+                const std::uint32_t value = raw[e * pixels + row * width + x];
+                if (value == 0) break;  // entries after the first free one are undefined
+                counts.values[(y * width + x) * entries + e] = value;
+            }
+    }
+    return counts;
+}
+
+}  // namespace
+
+ShaderDefines LensLayers::defines(const std::vector<Layer>& layers, bool countsSamples) {
+    ShaderDefines defines;
+    int attachment = 1;
+    for (const Slot& slot : slotsOf(layers, countsSamples))
+        defines.emplace_back(slot.name, std::to_string(attachment++));
+    return defines;
+}
+
+std::uint64_t LensLayers::layerBytes(const std::vector<Layer>& layers) {
+    std::uint64_t bytes = 0;
+    for (const Slot& slot : slotsOf(layers, false)) bytes += pixelBytes(slot.format);
+    return bytes;
+}
+
+std::uint64_t LensLayers::sumBytes(const std::vector<Layer>& layers) {
+    const std::uint64_t tables = numberLayers(layers).size();
+    return 2 * pixelBytes(TextureFormat::rgba32f) * slotsOf(layers, false).size() +
+           tables * tableEntries * pixelBytes(TextureFormat::r32ui);
+}
+
+LensLayers::LensLayers(const std::vector<Layer>& layers, const LayerSum& picture, bool countsSamples)
+    : layers_(layers), info_(picture.info()) {
+    const auto image = [&](TextureFormat format, int depth) {
+        return GlTexture({.format = format, .width = info_.width, .height = info_.height, .layers = depth});
+    };
+    std::vector<const GlTexture*> colors = {&picture.layerColors()};
+    for (const Slot& slot : slotsOf(layers, countsSamples)) {
+        Attachment& attachment = attachments_[slot.name];
+        attachment.layers = image(slot.format, static_cast<int>(info_.layers));
+        if (slot.name != std::string_view(numberSlot)) {
+            attachment.sum = image(TextureFormat::rgba32f, 0);
+            attachment.compensation = image(TextureFormat::rgba32f, 0);
+        }
+        colors.push_back(&attachment.layers);
+    }
+    for (const Layer layer : numberLayers(layers)) tables_[layer].entries = image(TextureFormat::r32ui, tableEntries);
+    target_ = Target(colors, &picture.layerDepths());
+    unused_ = image(TextureFormat::rgba8, 0);
+    sums_ = Target({&unused_});
+}
+
+void LensLayers::beginWave() {
+    constexpr float transparent[4] = {};
+    for (GLint i = 1; i <= static_cast<GLint>(attachments_.size()); ++i)
+        glClearNamedFramebufferfv(target_.name(), GL_COLOR, i, transparent);
+    target_.bind();
+}
+
+const Program& LensLayers::program(const char* fragment, const FrameUniforms& frame, bool keepsNearest) {
+    ShaderDefines defines = frame.defines();
+    if (keepsNearest) defines.emplace_back("keepsNearest", "true");
+    defines.emplace_back("tableEntries", std::to_string(tableEntries));
+    const auto [entry, isNew] = programs_.try_emplace(fragment + keyOf(defines));
+    if (isNew) entry->second = Program({{fullscreenShader, fragment}, defines, info_.shaderFolder});
+    return entry->second;
+}
+
+void LensLayers::sumAttachment(const std::string& slot, Attachment& attachment, const FrameUniforms& frame,
+                               std::uint32_t first, std::uint32_t count) {
+    const Program& sum = program("accumulation/sum_layer.frag", frame, slot == depthSlot);
+    attachment.timer.begin();
+    attachment.layers.attach(0);
+    glBindImageTexture(0, attachment.sum.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glBindImageTexture(1, attachment.compensation.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glProgramUniform1i(sum.name(), 0, static_cast<GLint>(count));
+    glProgramUniform1i(sum.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    glProgramUniform1i(sum.name(), 3, samples_ == 0 ? 1 : 0);
+    frame.bind(first);
+    fullscreen_.draw(sum);
+    attachment.timer.end();
+}
+
+void LensLayers::countNumbers(Layer layer, Table& table, const FrameUniforms& frame, std::uint32_t first,
+                              std::uint32_t count) {
+    const Program& counts = program("accumulation/count_numbers.frag", frame, false);
+    table.timer.begin();
+    attachments_.at(numberSlot).layers.attach(0);
+    glBindImageTexture(0, table.entries.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+    glProgramUniform1i(counts.name(), 0, static_cast<GLint>(count));
+    glProgramUniform1i(counts.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    glProgramUniform1i(counts.name(), 3, samples_ == 0 ? 1 : 0);
+    glProgramUniform1i(counts.name(), 4, layer == Layer::objects ? 0 : 1);
+    frame.bind(first);
+    fullscreen_.draw(counts);
+    table.timer.end();
+}
+
+void LensLayers::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
+    glDisable(GL_BLEND);
+    sums_.bind();
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    for (auto& [slot, attachment] : attachments_)
+        if (slot != numberSlot) sumAttachment(slot, attachment, frame, first, count);
+    for (auto& [layer, table] : tables_) countNumbers(layer, table, frame, first, count);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    samples_ += count;
+}
+
+LayerImages LensLayers::images(const glm::dvec3& camera) const {
+    LayerImages result;
+    std::map<std::string, Image> sums;
+    for (const auto& [slot, attachment] : attachments_)
+        if (slot != numberSlot && slot != depthSlot) sums[slot] = total(attachment.sum, attachment.compensation);
+
+    // The depth's third component and its compensation have a meaning of their own; see sum_layer.frag.
+    result.samples = Image(info_.width, info_.height, 1);
+    std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
+    if (const auto depth = attachments_.find(depthSlot); depth != attachments_.end()) {
+        const Image sum = readBack(depth->second.sum, 4);
+        const Image lost = readBack(depth->second.compensation, 4);
+        result.samples = channelOf(lost, 2);
+        Image& whole = sums[depthSlot] = sum;
+        for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+            if (i % 4 != 2) whole.pixels[i] += lost.pixels[i];
+        if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 2);
+    }
+    if (!sums.empty()) result.coverage = mean(sums.begin()->second, result.samples, 3, 1);
+    const auto take = [&](Layer layer, const char* slot, int first, int channels) {
+        if (has(layers_, layer)) result.means[layer] = mean(sums.at(slot), result.samples, first, channels);
+    };
+    take(Layer::depth, depthSlot, 0, 1);
+    take(Layer::coc, depthSlot, 1, 1);
+    take(Layer::position, "POSITION_SLOT", 0, 3);
+    take(Layer::normal, "NORMAL_SLOT", 0, 3);
+    take(Layer::albedo, "ALBEDO_SLOT", 0, 3);
+    take(Layer::emission, "EMISSION_SLOT", 0, 3);
+    take(Layer::motion, "MOTION_SLOT", 0, 2);
+    if (const auto position = result.means.find(Layer::position); position != result.means.end())
+        for (std::size_t i = 0; i < result.coverage.pixels.size(); ++i)
+            for (glm::length_t c = 0; c < 3; ++c)
+                position->second.pixels[3 * i + static_cast<std::size_t>(c)] +=
+                    static_cast<float>(camera[c] * static_cast<double>(result.coverage.pixels[i]));
+    for (const auto& [layer, table] : tables_) result.numbers[layer] = readCounts(table.entries);
+    if (sums.empty()) result.coverage = coverageOf(result.numbers.begin()->second, result.samples);
+    return result;
+}
+
+std::vector<PassTime> LensLayers::times() {
+    std::vector<PassTime> times;
+    for (auto& [slot, attachment] : attachments_)
+        if (slot != numberSlot) times.push_back({"sum of " + slot, attachment.timer.milliseconds()});
+    for (auto& [layer, table] : tables_)
+        times.push_back(
+            {layer == Layer::objects ? "count of objects" : "count of materials", table.timer.milliseconds()});
+    return times;
+}
+
+std::size_t LensLayers::bytes() const {
+    std::size_t total = unused_.bytes();
+    for (const auto& [slot, attachment] : attachments_)
+        total += attachment.layers.bytes() + attachment.sum.bytes() + attachment.compensation.bytes();
+    for (const auto& [layer, table] : tables_) total += table.entries.bytes();
+    return total;
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,14 @@
+#pragma once
+// Writes a camera as glTF.
+
+#include <string>
+
+#include "scene/camera_files/camera_take.h"
+
+namespace defocus::engine {
+
+// Returns a .gltf text with one camera node. Lens values are extras of the camera. Several samples become an animation:
+// of the node, and of the lens by KHR_animation_pointer. Animated values have 32-bit precision.
+std::string cameraGltfText(const CameraTake& take);
+
+}  // namespace defocus::engine

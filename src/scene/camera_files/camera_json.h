@@ -1,0 +1,22 @@
+#pragma once
+// Cameras as JSON, for scripts:
+//   {"camera": NAME, "aspectRatio": K, "frameRate": F, "shutter": {"open": S, "close": S},
+//    "samples": [{"time": S, "worldFromCamera": [16 numbers, column after column], "nearPlane": M, "lens": {…}}, …]}
+// Lengths are in m, except those of the lens, which has the units of lens/lens_fields.h.
+
+#include <string>
+#include <string_view>
+
+#include "scene/camera_files/camera_take.h"
+#include "scene/camera_track.h"
+
+namespace defocus::engine {
+
+std::string cameraJsonText(const CameraTake& take);
+
+// Returns the camera of a JSON text. Between samples, positions and lens values are interpolated linearly and rotations
+// spherically. `name`: the camera's expected name; empty: any. `file` is the name in messages. Throws Error for
+// text that is not such a camera.
+CameraTrack jsonCamera(std::string_view text, const std::string& name, const std::string& file);
+
+}  // namespace defocus::engine

@@ -1,0 +1,15 @@
+#pragma once
+// Writes a camera as USD text (.usda).
+
+#include <string>
+
+#include "scene/camera_files/camera_take.h"
+
+namespace defocus::engine {
+
+// Returns a layer with the camera /World/NAME; characters that USD names can't have become underscores. The layer's
+// unit is 1 m. Several samples become time samples. Lens values without a USD attribute are written as "custom double
+// defocus:NAME".
+std::string cameraUsdaText(const CameraTake& take);
+
+}  // namespace defocus::engine

@@ -1,0 +1,43 @@
+#pragma once
+// Reader of USD's text format (.usda), as far as cameras need it: prims, their metadata's composition arcs, and the
+// values of transforms and cameras. Source: the grammar in the USD documentation, "USD ASCII file format".
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace defocus::engine {
+
+// A value with its nesting removed: a matrix4d is 16 numbers. Empty lists mean that the value has another type.
+struct UsdValue {
+    std::vector<double> numbers;     // booleans are 0 or 1
+    std::vector<std::string> texts;  // strings, tokens, paths and assets
+    bool blocked = false;            // None, which hides the value
+};
+
+struct UsdAttribute {
+    UsdValue value;                                    // without time
+    std::vector<std::pair<double, UsdValue>> samples;  // by time code, increasing
+};
+
+struct UsdPrim {
+    std::string specifier;  // "def", "over" or "class"
+    std::string type;       // "Camera", "Xform", …; empty: none
+    std::string name;
+    std::map<std::string, UsdAttribute, std::less<>> attributes;  // of transforms and of cameras only
+    std::vector<std::string> arcs;                                // "references", "payload", "variantSets", …
+    std::vector<UsdPrim> children;
+};
+
+struct UsdLayer {
+    std::map<std::string, UsdValue, std::less<>> metadata;
+    std::vector<UsdPrim> prims;
+};
+
+// Parses a layer. `file` is the name in messages. Throws Error for binary and zipped USD files, and for text that is
+// not .usda; the message has the line number.
+UsdLayer parseUsda(std::string_view text, const std::string& file);
+
+}  // namespace defocus::engine

@@ -1,0 +1,34 @@
+#pragma once
+// Values of a USD attribute at a time code, and transforms of prims.
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/camera_files/usda_layer.h"
+
+namespace defocus::engine {
+
+// Returns the numbers of an attribute at a time code, between samples by linear interpolation; nullopt if the prim has
+// no value. Throws Error unless there are `count` finite numbers. `where` begins the message.
+std::optional<std::vector<double>> usdNumbers(const UsdPrim& prim, std::string_view name, std::size_t count,
+                                              double timeCode, const std::string& where);
+
+// Returns a single number, or `otherwise` if the prim has no value.
+double usdNumber(const UsdPrim& prim, std::string_view name, double timeCode, double otherwise,
+                 const std::string& where);
+
+// Returns the first text of an attribute; empty if there is none.
+std::string usdText(const UsdPrim& prim, std::string_view name);
+
+struct UsdTransform {
+    glm::dmat4 parentFromPrim{1.0};
+    bool resetsStack = false;  // true: the ancestors' transforms do not apply
+};
+
+// Returns a prim's transform from xformOpOrder. Throws Error for an operation that is missing or unknown.
+UsdTransform usdTransform(const UsdPrim& prim, double timeCode, const std::string& where);
+
+}  // namespace defocus::engine

@@ -1,0 +1,37 @@
+#pragma once
+// Camera that comes from a file of its own instead of the scene's file, as a function of time.
+
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/camera.h"
+
+namespace defocus::engine {
+
+struct TrackedCamera {
+    Camera camera;                    // lengths in m
+    glm::dmat4 worldFromCamera{1.0};  // in m, y up; the camera looks along its −z axis
+    // true: the image shows the complete sensor of Camera::physical, and more along one side if the aspect ratios
+    // differ (USD's conform policy "expandAperture"). false: Camera::yfov holds.
+    bool showsSensor = false;
+};
+
+// Opening and closing of the shutter, in s relative to the frame's time.
+struct ShutterInterval {
+    double open = 0;
+    double close = 0;
+    bool operator==(const ShutterInterval&) const = default;
+};
+
+struct CameraTrack {
+    std::string source;                               // file and camera, as the user names them
+    std::function<TrackedCamera(double seconds)> at;  // state of the camera at a time of the animation
+    bool moves = false;                               // false: the camera is the same at all times
+    std::optional<ShutterInterval> shutter;           // nullopt: the file has none
+    std::vector<std::string> warnings;                // properties of the file that have no effect, one line each
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,229 @@
+// Tests the layers beside the picture against the picture itself and against closed forms.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lens/circle_of_confusion.h"
+#include "likeness.h"
+#include "render/accumulation/accumulated.h"
+
+namespace defocus::engine {
+namespace {
+
+const std::vector<Layer> everyLayer = {Layer::depth,  Layer::position, Layer::normal,  Layer::albedo,   Layer::emission,
+                                       Layer::motion, Layer::coc,      Layer::objects, Layer::materials};
+
+struct Drawn {
+    Image picture;
+    LayerImages layers;
+    FramePlan plan;
+};
+
+class LensLayer : public Accumulation {
+protected:
+    static Drawn drawn(const SmallWorld& small, std::uint32_t samples, const std::vector<Layer>& layers = everyLayer,
+                       std::uint32_t wave = 0) {
+        RenderSettings settings = settingsFor(samples, LodMode::off);
+        settings.layers = layers;
+        RendererOptions options;
+        options.layerFormat = LayerFormat::rgba32f;
+        options.wave = wave;
+        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        Drawn result;
+        result.plan = planFrame(small.world, small.view, settings);
+        result.picture = imageOf(*renderer, result.plan);
+        result.layers = renderer->layerImages().value();
+        return result;
+    }
+};
+
+glm::dmat4 facing(double x, double y, double depth, double halfSize) {
+    return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, -depth)), glm::dvec3(halfSize));
+}
+
+// Three squares of unlit colours at different depths on black; the lens blurs the first and the last.
+std::unique_ptr<SmallWorld> threeSquares() {
+    auto small = std::make_unique<SmallWorld>();
+    const glm::vec4 colours[] = {{1, 0.2f, 0, 1}, {0.1f, 0.9f, 0.3f, 1}, {0.2f, 0.3f, 2, 1}};
+    for (int i = 0; i < 3; ++i) {
+        small->scene.materials.push_back(unlitMaterial(colours[i]));
+        small->scene.materials.back().name = "Colour " + std::to_string(i);
+        small->scene.meshes.push_back(quad(i));
+    }
+    place(*small, 0, facing(-0.15, 0, 1, 0.15));
+    place(*small, 1, facing(0, 0.1, 2, 0.35));
+    place(*small, 2, facing(0.3, 0, 5, 1.1));
+    small->world.environment = {EnvironmentType::uniform, glm::vec3(0), {}, {}, nullptr, 1};
+    small->view.width = 96;
+    small->view.height = 64;
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2;
+    finish(*small);
+    return small;
+}
+
+float valueAt(const Image& image, int x, int y, int channel = 0) {
+    return image.at(x, y)[channel];
+}
+
+TEST_F(LensLayer, leavesThePictureUnchanged) {
+    const auto small = fiveSpheres();
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const Image plain = rendered(*small, settingsFor(24, LodMode::off), options);
+    EXPECT_LT(largestDifference(plain, drawn(*small, 24).picture), 1e-5);
+}
+
+// The sum over all objects of mask × colour is the picture of emissive objects.
+TEST_F(LensLayer, masksTimesObjectsAreThePicture) {
+    const auto small = threeSquares();
+    for (const double catEye : {0.0, 0.5}) {
+        SCOPED_TRACE(catEye);
+        small->view.lens.catEye = catEye;
+        const Drawn frame = drawn(*small, 96, {Layer::objects, Layer::materials});
+        for (const Layer layer : {Layer::objects, Layer::materials}) {
+            const NumberCounts& counts = frame.layers.numbers.at(layer);
+            Image sum(frame.picture.width, frame.picture.height, 4);
+            for (std::size_t pixel = 0; pixel < sum.pixels.size() / 4; ++pixel)
+                for (std::size_t e = 0; e < static_cast<std::size_t>(counts.entries); ++e) {
+                    const std::uint32_t entry = counts.values[pixel * static_cast<std::size_t>(counts.entries) + e];
+                    if (entry == 0) break;
+                    const Material& material = small->scene.materials[(entry >> 16) - 1];
+                    const float mask = static_cast<float>(entry & 0xffffu) / frame.layers.samples.pixels[pixel];
+                    for (glm::length_t c = 0; c < 3; ++c)
+                        sum.pixels[4 * pixel + static_cast<std::size_t>(c)] += mask * material.baseColorFactor[c];
+                }
+            for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+                if (i % 4 != 3) {
+                    ASSERT_NEAR(sum.pixels[i], frame.picture.pixels[i], 1e-3) << i;
+                }
+            }
+        }
+    }
+}
+
+// Albedo and emission of unlit surfaces are the picture itself.
+TEST_F(LensLayer, albedoIsFilteredAsThePicture) {
+    const Drawn frame = drawn(*threeSquares(), 64);
+    for (const Layer layer : {Layer::albedo, Layer::emission}) {
+        const Image& image = frame.layers.means.at(layer);
+        const double tolerance = layer == Layer::albedo ? 2e-3 : 1e-5;  // albedo layers are half floats
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            ASSERT_NEAR(image.pixels[i], frame.picture.pixels[i / 3 * 4 + i % 3], tolerance) << i;
+    }
+}
+
+TEST_F(LensLayer, coverageIsTheAlphaOfATransparentPicture) {
+    const auto small = threeSquares();
+    small->world.environment.visible = false;
+    const Drawn frame = drawn(*small, 64);
+    for (std::size_t i = 0; i < frame.layers.coverage.pixels.size(); ++i)
+        ASSERT_NEAR(frame.layers.coverage.pixels[i], frame.picture.pixels[4 * i + 3], 1e-5);
+}
+
+TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({0.5f, 0.25f, 0.125f, 1}));
+    small->scene.meshes.push_back(quad(0));
+    place(*small, 0, facing(0, 0, 3, 10));
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.fStop = 0.8;
+    small->view.lens.focusDistance = 2;
+    small->view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(0.25, -0.5, 0));
+    finish(*small);
+    const Drawn frame = drawn(*small, 64);
+    const double coc = circleOfConfusion(frame.plan.coc, 3, small->view.width);
+    EXPECT_GT(coc, 0.5);
+    const double tanX = tanHalfHorizontalFov(small->view.lens);
+    for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(20, 31), glm::ivec2(63, 47)}) {
+        const auto at = [&](Layer layer, int c = 0) {
+            return valueAt(frame.layers.means.at(layer), pixel.x, pixel.y, c);
+        };
+        EXPECT_NEAR(valueAt(frame.layers.coverage, pixel.x, pixel.y), 1, 1e-6);
+        EXPECT_NEAR(at(Layer::depth), 3, 1e-5);
+        EXPECT_NEAR(valueAt(frame.layers.nearestDepth, pixel.x, pixel.y), 3, 1e-5);
+        EXPECT_NEAR(at(Layer::coc), coc, 1e-3);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(Layer::normal, c), c == 2 ? 1 : 0, 1e-3);
+        EXPECT_NEAR(at(Layer::albedo, 1), 0.25, 1e-3);
+        // Lens samples are symmetric about the pixel's centre up to their noise: a tenth of the blur.
+        const double pixelWidth = 2 * tanX * 3 / small->view.width;
+        const double tolerance = (0.1 * coc + 0.1) * pixelWidth;
+        EXPECT_NEAR(at(Layer::position, 0), 0.25 + (pixel.x + 0.5 - 32) * pixelWidth, tolerance);
+        EXPECT_NEAR(at(Layer::position, 1), -0.5 + (24 - pixel.y - 0.5) * pixelWidth, tolerance);
+        EXPECT_NEAR(at(Layer::position, 2), -3, 1e-5);
+        EXPECT_EQ(at(Layer::motion), 0);
+        EXPECT_EQ(frame.layers.numbers.at(Layer::objects).values[0], (1u << 16) + 64);
+    }
+}
+
+// Without a surface, all layers are 0, and the nearest depth is infinite.
+TEST_F(LensLayer, ofNothingAreEmpty) {
+    const auto small = threeSquares();
+    small->world.pose.objects.resize(1);
+    const Drawn frame = drawn(*small, 16);
+    EXPECT_EQ(valueAt(frame.layers.coverage, 95, 0), 0);
+    EXPECT_EQ(valueAt(frame.layers.nearestDepth, 95, 0), std::numeric_limits<float>::infinity());
+    for (const auto& [layer, image] : frame.layers.means)
+        EXPECT_EQ(valueAt(image, 95, 0), 0) << static_cast<int>(layer);
+    EXPECT_EQ(frame.layers.numbers.at(Layer::objects).values[95 * 16], 0u);
+}
+
+// A pane with an alpha of a quarter in front of a wall counts a quarter.
+TEST_F(LensLayer, ofBlendedSurfacesFollowAlpha) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials = {unlitMaterial({1, 0, 0, 0.25f}), unlitMaterial({0, 1, 0, 1})};
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.meshes = {quad(0), quad(1)};
+    place(*small, 0, facing(0, 0, 1, 5));
+    place(*small, 1, facing(0, 0, 4, 20));
+    small->view.width = 32;
+    small->view.height = 24;
+    small->view.lens.focusDistance = 2;
+    finish(*small);
+    const Drawn frame = drawn(*small, 64);
+    EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::albedo), 16, 12, 0), 0.25, 2e-3);
+    EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::albedo), 16, 12, 1), 0.75, 2e-3);
+    EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::depth), 16, 12), 0.25 * 1 + 0.75 * 4, 0.05);
+    EXPECT_NEAR(valueAt(frame.layers.coverage, 16, 12), 1, 1e-5);
+    const NumberCounts& counts = frame.layers.numbers.at(Layer::objects);
+    std::map<std::uint32_t, std::uint32_t> count;
+    for (std::size_t e = 0; e < 2; ++e) {
+        const std::uint32_t entry = counts.values[(12 * 32 + 16) * static_cast<std::size_t>(counts.entries) + e];
+        count[entry >> 16] = entry & 0xffffu;
+    }
+    const auto samples = static_cast<std::uint32_t>(frame.plan.samples.size());
+    EXPECT_NEAR(count[1], 0.25 * samples, 2);
+    EXPECT_EQ(count[1] + count[2], samples);
+}
+
+// A square at depth z that moves by d along x moves by d·W/(2·z·tan(θx/2)) px.
+TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
+    const auto small = threeSquares();
+    small->world.pose.objects.resize(1);
+    small->world.pose.objects[0].worldFromObject = facing(0, 0, 2, 1);
+    small->world.shutter.poses.assign(2, small->world.pose);
+    small->world.shutter.poses[0].objects[0].worldFromObject = facing(-0.05, 0.02, 2, 1);
+    small->world.shutter.poses[1].objects[0].worldFromObject = facing(0.05, -0.02, 2, 1);
+    const Drawn frame = drawn(*small, 32, {Layer::motion});
+    const double pixels = small->view.width / (2 * 2 * tanHalfHorizontalFov(small->view.lens));
+    EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::motion), 48, 32, 0), 0.1 * pixels, 1e-3);
+    EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::motion), 48, 32, 1), -0.04 * pixels, 1e-3);
+}
+
+// Layers do not depend on the number of samples drawn together, nor on the other layers.
+TEST_F(LensLayer, dependOnlyOnTheSamples) {
+    const auto small = fiveSpheres();
+    const Drawn all = drawn(*small, 70);
+    const Drawn single = drawn(*small, 70, everyLayer, 1);
+    for (const auto& [layer, image] : all.layers.means) {
+        EXPECT_LT(largestDifference(image, single.layers.means.at(layer)), 1e-5) << static_cast<int>(layer);
+    }
+    const Drawn alone = drawn(*small, 70, {Layer::normal});
+    EXPECT_LT(largestDifference(all.layers.means.at(Layer::normal), alone.layers.means.at(Layer::normal)), 1e-5);
+    EXPECT_EQ(all.layers.numbers.at(Layer::objects).values, single.layers.numbers.at(Layer::objects).values);
+}
+
+}  // namespace
+}  // namespace defocus::engine
