@@ -104,12 +104,13 @@ def speed_sentence():
     by_size, drawn = dict(samples_sweep(FISH))[64], dict(samples_sweep(OWN))[64]
     full, levels = drawn["off"], drawn["fractional"]
     return textwrap.fill(
-        f"With 64 lens samples, the built-in scene is drawn from {levels['triangles'] / 1e6:.0f} instead of "
-        f"{full['triangles'] / 1e6:.0f} million triangles, at {error_ratio(drawn):.2f} times the error of full meshes (FLIP: "
-        f"{error_ratio(drawn, 'flip'):.2f} times). On {run_of(FISH)['machine']['threads']} CPU cores without a GPU this takes "
+        f"With 64 lens samples of the built-in scene, {levels['triangles'] / 1e6:.0f} million triangles are drawn instead of "
+        f"{full['triangles'] / 1e6:.0f} million; culled triangles aren't counted. The RMSE from a converged image is "
+        f"{error_ratio(drawn):.2f} times that of full meshes, and FLIP is {error_ratio(drawn, 'flip'):.2f} times as "
+        f"large. On {run_of(FISH)['machine']['threads']} CPU cores without a GPU, a frame takes "
         f"{seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. Coarser levels "
         f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast, at {error_ratio(by_size):.1f} times the "
-        "error. [Results](docs/results.md) has more measurements, also against a CPU ray tracer and on [a "
+        "RMSE. [Results](docs/results.md) has more measurements, also against a CPU ray tracer and on [a "
         "GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
