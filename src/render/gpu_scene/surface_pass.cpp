@@ -273,10 +273,9 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bound_.sample = sample;
     }
     objectBlocks_.bind(1, item.object);
-    if (info_.writesNumbers) {
-        const std::size_t materials = scene_->world().scene->materials.size();
-        const std::size_t material = item.material >= 0 ? static_cast<std::size_t>(item.material) : materials;
-        glUniform1f(materialNumberLocation, static_cast<float>(material + 1));
+    if (info_.writesNumbers) {  // the default material, −1, has the last number
+        const auto last = static_cast<int>(scene_->world().scene->materials.size());
+        glUniform1f(materialNumberLocation, static_cast<float>((item.material >= 0 ? item.material : last) + 1));
     }
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (bound_.materialSlot != item.materialSlot) {
