@@ -165,7 +165,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"lightAngle", {{"--light-angle", "40"}, {"--ground", "--camera", "auto"}}},
         {"lightRadius", {{"--light-radius", "0.5"}, {"--ground", "--camera", "auto"}}},
         {"camera", {{"--camera", "Near"}, {}}},
-        {"exrLayers", {{"--exr-layers", "depth"}, {"--fstop", "0.3"}}},
+        {"exrLayers", {{"--exr-layers", "depth"}, {"--fstop", "0.05", "--focus-distance", "1"}}},
         {"exrNames", {{"--exr-names", "blender"}, {"--exr-layers", "depth"}}},
         {"cameraFrom", {{"--camera-from", "shot.usda"}, {"--time", "1"}}},
         {"cameraPosition", {{"--camera-position", "0.5,0,0"}, {"--focus-auto"}}},
