@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/level_selection.h"
+#include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
 
 namespace defocus {
@@ -178,6 +179,7 @@ Plan engine::reportedPlan(const FramePlan& plan) {
     reported.shadowPoints = plan.shadows.points;
     reported.lensCellBlur = cells.blur;
     reported.lensCellReason = cells.reason;
+    reported.accumulationReason = reasonForAccumulation(plan);
     for (const ObjectPlan& object : objects) reported.objects.push_back(reportedObject(object, cells));
     for (const LeftOut& part : plan.leftOut) reported.leftOut.push_back({part.what, part.reason});
     reported.trianglesDrawn = plan.trianglesDrawn;
@@ -236,6 +238,7 @@ std::string toJson(const Plan& plan) {
                                  {"lod", lodJson(plan)},
                                  {"shadows", shadowsJson(plan)},
                                  {"lensCells", {{"blur", plan.lensCellBlur}, {"reason", plan.lensCellReason}}},
+                                 {"accumulationReason", plan.accumulationReason},
                                  {"objects", std::move(objects)},
                                  {"leftOut", std::move(leftOut)},
                                  {"triangles",

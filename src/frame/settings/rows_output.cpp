@@ -1,0 +1,134 @@
+// Settings of the method, of the display, and for developers.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/memory_limits.h"
+#include "frame/settings/conditions.h"
+#include "frame/settings/rows.h"
+#include "frame/settings/values.h"
+
+namespace defocus::engine {
+
+Rows methodRows() {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    return {
+        rows::other("method", "--method", "NAME", setMethod, methodText,
+                    fmt::format("Rendering method: {}. NAME:SETTING=VALUE,… also sets the method's settings",
+                                fmt::join(names, ", ")))
+            .clears(clearMethod)
+            .everyday()
+            .inShot("/method"),
+        rows::choice<LayerFormat>("layerFormat", "--layer-format",
+                                  {{"automatic", LayerFormat::automatic},
+                                   {"rgba16f", LayerFormat::rgba16f},
+                                   {"rgba32f", LayerFormat::rgba32f}},
+                                  MEMBER(layerFormat),
+                                  "Pixel format of the image rendered for each lens sample, before accumulation; use "
+                                  "rgba32f for reference images")
+            .inShot("/layerFormat"),
+    };
+}
+
+Rows displayRows() {
+    return {
+        rows::other(
+            "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
+            "Layers beside the picture in .exr files, drawn through the lens with the picture's samples and "
+            "premultiplied by the coverage: depth (mean and nearest, m), position, normal, albedo, emission, "
+            "motion (px while the shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            .clears(MEMBER(layers))
+            .example("depth,normal,albedo"),
+        rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
+                               MEMBER(exrNames),
+                               "Channel names of --exr-layers: Nuke's (depth.Z, N.X) or Blender's (ViewLayer.Depth.Z)")
+            .effect(SettingEffect::run)
+            .recorded()
+            .unused(withoutLayers),
+        rows::choice<ToneMap>(
+            "toneMap", "--tonemap",
+            {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
+            MEMBER(toneMap),
+            "Tone curve of PNG, JPEG and video. neutral: keeps colours and compresses highlights. none: clips at white")
+            .effect(SettingEffect::display)
+            .inShot("/toneMap"),
+        Row(SettingKind::number, "exposure", "--exposure", "EV|auto",
+            "Exposure in EV for PNG, JPEG and video. auto: meter the scene once. Default: from --exposure-time if "
+            "given, else auto for scenes with lights, else 0")
+            .range(-60, 60)
+            .choices({"auto"})
+            .clears(MEMBER(exposure))
+            .values(setExposure, exposureText)
+            .unit("EV")
+            .everyday()
+            .example("auto")
+            .excludes({"exposureTime", "iso"})
+            .effect(SettingEffect::display)
+            .inShot("/exposure"),
+    };
+}
+
+Rows developerRows() {
+    return {
+        rows::choice<LodMetric>(
+            "lodMetric", "--lod-metric",
+            {{"automatic", LodMetric::automatic},
+             {"size", LodMetric::size},
+             {"error", LodMetric::error},
+             {"measured", LodMetric::measured},
+             {"proportional", LodMetric::proportional},
+             {"score", LodMetric::score}},
+            MEMBER(lodMetric),
+            "Rule that chooses the levels of detail. measured: by the error of the blurred shading (most accurate). "
+            "size: by the length of triangle edges in the image. error: by the distance to full detail in the image. "
+            "proportional: by the ratio of blur to the size of the object's bounding box (Jeong et al. 2011). score: "
+            "by the ratio of blur to edge length (Tzeng et al. 2012). automatic: size if --blur-threshold or "
+            "--size-threshold is given, else measured")
+            .inShot("/lodMetric")
+            .unused(withoutLevels),
+        rows::choice<LevelVertices>(
+            "levelVertices", "--level-vertices",
+            {{"fitted", LevelVertices::fitted},
+             {"surviving", LevelVertices::surviving},
+             {"quarters", LevelVertices::quarters}},
+            MEMBER(levelVertices),
+            "Vertices of the simplified levels. fitted: moved so that the level fits full detail best. surviving: a "
+            "subset of the original vertices. quarters: three such subsets, of 100, 75 and 50 %")
+            .inShot("/levelVertices")
+            .unused(withoutLevels),
+        rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
+                             MEMBER(lodCoc),
+                             "Blur that decides an object's level: the smallest within its bounding box (safe), or the "
+                             "blur at the box's centre (coarser and faster)")
+            .unused([](const SettingContext& context) {
+                return firstOf(context, {methodWithoutSamples, withoutLevels, withMeasuredLevels});
+            }),
+        rows::number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(cocTolerance),
+                     "Maximum error, in px, of interpolating the blur across a triangle; triangles with a larger error "
+                     "are subdivided")
+            .unit("px")
+            .unused(methodWithoutSamples),
+        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll), "Disable culling (same image, slower)")
+            .effect(SettingEffect::run),
+        rows::other(
+            "memory", "--memory", "SIZE",
+            [](Request& request, const std::string& text) { request.memory = parseBytes(text); },
+            [](const Request& request) -> std::optional<std::string> {
+                if (!request.memory) return std::nullopt;
+                return fmt::format("{}B", *request.memory);
+            },
+            "Maximum memory of the program, such as 2GiB. Smaller limits draw fewer samples at once, or the image in "
+            "tiles; the image stays the same. With a limit, method auto is accumulation, as multirate cannot draw "
+            "tiles. Default: three quarters of the free memory")
+            .clears(MEMBER(memory))
+            .effect(SettingEffect::run),
+        rows::integer(
+            "wave", "--wave", 1, 64, MEMBER(wave),
+            "Maximum number of samples drawn at once; does not affect the image. Default: as many as fit into "
+            "memory, at most 16")
+            .effect(SettingEffect::run),
+    };
+}
+
+}  // namespace defocus::engine

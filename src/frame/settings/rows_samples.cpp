@@ -1,0 +1,145 @@
+// Settings of lens samples and levels of detail.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+#include <utility>
+
+#include "frame/settings/conditions.h"
+#include "frame/settings/presets.h"
+#include "frame/settings/rows.h"
+#include "frame/settings/values.h"
+#include "lens/lens_samples.h"
+#include "lod/pyramid/level_selection.h"
+#include "render/sampling/automatic_samples.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Row of the setting "preset", which stores no value; see presets.h. This row precedes the rows of all settings that a
+// preset sets, so that options given explicitly override the preset.
+Row presetRow() {
+    std::vector<std::string> names;
+    std::vector<std::string> lines;
+    for (const Preset& preset : presets()) {
+        names.push_back(preset.name);
+        lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
+    }
+    Row row =
+        Row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
+            fmt::format("Reproduce the settings of a paper; other options override them. {}", fmt::join(lines, "; ")))
+            .choices(names)
+            .effect(SettingEffect::run)
+            .recorded();
+    return std::move(row).values(
+        [names](Request& request, const std::string& text) {
+            applyPreset(presets()[parseChoice(text, names)], request);
+        },
+        [](const Request& request) {
+            const Preset* const preset = presetOf(request);
+            return preset == nullptr ? std::nullopt : std::optional(preset->name);
+        },
+        [](Request& request) {
+            if (const Preset* const preset = presetOf(request)) clearPreset(*preset, request);
+        });
+}
+
+Row samplesRow() {
+    return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
+                         fmt::format("Number of lens samples. auto: the number that --quality needs, from 16 to {}. "
+                                     "With --target-error or --time-limit: the maximum number, {} by default",
+                                     maxAutomaticSamples, maxSamples))
+        .metavar("N|auto")
+        .choices({"auto"})
+        .values(
+            [](Request& request, const std::string& text) {
+                request.samples = text == "auto"
+                                      ? std::nullopt
+                                      : std::optional(static_cast<std::uint32_t>(parseInteger(text, 1, maxSamples)));
+            },
+            [](const Request& request) -> std::optional<std::string> {
+                return request.samples ? fmt::format("{}", *request.samples) : "auto";
+            });
+}
+
+}  // namespace
+
+Rows sampleRows() {
+    std::vector<std::pair<std::string, Sequence>> sequences;
+    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
+    std::vector<std::pair<std::string, LodMode>> modes;
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
+        modes.emplace_back(lodModeName(mode), mode);
+    return {
+        presetRow().inShot("/preset"),
+        samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
+        rows::choice<Quality>("quality", "--quality",
+                              {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+                              MEMBER(quality),
+                              "Quality for --samples auto: perceived difference (FLIP) from an image without noise of "
+                              "about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
+            .everyday()
+            .inShot("/quality")
+            .excludes({"targetError", "timeLimit"})
+            .unused([](const SettingContext& context) {
+                return firstOf(context, {methodWithoutSamples, withFixedSamples});
+            }),
+        rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
+                     "Add blocks of 64 samples until the estimated error is below R: the RMSE of display-encoded "
+                     "values from 0 to 1 at EV 0")
+            .example("0.003")
+            .inShot("/targetError"),
+        rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
+                     "Add blocks of 64 samples for S seconds, or until --target-error is reached. Loading does not "
+                     "count. capture starts no frame after S seconds instead")
+            .unit("s")
+            .effect(SettingEffect::run)
+            .recorded(),
+        rows::choice<Sequence>(
+            "sequence", "--sequence", sequences, MEMBER(sequence),
+            "Sequence of the sample points on the lens and in the pixel; Jeong et al. 2011 use halton")
+            .inShot("/sequence")
+            .unused(methodWithoutSamples),
+        rows::integer("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(seed),
+                      "Seed of the sample points")
+            .inShot("/seed")
+            .unused(methodWithoutSamples),
+        rows::choice<LodMode>("lod", "--lod", modes, MEMBER(lod),
+                              "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
+                              "lens samples are divided between two levels. continuous (default of capture): also "
+                              "divides the pixels of one sample, for smoother transitions. off: full detail")
+            .inShot("/lod"),
+        rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
+                     "For --lod-metric size, error and score: edge length of the triangles, in px, for each px of "
+                     "blur; a larger value is coarser and faster. Default: depends on the number of samples. For "
+                     "proportional: level of an object whose blur is as large as its bounding box")
+            .example("0.2")
+            .inShot("/blurThreshold")
+            .unused(withoutLevels),
+        rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
+                     "For --lod-metric size and error: edge length, in px, that triangles may always have. Default: "
+                     "depends on the number of samples")
+            .unit("px")
+            .example("1")
+            .inShot("/sizeThreshold")
+            .unused(withoutLevels),
+        rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
+                     "For --lod-metric measured: allowed error of the blurred shading; a larger value is coarser and "
+                     "faster. It is the product, in px, of a level's projected edge length and its relative error "
+                     "(docs/reference.md). Default: depends on the number of samples")
+            .unit("px")
+            .example("0.1")
+            .inShot("/lightThreshold")
+            .unused(withoutLevels),
+        rows::words(SettingKind::path, "cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
+                    "Folder of the cache of simplified meshes. Default: $XDG_CACHE_HOME/defocus, else ~/.cache/defocus")
+            .effect(SettingEffect::run),
+        rows::boolean("noCache", "--no-cache", MEMBER(noCache), "Neither read nor write the cache of simplified meshes")
+            .excludes({"cacheFolder"})
+            .effect(SettingEffect::run),
+    };
+}
+
+}  // namespace defocus::engine
