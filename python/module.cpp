@@ -529,7 +529,7 @@ void defineRenderer(py::module_& package) {
 }
 
 // Returns the choices of a request that are possible after rendering.
-defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = false) {
+defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = true) {
     return {request.focus, request.lens, fillGaps};
 }
 

@@ -3,7 +3,7 @@
     scripts/figures refocus [--program build/release/defocus]
 
 For each scene, focus distance and number of lens samples, the first table has the PSNR of a picture rendered at that focus, of
-one refocused from lens images with another focus, and of one with --fill-gaps. All have full detail. The reference has 1,024
+one refocused from lens images with another focus (--no-fill-gaps), and of one whose gaps are filled. All have full detail. The reference has 1,024
 samples and another seed.
 
 The second table has the seconds of a film of 96 frames in which only the focus moves, with 64 lens samples per frame, program
@@ -60,8 +60,8 @@ def print_errors(program, scene, folder):
                 "--focus-range", f"{scene.near}:{scene.far}", "--lens-images", lens)
             frames.render("direct.exr", "--focus-distance", distance, "--samples", samples)
             refocusing = [program, "refocus", lens, "--focus-distance", distance, "--quiet"]
-            run(*refocusing, "-o", folder / "refocused.exr")
-            run(*refocusing, "--fill-gaps", "-o", folder / "filled.exr")
+            run(*refocusing, "--no-fill-gaps", "-o", folder / "refocused.exr")
+            run(*refocusing, "-o", folder / "filled.exr")
             errors = [frames.difference("reference.exr", f"{name}.exr")["psnr"] for name in ("direct", "refocused", "filled")]
             print(f"{scene.name:>8}{scene.size:>9}{distance + ' m':>8}{samples:>8}"
                   + "".join(f"{error:12.1f}" for error in errors), flush=True)

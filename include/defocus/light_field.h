@@ -29,7 +29,7 @@ namespace defocus {
 struct RefocusSettings {
     Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: as rendered
     LensSettings lens = {};  // f-number and shape of the aperture; values without a setting: as rendered
-    bool fillGaps = false;   // fill the gaps between few lens images: blur each by its part of the lens
+    bool fillGaps = true;    // fill the gaps between the lens images: blur each by its part of the lens
 };
 
 // Description of the lens images of a file.

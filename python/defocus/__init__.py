@@ -286,14 +286,14 @@ class LightField:
         return LightFieldInfo(*(getattr(native, name) for name in LightFieldInfo._fields))
 
     @_takes_refocus_settings
-    def refocus(self, *, fill_gaps: bool = False, progress: Optional[Progress] = None,
+    def refocus(self, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
                 **settings: Any) -> numpy.ndarray:
         """Returns a picture: H×W×4, linear. Keywords that are not given have the rendered values. `fill_gaps` fills the
         gaps between few lens images."""
         return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
 
     @_takes_refocus_settings
-    def stack(self, count: int, *, fill_gaps: bool = False, progress: Optional[Progress] = None,
+    def stack(self, count: int, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
               **settings: Any) -> FocalStack:
         """Returns a focal stack of `count` pictures."""
         return FocalStack(*self._native.stack(count, _refocus_request_of(settings), fill_gaps, _listener(progress)))

@@ -67,10 +67,12 @@ struct Dolly {
 using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
 // Returns the request for values that neither the shot nor an option sets. The number of lens samples is fixed, because
-// noise that changes with the number of samples would be visible.
+// noise that changes with the number of samples would be visible. LodMode::continuous pops least
+// (docs/results.md#popping).
 inline Request shotDefaults() {
     Request request;
     request.samples = RenderSettings{}.sampleCount;
+    request.lod = LodMode::continuous;
     return request;
 }
 

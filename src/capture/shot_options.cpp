@@ -70,12 +70,6 @@ void checkMethodKeys(const Shot& shot) {
 
 }  // namespace
 
-Request filmRequest() {
-    Request request;
-    request.lod = LodMode::continuous;
-    return request;
-}
-
 void applyShot(const Shot& shot, Request& request) {
     for (const std::string& name : shot.given) {
         const Setting& setting = *settingNamed(name);

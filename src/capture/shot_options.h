@@ -11,10 +11,6 @@
 
 namespace defocus::engine {
 
-// Returns the default settings of films: as of stills, but with LodMode::continuous, which pops least
-// (docs/results.md#popping).
-Request filmRequest();
-
 // Sets the shot's constant values in the request as if they were given as options. Lens values are left out, because
 // these may have keys.
 void applyShot(const Shot& shot, Request& request);

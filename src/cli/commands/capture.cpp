@@ -51,7 +51,7 @@ struct Shard {
 struct CaptureArguments {
     std::vector<ShotOverride> overrides;
     Shot shot;
-    Request request = filmRequest();
+    Request request = shotDefaults();
     std::optional<FrameRange> range;
     Shard shard;
     std::optional<SampleRange> sampleRange;
@@ -458,7 +458,6 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
 
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<CaptureArguments>();
-    arguments->request = shotDefaults();
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and video");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);

@@ -40,7 +40,7 @@ struct RefocusArguments {
     std::optional<double> exposure;  // EV; none: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
     FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
-    bool fillGaps = false;           // fill the gaps between few lens images
+    bool fillGaps = true;            // fill the gaps between the lens images
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };
 
@@ -121,9 +121,10 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Exposure in EV for PNG and JPEG. Default: as rendered");
-    CLI::Option* const fills = command->add_flag("--fill-gaps", arguments->fillGaps,
-                                                 "Fill the gaps between few lens images: blur each image by its part "
-                                                 "of the lens, which follows from the depths");
+    CLI::Option* const fills =
+        command->add_flag("--fill-gaps,!--no-fill-gaps", arguments->fillGaps,
+                          "Blur each lens image by its part of the lens, which fills the gaps "
+                          "between copies of blurred points (default). --no-fill-gaps is faster");
     addParsed(*command, "--html", "FILE",
               fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
                           "images. Replaces --output",

@@ -50,7 +50,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
 // Films split pixels between levels by default, because that pops least. Shot, options and presets override it.
 TEST_F(Capture, levelsChangePixelByPixelByDefault) {
     const auto lodWith = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"--range", "0", "--overwrite"};
+        std::vector<std::string> words = {"--range", "0"};
         words.insert(words.end(), more.begin(), more.end());
         EXPECT_EQ(capture(words).exitCode, 0);
         Metadata metadata;
