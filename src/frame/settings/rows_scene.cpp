@@ -127,7 +127,7 @@ Rows sceneRows() {
         rows::boolean("loop", "--loop", MEMBER(loop), "Loop the animation instead of holding its first and last frame")
             .inShot("/animation/loop")
             .unused(withoutAnimation),
-        shutterRow().unit("s").inShot("/shutter/seconds").unused(methodWithoutMotion),
+        shutterRow().unit("s").example("0.02").inShot("/shutter/seconds").unused(methodWithoutMotion),
         rows::choice<ShutterPosition>(
             "shutterPosition", "--shutter-position",
             {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
