@@ -356,7 +356,7 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "(0.03 mm for 36 x 27 mm)")
         ->group(group);
     // Leave out the aperture's shape and the aberrations: the report depends only on the aperture's diameter.
-    std::vector<std::string> unused = {"camera", "nodeBlur", "apertureImage"};
+    std::vector<std::string> unused = {"camera", "cameraFrom", "nodeBlur", "apertureImage"};
     for (const LensField& field : lensFields())
         if (field.section == LensSection::aperture) unused.emplace_back(field.name);
     addSettings(command, options.seen, settingsOf({SettingGroup::camera, SettingGroup::lens}, unused));

@@ -63,11 +63,14 @@ TEST_F(ExportCamera, keepsAPinhole) {
 
 // The place, the focus and the shutter of a USD camera reach the view of a frame.
 TEST_F(ExportCamera, usdCamerasReachTheFrame) {
-    const Outcome info = run({"info", "--camera", "ball.glb", "--camera-from", "shot.usda", "--size", "640x480"});
-    ASSERT_EQ(info.exitCode, 0) << info.err;
-    EXPECT_NE(info.out.find("40 mm, f/0.5"), std::string::npos) << info.out;
-    EXPECT_NE(info.out.find("focus             3 m"), std::string::npos) << info.out;
-    EXPECT_NE(info.out.find("36 x 27 mm"), std::string::npos) << info.out;
+    const Outcome plan =
+        run({"plan", "ball.glb", "--camera-from", "shot.usda", "--size", "640x480", "--samples", "4", "--json"});
+    ASSERT_EQ(plan.exitCode, 0) << plan.err;
+    const json lens = json::parse(plan.out).at("lens");
+    EXPECT_DOUBLE_EQ(lens.at("focalLength"), 40);
+    EXPECT_DOUBLE_EQ(lens.at("fStop"), 0.5);
+    EXPECT_DOUBLE_EQ(lens.at("focusDistance"), 3);
+    EXPECT_DOUBLE_EQ(lens.at("horizontalAperture"), 36);
 }
 
 }  // namespace
