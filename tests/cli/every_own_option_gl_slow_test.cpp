@@ -102,6 +102,7 @@ protected:
         for (const fs::path& path : files) {
             text += path.string() + " ";
             if (path.extension() == ".exr" || path.extension() == ".png") text += pixelsIn(path);
+            if (path.extension() == ".usda") text += textOf(path);
             if (path.parent_path().filename() == "result" && path.extension() == ".json") {
                 const json result = jsonIn(path);
                 text += withoutTimes(result.at("rows")).dump() + std::to_string(result.value("runs", 0));

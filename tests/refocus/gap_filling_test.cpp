@@ -15,15 +15,15 @@ namespace {
 
 constexpr PartSize size{64, 48, 4};
 
-struct Layer {
+struct Sheet {
     HalfImage colour;
     Image depth;
 };
 
 // Returns a lens image with `radiance(x, y)` and `depth(x, y)` at the pixels of the shown image.
-Layer layer(const std::function<float(int, int)>& radiance, const std::function<float(int, int)>& depth) {
+Sheet layer(const std::function<float(int, int)>& radiance, const std::function<float(int, int)>& depth) {
     Image colour(size.fullWidth(), size.fullHeight(), 4);
-    Layer result{{}, Image(colour.width, colour.height, 1)};
+    Sheet result{{}, Image(colour.width, colour.height, 1)};
     for (int y = 0; y < colour.height; ++y)
         for (int x = 0; x < colour.width; ++x) {
             for (int c = 0; c < 3; ++c) colour.at(x, y)[c] = radiance(x - size.margin, y - size.margin);
@@ -34,9 +34,9 @@ Layer layer(const std::function<float(int, int)>& radiance, const std::function<
     return result;
 }
 
-Image filled(const std::vector<Layer>& layers, double diameter) {
+Image filled(const std::vector<Sheet>& layers, double diameter) {
     GapFilling filling(size, {diameter, 1}, layers.size());
-    for (const Layer& each : layers) filling.add(std::vector{DeepMovedImage{&each.colour, &each.depth, {0, 0}, 1}});
+    for (const Sheet& each : layers) filling.add(std::vector{DeepMovedImage{&each.colour, &each.depth, {0, 0}, 1}});
     return filling.mean();
 }
 
@@ -66,7 +66,7 @@ const auto point = [](int x, int y) { return x == 32 && y == 24 ? 50.0f : 0.0f; 
 TEST(GapFilling, blursAPointByItsCell) {
     for (const float depth : {0.5f, 4.0f})  // in front of and behind the focus plane at 1 m
         for (const double diameter : {4.0, 12.0, 20.0}) {
-            const std::vector<Layer> layers(4, layer(point, everywhere(depth)));
+            const std::vector<Sheet> layers(4, layer(point, everywhere(depth)));
             const Image image = filled(layers, diameter);
             const double c = diameter * (1 - 1 / static_cast<double>(depth));
             EXPECT_NEAR(sum(image), 50, 0.05) << c;
@@ -76,20 +76,20 @@ TEST(GapFilling, blursAPointByItsCell) {
 
 TEST(GapFilling, keepsWhatIsInFocus) {
     const auto stripes = [](int x, int) { return x % 2 == 0 ? 1.0f : 0.25f; };
-    const Image image = filled(std::vector<Layer>(4, layer(stripes, everywhere(1))), 20);
+    const Image image = filled(std::vector<Sheet>(4, layer(stripes, everywhere(1))), 20);
     for (int x = 0; x < size.width; ++x) EXPECT_FLOAT_EQ(*image.at(x, 20), stripes(x, 20)) << x;
 }
 
 TEST(GapFilling, constantScenesStayConstant) {
     const auto depths = [](int x, int y) { return x < 20 ? 0.4f : y < 30 ? 1.0f : 9.0f; };
-    const Image image = filled(std::vector<Layer>(3, layer(everywhere(0.5f), depths)), 30);
+    const Image image = filled(std::vector<Sheet>(3, layer(everywhere(0.5f), depths)), 30);
     for (const float value : image.pixels) EXPECT_TRUE(std::abs(value - 0.5f) < 1e-5f || std::abs(value - 1) < 1e-5f);
 }
 
 // The background's blur neither spreads over a sharp surface in front of it, nor gets light from it.
 TEST(GapFilling, sharpOutlinesStaySharp) {
     const auto left = [](int x, int) { return x < 32; };
-    const Image image = filled(std::vector<Layer>(4, layer([&](int x, int y) { return left(x, y) ? 1.0f : 0.0f; },
+    const Image image = filled(std::vector<Sheet>(4, layer([&](int x, int y) { return left(x, y) ? 1.0f : 0.0f; },
                                                            [&](int x, int y) { return left(x, y) ? 1.0f : 8.0f; })),
                                24);
     for (int x = 0; x < size.width; ++x) EXPECT_NEAR(*image.at(x, 24), x < 32 ? 1 : 0, 1e-4) << x;
