@@ -107,7 +107,7 @@ void expectSameOfShot(const Request& read, const Request& options) {
     EXPECT_EQ(read.time, options.time);
     EXPECT_EQ(read.clip, options.clip);
     EXPECT_EQ(read.loop, options.loop);
-    EXPECT_EQ(read.shutter, options.shutter);
+    EXPECT_EQ(read.shutter.value_or(0), options.shutter.value_or(0));
     EXPECT_EQ(read.background, options.background);
     EXPECT_EQ(read.camera, options.camera);
     EXPECT_EQ(read.shutterPosition, options.shutterPosition);
