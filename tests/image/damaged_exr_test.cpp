@@ -1,4 +1,4 @@
-// Tests that messages about damaged EXR files are text, whatever the file contains.
+// Tests that messages about damaged EXR files are valid UTF-8 for any contents of the file.
 
 #include <gtest/gtest.h>
 
