@@ -127,6 +127,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "biasByLuminance", "false"},
 
     // Scheuermann
+    {"int", "pinholeSamples", "1", "MULTISAMPLED"},  // samples per pixel of the pinhole image
     {"bool", "thinLens", "false"},
     {"bool", "encodedColor", "false"},
     {"int", "diskTaps", "1"},
